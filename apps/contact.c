@@ -1,0 +1,159 @@
+static char help[] = "Quasi-static frictionless contact of elastic bodies: contact SCENE.yaml [options].\n\
+  -refine N            uniform refinements of the scene's level 0\n\
+  -load_steps N        load steps of equal size\n\
+  -output BASE         write BASE.h5 and BASE.xmf, one time value a load step\n\
+  -summary FILE.json   write the run's report\n\
+  -contact_free        also solve the first step without contact, for comparison\n\
+  -quiet               no line a Newton step and no table\n\
+  -traceback           PETSc's own error traceback instead of one sentence\n";
+
+#include <petscamgf.h>
+#include <scene.h>
+#include <step.h>
+#include <output.h>
+
+typedef struct {
+  char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
+  PetscBool write, summarize, free, quiet;
+} AppOptions;
+
+/* A collective error unwinds on every rank and is said once; an error of one rank alone must end the others */
+static PetscErrorCode OneSentence(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+{
+  PetscMPIInt rank, size, world;
+
+  (void)line, (void)function, (void)file, (void)ctx;
+  if (type != PETSC_ERROR_INITIAL) return n;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  MPI_Comm_size(PETSC_COMM_WORLD, &world);
+  if (rank == 0) {
+    const char *text = NULL;
+
+    if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
+    fprintf(stderr, "contact: error: %s\n", text ? text : message);
+    fflush(stderr);
+  }
+  if (size < world) MPI_Abort(PETSC_COMM_WORLD, (int)n);
+  return n;
+}
+
+static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemzero(app, sizeof(*app)));
+  PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
+  PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
+  PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->free, &app->free, NULL));
+  PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
+  PetscOptionsEnd();
+  PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: contact SCENE.yaml [options], see contact -help");
+  PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscFunctionReturn(0);
+}
+
+/* One line a Newton step unless the user has decided */
+static PetscErrorCode AppShowProgress(void)
+{
+  PetscBool set;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_ipfilter_monitor", &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_monitor", NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppWriteState(Output output, PetscReal time, const StepState *state)
+{
+  OutputState out = {.step         = state->report->step,
+                     .time         = time,
+                     .displacement = state->displacement,
+                     .stress       = state->stress,
+                     .nrows        = state->nrows,
+                     .row_vertex   = state->row_vertex,
+                     .pressure     = state->pressure,
+                     .gap          = state->gap};
+
+  PetscFunctionBeginUser;
+  PetscCall(OutputWrite(output, &out));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simulation sim, Output *output)
+{
+  const char **names;
+  DM           dm;
+
+  PetscFunctionBeginUser;
+  *output = NULL;
+  if (!app->write) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(scene->nbodies, &names));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) names[b] = scene->bodies[b].name;
+  PetscCall(SimulationGetDM(sim, &dm));
+  PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *converged)
+{
+  Simulation sim;
+  Output     output;
+  StepState  state;
+  RunReport  report;
+
+  PetscFunctionBeginUser;
+  *converged = PETSC_TRUE;
+  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(AppCreateOutput(app, scene, sim, &output));
+  if (app->free) PetscCall(SimulationContactFree(sim));
+  for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
+    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->load[step]));
+    PetscCall(SimulationStep(sim, step, &state));
+    *converged = state.report->converged;
+    if (output && *converged) PetscCall(AppWriteState(output, scene->load[step], &state));
+  }
+  PetscCall(SimulationGetReport(sim, &report));
+  if (!app->quiet) PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, app->summary));
+  if (!*converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report.nsteps, report.reason));
+  PetscCall(OutputDestroy(&output));
+  PetscCall(SimulationDestroy(&sim));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
+{
+  AppOptions app;
+  Scene      scene;
+  PetscBool  traceback = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &traceback, NULL));
+  if (!traceback) PetscCall(PetscPushErrorHandler(OneSentence, NULL));
+  PetscCall(AppGetOptions(argc, argv, &app));
+  if (!app.quiet) PetscCall(AppShowProgress());
+  PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
+  PetscCall(AppSolve(&app, scene, converged));
+  PetscCall(SceneDestroy(&scene));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscBool      converged = PETSC_FALSE;
+  PetscErrorCode ierr;
+
+  ierr = PetscInitialize(&argc, &argv, NULL, help);
+  if (ierr) return (int)ierr;
+  ierr = PetscLogDefaultBegin();
+  if (!ierr) ierr = AppRun(argc, argv, &converged);
+  /* After an error objects are left as they are; PetscFinalize() would complain about them */
+  if (ierr) {
+    MPI_Finalize();
+    return 1;
+  }
+  ierr = PetscFinalize();
+  return ierr || !converged ? 2 : 0;
+}

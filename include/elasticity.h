@@ -1,0 +1,32 @@
+/*
+   Elasticity of the bodies of a mesh: energy, internal force and tangent of trilinear hexahedra.
+   Vectors are the DM's global vectors (3 components a vertex). Prescribed rows stay in the tangent: rows and
+   columns zeroed, diagonal kept at the stiffness's scale.
+*/
+#ifndef ELASTICITY_H
+#define ELASTICITY_H
+
+#include <petscdmplex.h>
+#include <petscmat.h>
+#include <material.h>
+
+typedef struct _n_Elasticity *Elasticity;
+
+/* materials[b] belongs to the cells whose "body" label is b */
+PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], Elasticity *);
+/* Global rows (owned by this rank) whose displacement is prescribed */
+PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
+/* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, SPD/symmetric set */
+PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
+PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
+/* Energy stored at u [force length] */
+PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
+/* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
+PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
+/* Row-sum lumped mass: integral of each vertex's shape function, for each of its 3 components [length^3] */
+PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
+/* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
+PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
+PETSC_EXTERN PetscErrorCode ElasticityDestroy(Elasticity *);
+
+#endif

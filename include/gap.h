@@ -1,0 +1,35 @@
+/*
+   Contact: the linearized mortar gap between pairs of faces, c(u) = g + J (u - u_ref), one row a nonmortar vertex.
+*/
+#ifndef GAP_H
+#define GAP_H
+
+#include <petscdmplex.h>
+#include <petscmat.h>
+
+typedef struct {
+  const char *mortar;    /* face label "<body>.<face>" */
+  const char *nonmortar; /* face label; carries the constraints */
+} ContactPair;
+
+typedef struct _n_Contact *Contact;
+
+/* The constraints of one linearization. Rows are distributed as their nonmortar vertices are. */
+typedef struct {
+  Vec       g;      /* gap at u_ref, weighted and divided by the lumped mass: a length */
+  Mat       J;      /* m x n AIJ, dimensionless; columns are the DM's global rows */
+  Vec       mass;   /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  PetscInt  nlocal; /* rows of this rank */
+  PetscInt *vertex; /* nonmortar vertex (local DMPlex point) of each local row */
+  PetscInt *pair;   /* contact pair of each local row */
+} *ContactLinearization;
+
+PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const ContactPair[], Contact *);
+PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
+/* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
+PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
+PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
+PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
+PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);
+
+#endif

@@ -1,0 +1,29 @@
+/*
+   Meshes: one DMPlex of hexahedra for all bodies (disjoint components), distributed and refined.
+
+   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
+   facets (box: xmin xmax ymin ymax zmin zmax). Local section: 3 displacement components per vertex, interleaved,
+   block size 3, no constrained dofs. Coordinates are the reference geometry.
+*/
+#ifndef MESH_H
+#define MESH_H
+
+#include <petscdmplex.h>
+#include <scene.h>
+
+#define MESH_BODY_LABEL "body"
+
+/* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
+PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
+PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
+/* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */
+PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
+/* Global rows of the given component of the face's vertices that this rank owns */
+PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
+/* The 8 vertices of a hexahedron in the tensor order of src/elasticity, or the 4 of a facet, outward orientation */
+PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
+PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
+/* PETSCPARTITIONER type "metis" */
+PETSC_EXTERN PetscErrorCode MeshRegisterPartitioner(void);
+
+#endif

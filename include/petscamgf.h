@@ -1,0 +1,66 @@
+/*
+   Public interface of the petscamgf plugin: PCAMGF and TAOIPFILTER.
+
+   Every call dispatches by name (PetscTryMethod/PetscUseMethod), so a program may also do without this header:
+   -pc_type amgf, -tao_type ipfilter, and an IS or Mat composed on the Pmat under "amgf_filter".
+*/
+#ifndef PETSCAMGF_H
+#define PETSCAMGF_H
+
+#include <petscksp.h>
+#include <petsctao.h>
+
+#define PCAMGF      "amgf"
+#define TAOIPFILTER "ipfilter"
+
+/* The key under which an IS (filtered unknowns) or a Mat (filter interpolation) is composed on the Pmat */
+#define PCAMGF_FILTER_KEY "amgf_filter"
+
+/*E
+  PCAMGFCycle - order in which the AMG application B and the filter Q = P (P^T A P)^-1 P^T are combined
+
+  Values:
++ PC_AMGF_BFB      - (I-BA)(I-QA)(I-BA): two B, one Q, two products with A; SPD when A < 2 B^-1
+. PC_AMGF_FBF      - (I-QA)(I-BA)(I-QA): one B, two Q, no full product with A; SPD for any SPD B
+- PC_AMGF_ADDITIVE - B + Q: one B, one Q; always SPD
+
+  Level: intermediate
+E*/
+typedef enum {
+  PC_AMGF_BFB,
+  PC_AMGF_FBF,
+  PC_AMGF_ADDITIVE
+} PCAMGFCycle;
+PETSC_EXTERN const char *const PCAMGFCycles[];
+
+/* What a PCAMGF has done since it was created; kept over PCReset() */
+typedef struct {
+  PetscInt amg_setups;     /* set-ups of the AMG */
+  PetscInt amg_applies;    /* applications of the AMG */
+  PetscInt filter_setups;  /* numerical factorizations of the filtered matrix */
+  PetscInt filter_applies; /* solves with the filtered matrix */
+} PCAMGFCounts;
+
+PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);
+PETSC_EXTERN PetscErrorCode PetscAMGFFinalizePackage(void);
+
+PETSC_EXTERN PetscErrorCode PCAMGFSetCycle(PC, PCAMGFCycle);
+PETSC_EXTERN PetscErrorCode PCAMGFGetCycle(PC, PCAMGFCycle *);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterIS(PC, IS);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
+PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);
+PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
+PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
+PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
+PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
+
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStart(Tao, Vec, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetSlack(Tao, Vec *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetMultiplier(Tao, Vec *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetKSPIterations(Tao, PetscInt *, const PetscInt *[]);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetKKTError(Tao, PetscReal *, PetscReal *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
+
+#endif

@@ -1,0 +1,88 @@
+# amgf: build, try, check, install. `make help` lists the targets.
+#
+# PETSc is found through PETSC_DIR (and PETSC_ARCH) if set, else through pkg-config alone.
+
+VERSION := 0.1.0
+PREFIX  ?= /usr/local
+DESTDIR ?=
+
+include share/toolchain.mk
+
+PLUGIN  := lib/libpetscamgf.so
+LIBRARY := lib/libcontact.a
+plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c tao_ipfilter/*.c))
+library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c))
+programs        := $(patsubst apps/%.c,bin/%,$(wildcard apps/*.c))
+# What is linked changes when a source file comes or goes, not only when one changes
+source_list := build/sources.list
+
+.PHONY: all demo check install clean help dependencies FORCE
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+all: $(PLUGIN) $(LIBRARY) $(programs)
+
+build/%.o: %.c makefile share/toolchain.mk
+	@mkdir -p $(@D)
+	$(call say,CC,$<)
+	$(Q)$(COMPILE) $< -o $@
+
+$(source_list): FORCE
+	@mkdir -p $(@D)
+	@echo '$(plugin_objects) $(library_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects)' > $@
+
+# PETSc closes what it opened; nodelete keeps the registered types callable until the process ends
+$(PLUGIN): $(plugin_objects) $(source_list)
+	@mkdir -p $(@D)
+	$(call say,LD,$@)
+	$(Q)$(CC) -shared -Wl,-soname,$(@F) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@
+
+$(LIBRARY): $(library_objects) $(source_list)
+	@mkdir -p $(@D)
+	@rm -f $@
+	$(call say,AR,$@)
+	$(Q)$(AR) rcs $@ $(library_objects)
+
+bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN)
+	@mkdir -p $(@D)
+	$(call say,LD,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) -lmetis -lm -o $@
+
+.PRECIOUS: build/%.o
+-include $(wildcard build/apps/*.d build/pc_amgf/*.d build/tao_ipfilter/*.d build/src/*/*.d)
+
+dependencies:
+	@./share/install-deps.sh
+
+# A second make sees what the first one installed
+demo: dependencies
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	bin/contact share/scenes/two_block.yaml
+
+check: dependencies
+	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
+
+install: all
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options)
+	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
+	install -m 755 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib
+	install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib
+	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
+	install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact
+	$(foreach kind,scenes options,$(if $(wildcard share/$(kind)/*),install -m 644 $(wildcard share/$(kind)/*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
+
+clean:
+	rm -rf build bin lib
+
+help:
+	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'
+	@echo 'make demo            installs what is missing, builds, and solves share/scenes/two_block.yaml'
+	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
+	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=120 [s] is the limit of one run'
+	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
+	@echo 'make clean           removes build, bin and lib'
+	@echo
+	@echo 'PETSC_DIR, PETSC_ARCH  the PETSc to use (now: $(or $(PETSC_PREFIX),none found))'
+	@echo 'CC, CFLAGS, LDFLAGS    now: $(CC) $(CFLAGS) $(LDFLAGS)'
+	@echo 'MARCH=native           adds -march=native; V=1 shows the commands'

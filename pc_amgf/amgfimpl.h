@@ -1,0 +1,111 @@
+/* Private to PCAMGF */
+#ifndef AMGFIMPL_H
+#define AMGFIMPL_H
+
+#include "petsccompat.h"
+#include <petsc/private/pcimpl.h>
+#include <petscamgf.h>
+
+PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+
+/* Who named the subspace; in order of precedence after NONE */
+typedef enum {
+  AMGF_SOURCE_NONE,
+  AMGF_SOURCE_CALL,
+  AMGF_SOURCE_COMPOSED,
+  AMGF_SOURCE_FILE,
+  AMGF_SOURCE_DETECT
+} AMGFSource;
+
+/* A version of an object: the object, its values, its nonzero pattern */
+typedef struct {
+  PetscObjectId    id;
+  PetscObjectState state, pattern;
+} AMGFStamp;
+
+/* Values of PCAMGFSetAMGLag() with a meaning of their own; unset: the default of the cycle */
+#define AMGF_LAG_AUTO  0
+#define AMGF_LAG_NEVER (-1)
+#define AMGF_LAG_UNSET (-2)
+
+/* When to rebuild the AMG */
+typedef struct {
+  PetscInt  every;     /* as PCAMGFSetAMGLag() */
+  PetscReal ratio;     /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
+  PetscBool built;
+  PetscInt  age;       /* changed operators since the last rebuild */
+  AMGFStamp seen;      /* operator at the last set-up */
+  Vec       diagonal;  /* diagonal of the operator the AMG was built from; automatic only */
+  PetscBool overdue;   /* the last solve cost too much */
+  PetscReal its, rate; /* of the first solve after the last rebuild: iterations (0: none yet), iterations per digit (0: unknown) */
+  PetscInt  history;   /* length of the residual history when the solve began */
+} AMGFLag;
+
+/* The subspace range(P): either unknowns (rows) or a general interpolation P */
+typedef struct {
+  AMGFSource source;
+  IS         rows; /* owned rows of A that enter R: sorted, unique; the filtered unknowns if P is NULL */
+  Mat        P;
+  AMGFStamp  stamp; /* of the Mat P was taken from */
+  PetscInt   nlocal, n;
+} AMGFSubspace;
+
+typedef struct {
+  PCAMGFCycle  cycle;
+  PC           amg;
+  KSP          filter;
+  PetscBool    configured; /* inner solvers have read their options */
+  PCAMGFCounts counts;
+
+  /* how the subspace is named */
+  IS        set_is;
+  Mat       set_P;
+  char     *file;
+  IS        file_is;
+  PetscReal detect; /* 0: off */
+
+  AMGFSubspace sub;
+  AMGFStamp    galerkin; /* operator R and Aw were filled from */
+  Mat          rowsA;    /* rows of A where P is nonzero; with a general P only */
+  Mat          rowsP;    /* the same rows of P */
+  Mat          R;        /* P^T A, thin: n_c x n */
+  Mat          Aw;       /* P^T A P */
+  Vec          rc, ec, wc; /* n_c */
+  Vec          w[2];     /* n */
+
+  AMGFLag lag;
+} PC_AMGF;
+
+/* subspace.c */
+PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
+PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
+/* detect.c */
+PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
+/* galerkin.c */
+PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
+PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
+/* rows.c */
+PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
+/* inner.c */
+PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
+/* lag.c */
+PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
+PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
+PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
+PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
+/* cycle.c */
+PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
+/* interface.c */
+PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFRemoveFunctions_Private(PC);
+/* stamp.c */
+PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);
+PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFStamp *);
+PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
+
+PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
+
+#endif

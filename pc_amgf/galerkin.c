@@ -1,0 +1,73 @@
+/* The thin matrix R = P^T A and the filtered matrix A_w = P^T A P */
+#include "amgfimpl.h"
+
+/* P selects unknowns: R is rows of A, A_w columns of R */
+static PetscErrorCode FillFromRows(PC pc, PetscBool reuse)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  IS       all;
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetThinRows_AMGF(pc->pmat, amgf->sub.rows, reuse, &amgf->R));
+  PetscCall(MatGetOwnershipRange(amgf->R, &start, &end));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)pc), end - start, start, 1, &all));
+  PetscCall(MatCreateSubMatrix(amgf->R, all, amgf->sub.rows, reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, &amgf->Aw));
+  PetscCall(ISDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/* General P: with S the rows in which P is nonzero, P^T A = P_S^T A_S */
+static PetscErrorCode FillFromInterpolation(PC pc, PetscBool reuse)
+{
+  PC_AMGF       *amgf = (PC_AMGF *)pc->data;
+  const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetThinRows_AMGF(pc->pmat, amgf->sub.rows, reuse, &amgf->rowsA));
+  PetscCall(MatCreateSubMatrix(amgf->sub.P, amgf->sub.rows, NULL, call, &amgf->rowsP));
+  PetscCall(MatTransposeMatMult(amgf->rowsP, amgf->rowsA, call, PETSC_DEFAULT, &amgf->R));
+  PetscCall(MatMatMult(amgf->R, amgf->sub.P, call, PETSC_DEFAULT, &amgf->Aw));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *amgf)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&amgf->rowsA));
+  PetscCall(MatDestroy(&amgf->rowsP));
+  PetscCall(MatDestroy(&amgf->R));
+  PetscCall(MatDestroy(&amgf->Aw));
+  PetscCall(VecDestroy(&amgf->rc));
+  PetscCall(VecDestroy(&amgf->ec));
+  PetscCall(VecDestroy(&amgf->wc));
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFUpdateGalerkin_Private - R and A_w of the current operator and subspace
+
+  Input Parameter:
+. same - the subspace is that of the last call
+*/
+PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
+{
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  AMGFStamp now;
+  PetscBool reuse;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
+  reuse          = (PetscBool)(same && amgf->Aw && AMGFStampSamePattern(&now, &amgf->galerkin));
+  amgf->galerkin = now;
+  if (!reuse) PetscCall(PCAMGFResetGalerkin_Private(amgf));
+  if (amgf->sub.P) PetscCall(FillFromInterpolation(pc, reuse));
+  else PetscCall(FillFromRows(pc, reuse));
+  /* the factorization may drop the pivoting */
+  PetscCall(MatSetOption(amgf->Aw, MAT_SPD, PETSC_TRUE));
+  if (!amgf->rc) {
+    PetscCall(MatCreateVecs(amgf->Aw, &amgf->ec, &amgf->rc));
+    PetscCall(VecDuplicate(amgf->rc, &amgf->wc));
+  }
+  PetscFunctionReturn(0);
+}

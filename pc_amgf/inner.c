@@ -1,0 +1,168 @@
+/* Defaults and options of the inner solvers */
+#include "amgfimpl.h"
+
+typedef struct {
+  const char *name, *value;
+} Option;
+
+/* "-name" with the object's prefix */
+static PetscErrorCode FullName(PetscObject obj, const char name[], char full[], size_t len)
+{
+  const char *prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetOptionsPrefix(obj, &prefix));
+  PetscCall(PetscSNPrintf(full, len, "-%s%s", prefix ? prefix : "", name + 1));
+  PetscFunctionReturn(0);
+}
+
+/* Puts an option into the data base unless the user has; *set says whether */
+static PetscErrorCode SetDefault(PetscObject obj, const Option *option, PetscBool *set)
+{
+  PetscOptions options;
+  char         full[PETSC_MAX_OPTION_NAME];
+  PetscBool    given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetOptions(obj, &options));
+  PetscCall(FullName(obj, option->name, full, sizeof(full)));
+  PetscCall(PetscOptionsHasName(options, NULL, full, &given));
+  *set = given ? PETSC_FALSE : PETSC_TRUE;
+  if (*set) PetscCall(PetscOptionsSetValue(options, full, option->value));
+  PetscFunctionReturn(0);
+}
+
+/* PCHYPRE has no calls for most parameters, so its defaults pass through the options data base and are taken out again */
+static PetscErrorCode SetFromOptionsWithDefaults(PC pc, PetscInt n, const Option defaults[])
+{
+  PetscBool   *set;
+  PetscOptions options;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &set));
+  for (PetscInt i = 0; i < n; i++) PetscCall(SetDefault((PetscObject)pc, &defaults[i], &set[i]));
+  PetscCall(PCSetFromOptions(pc));
+  PetscCall(PetscObjectGetOptions((PetscObject)pc, &options));
+  for (PetscInt i = 0; i < n; i++) {
+    char full[PETSC_MAX_OPTION_NAME];
+
+    if (!set[i]) continue;
+    PetscCall(FullName((PetscObject)pc, defaults[i].name, full, sizeof(full)));
+    PetscCall(PetscOptionsClearValue(options, full));
+  }
+  PetscCall(PetscFree(set));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BoomerAMG: one sweep of l1 Gauss-Seidel, forward down and backward up, which makes B symmetric and A < 2 B^-1; coarsening and interpolation for
+  three-dimensional problems. Vector problems are coarsened function by function (the unknown approach), which PCHYPRE does by itself
+  for a block size > 1 as long as nodal coarsening is off; a larger strength threshold suits three displacements.
+*/
+static PetscErrorCode ConfigureBoomerAMG(PC pc, PC amg)
+{
+  PetscInt     bs, n = 5;
+  PetscBool    all;
+  PetscOptions options;
+  Option       defaults[] = {
+    {"-pc_hypre_boomeramg_coarsen_type",     "HMIS"                    },
+    {"-pc_hypre_boomeramg_interp_type",      "ext+i"                   },
+    {"-pc_hypre_boomeramg_P_max",            "4"                       },
+    {"-pc_hypre_boomeramg_agg_nl",           "0"                       },
+    {"-pc_hypre_boomeramg_strong_threshold", "0.25"                    },
+    {"-pc_hypre_boomeramg_relax_type_down",  "l1-Gauss-Seidel"         },
+    {"-pc_hypre_boomeramg_relax_type_up",    "backward-l1-Gauss-Seidel"},
+  };
+  char full[PETSC_MAX_OPTION_NAME];
+
+  PetscFunctionBegin;
+  PetscCall(MatGetBlockSize(pc->pmat, &bs));
+  if (bs == 3) defaults[4].value = "0.5";
+  /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overruled */
+  PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
+  PetscCall(FullName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
+  PetscCall(PetscOptionsHasName(options, NULL, full, &all));
+  if (!all) n = PETSC_STATIC_ARRAY_LENGTH(defaults);
+  PetscCall(PCSetType(amg, PCHYPRE));
+  PetscCall(SetFromOptionsWithDefaults(amg, n, defaults));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConfigureAMG(PC pc)
+{
+  PC          amg = ((PC_AMGF *)pc->data)->amg;
+  const char *prefix;
+  PCType      type;
+
+  PetscFunctionBegin;
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(PCSetOptionsPrefix(amg, prefix));
+  PetscCall(PCAppendOptionsPrefix(amg, "amgf_amg_"));
+  PetscCall(PCGetType(amg, &type));
+  if (type) PetscCall(PCSetFromOptions(amg));
+  else if (PetscDefined(HAVE_HYPRE)) PetscCall(ConfigureBoomerAMG(pc, amg));
+  else {
+    PetscCall(PCSetType(amg, PCGAMG));
+    PetscCall(PCSetFromOptions(amg));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Cholesky: MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every rank. PETSc has no Hermitian Cholesky by MUMPS, so complex numbers take LU. */
+static PetscErrorCode SetDirectSolver(PC inner)
+{
+  const MatFactorType factor = PetscDefined(USE_COMPLEX) ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY;
+  const PCType        type   = PetscDefined(USE_COMPLEX) ? PCLU : PCCHOLESKY;
+  PetscBool           mumps;
+  PetscMPIInt         size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)inner), &size));
+  PetscCall(MatSolverTypeGet(MATSOLVERMUMPS, size > 1 ? MATMPIAIJ : MATSEQAIJ, factor, NULL, &mumps, NULL));
+  if (!mumps && size > 1) {
+    KSP redundant;
+
+    PetscCall(PCSetType(inner, PCREDUNDANT));
+    PetscCall(PCRedundantGetKSP(inner, &redundant));
+    PetscCall(KSPGetPC(redundant, &inner));
+  }
+  PetscCall(PCSetType(inner, type));
+  if (mumps) PetscCall(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConfigureFilter(PC pc)
+{
+  KSP         filter = ((PC_AMGF *)pc->data)->filter;
+  PC          inner;
+  const char *prefix;
+  KSPType     ksptype;
+  PCType      pctype;
+
+  PetscFunctionBegin;
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(KSPSetOptionsPrefix(filter, prefix));
+  PetscCall(KSPAppendOptionsPrefix(filter, "amgf_filter_"));
+  PetscCall(KSPGetType(filter, &ksptype));
+  if (!ksptype) PetscCall(KSPSetType(filter, KSPPREONLY));
+  PetscCall(KSPGetPC(filter, &inner));
+  PetscCall(PCGetType(inner, &pctype));
+  if (!pctype) PetscCall(SetDirectSolver(inner));
+  PetscCall(KSPSetFromOptions(filter));
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFConfigureInner_Private - gives the inner solvers their types and options; needs the operator's block size
+*/
+PetscErrorCode PCAMGFConfigureInner_Private(PC pc)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (amgf->configured) PetscFunctionReturn(0);
+  PetscCall(ConfigureAMG(pc));
+  PetscCall(ConfigureFilter(pc));
+  amgf->configured = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}

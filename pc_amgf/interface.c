@@ -1,0 +1,358 @@
+/* Public functions of PCAMGF and their implementations, which act on the PC's data only */
+#include "amgfimpl.h"
+
+const char *const PCAMGFCycles[] = {"bfb", "fbf", "additive", "PCAMGFCycle", "PC_AMGF_", NULL};
+
+/* The next PCSetUp() must look at the subspace again although the operator may be unchanged */
+static void PCAMGFRequestSetUp_Private(PC pc)
+{
+  pc->setupcalled = 0;
+}
+
+static PetscErrorCode PCAMGFSetCycle_AMGF(PC pc, PCAMGFCycle cycle)
+{
+  PetscFunctionBegin;
+  PetscCheck(cycle >= PC_AMGF_BFB && cycle <= PC_AMGF_ADDITIVE, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "Unknown cycle %d", (int)cycle);
+  ((PC_AMGF *)pc->data)->cycle = cycle;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetCycle_AMGF(PC pc, PCAMGFCycle *cycle)
+{
+  PetscFunctionBegin;
+  *cycle = ((PC_AMGF *)pc->data)->cycle;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterIS_AMGF(PC pc, IS is)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (is) PetscCall(PetscObjectReference((PetscObject)is));
+  PetscCall(ISDestroy(&amgf->set_is));
+  PetscCall(MatDestroy(&amgf->set_P));
+  amgf->set_is = is;
+  PCAMGFRequestSetUp_Private(pc);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterInterpolation_AMGF(PC pc, Mat P)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (P) PetscCall(PetscObjectReference((PetscObject)P));
+  PetscCall(ISDestroy(&amgf->set_is));
+  PetscCall(MatDestroy(&amgf->set_P));
+  amgf->set_P = P;
+  PCAMGFRequestSetUp_Private(pc);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetFilterSize_AMGF(PC pc, PetscInt *n)
+{
+  PetscFunctionBegin;
+  *n = ((PC_AMGF *)pc->data)->sub.n;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
+{
+  PetscFunctionBegin;
+  PetscCheck(lag >= AMGF_LAG_NEVER, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "The AMG lag must be -1 (never rebuild), 0 (automatic) or positive, not %" PetscInt_FMT, lag);
+  ((PC_AMGF *)pc->data)->lag.every = lag;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetAMGPC_AMGF(PC pc, PC *amg)
+{
+  PetscFunctionBegin;
+  *amg = ((PC_AMGF *)pc->data)->amg;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetFilterKSP_AMGF(PC pc, KSP *ksp)
+{
+  PetscFunctionBegin;
+  *ksp = ((PC_AMGF *)pc->data)->filter;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetCounts_AMGF(PC pc, PCAMGFCounts *counts)
+{
+  PetscFunctionBegin;
+  *counts = ((PC_AMGF *)pc->data)->counts;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetCycle_C", PCAMGFSetCycle_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCycle_C", PCAMGFGetCycle_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterIS_C", PCAMGFSetFilterIS_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetAMGLag_C", PCAMGFSetAMGLag_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCounts_C", PCAMGFGetCounts_AMGF));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
+{
+  static const char *const names[] = {"PCAMGFSetCycle_C",  "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C",  "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
+                                      "PCAMGFSetAMGLag_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetCycle - sets the order in which the AMG and the subspace solve are combined
+
+  Logically Collective
+
+  Input Parameters:
++ pc    - the preconditioner
+- cycle - `PC_AMGF_BFB`, `PC_AMGF_FBF` (default) or `PC_AMGF_ADDITIVE`
+
+  Options Database Key:
+. -pc_amgf_cycle <bfb,fbf,additive> - the cycle
+
+  Level: intermediate
+
+  Note:
+  `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not satisfy; see `PCAMGFSetAMGLag()`.
+
+.seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFGetCycle()`
+@*/
+PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveEnum(pc, cycle, 2);
+  PetscTryMethod(pc, "PCAMGFSetCycle_C", (PC, PCAMGFCycle), (pc, cycle));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetCycle - gets the order in which the AMG and the subspace solve are combined
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. cycle - the cycle
+
+  Level: intermediate
+
+.seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFSetCycle()`
+@*/
+PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscUseMethod(pc, "PCAMGFGetCycle_C", (PC, PCAMGFCycle *), (pc, cycle));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetFilterIS - names the unknowns that are solved exactly
+
+  Logically Collective
+
+  Input Parameters:
++ pc - the preconditioner
+- is - global row numbers of the operator, or NULL to forget what was set
+
+  Level: intermediate
+
+  Notes:
+  The set is the union over all ranks: entries may repeat, need no order, and may name rows owned by other ranks, so
+  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error of `PCSetUp()`.
+
+  Takes precedence over an object composed on the operator, a file and detection. Replaces a `Mat` set by `PCAMGFSetFilterInterpolation()`.
+
+  If the set of unknowns and the operator's nonzero pattern stay, the symbolic factorization is kept.
+
+.seealso: `PCAMGF`, `PCAMGFSetFilterInterpolation()`, `PCAMGFGetFilterSize()`
+@*/
+PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  if (is) PetscValidHeaderSpecific(is, IS_CLASSID, 2);
+  PetscTryMethod(pc, "PCAMGFSetFilterIS_C", (PC, IS), (pc, is));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetFilterInterpolation - sets the subspace that is solved exactly as the range of a matrix
+
+  Logically Collective
+
+  Input Parameters:
++ pc - the preconditioner
+- P  - matrix (n x n_c) of full column rank, rows laid out as the operator's; or NULL to forget what was set
+
+  Level: intermediate
+
+  Notes:
+  `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
+
+  Takes precedence over an object composed on the operator, a file and detection. Replaces an `IS` set by `PCAMGFSetFilterIS()`.
+  Not available with complex scalars.
+
+.seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
+@*/
+PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  if (P) PetscValidHeaderSpecific(P, MAT_CLASSID, 2);
+  PetscTryMethod(pc, "PCAMGFSetFilterInterpolation_C", (PC, Mat), (pc, P));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetFilterSize - gets the global dimension n_c of the subspace that is solved exactly
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. n - its dimension at the last `PCSetUp()`; 0 before, and if there is no subspace
+
+  Level: intermediate
+
+.seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`
+@*/
+PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(n, 2);
+  PetscUseMethod(pc, "PCAMGFGetFilterSize_C", (PC, PetscInt *), (pc, n));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetAMGLag - sets how often the AMG is rebuilt when the operator changes
+
+  Logically Collective
+
+  Input Parameters:
++ pc  - the preconditioner
+- lag - n > 0: at every n-th changed operator; -1: never again; 0: automatically
+
+  Options Database Keys:
++ -pc_amgf_amg_lag <n or auto> - the lag; `auto` is 0
+- -pc_amgf_amg_lag_ratio <1.5> - growth that calls for a rebuild, with automatic lag
+
+  Level: intermediate
+
+  Notes:
+  The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make indefinite; automatic for the other cycles.
+
+  With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual reduction
+  (iterations, if the residual is not known) or a diagonal entry of the operator outside the subspace has changed by more than the ratio,
+  or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner.
+
+.seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
+@*/
+PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveInt(pc, lag, 2);
+  PetscTryMethod(pc, "PCAMGFSetAMGLag_C", (PC, PetscInt), (pc, lag));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetAMGPC - gets the inner preconditioner B
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. amg - the inner preconditioner; do not destroy it
+
+  Level: advanced
+
+  Note:
+  A type set on it replaces the default, BoomerAMG, and PCAMGF's defaults for it. It reads its options, with prefix `-amgf_amg_`, at the first `PCSetUp()`.
+
+.seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`
+@*/
+PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(amg, 2);
+  PetscUseMethod(pc, "PCAMGFGetAMGPC_C", (PC, PC *), (pc, amg));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetFilterKSP - gets the solver of the system with P^T A P
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. ksp - the solver; do not destroy it
+
+  Level: advanced
+
+  Note:
+  A type set on it replaces the default, `KSPPREONLY` with Cholesky. It reads its options, with prefix `-amgf_filter_`, at the first `PCSetUp()`.
+
+.seealso: `PCAMGF`, `PCAMGFGetAMGPC()`
+@*/
+PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(ksp, 2);
+  PetscUseMethod(pc, "PCAMGFGetFilterKSP_C", (PC, KSP *), (pc, ksp));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetCounts - gets what the preconditioner has done since it was created
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. counts - numbers of set-ups and applications of the AMG and of the subspace solver
+
+  Level: intermediate
+
+  Note:
+  `PCReset()` does not clear them.
+
+.seealso: `PCAMGF`, `PCAMGFCounts`
+@*/
+PetscErrorCode PCAMGFGetCounts(PC pc, PCAMGFCounts *counts)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscUseMethod(pc, "PCAMGFGetCounts_C", (PC, PCAMGFCounts *), (pc, counts));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,186 @@
+/* When to rebuild the AMG */
+#include "amgfimpl.h"
+
+/* Iterations a solve may take beyond the allowed growth before it counts: they are whole numbers, and small ones jump */
+#define SLACK 2
+
+/* bfb needs A < 2 B^-1, which an old B does not promise; the other cycles are positive definite with any B */
+PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
+{
+  if (amgf->lag.every != AMGF_LAG_UNSET) return amgf->lag.every;
+  return amgf->cycle == PC_AMGF_BFB ? 1 : AMGF_LAG_AUTO;
+}
+
+/* Largest ratio, on this rank, by which a diagonal entry outside the subspace has grown or shrunk since the AMG was built */
+static PetscErrorCode DiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
+{
+  PetscInt           n, start, nrows = 0, k = 0;
+  const PetscInt    *rows = NULL;
+  const PetscScalar *now, *old;
+
+  PetscFunctionBegin;
+  *drift = 1.0;
+  PetscCall(VecGetLocalSize(diagonal, &n));
+  PetscCall(VecGetOwnershipRange(diagonal, &start, NULL));
+  if (amgf->sub.rows) {
+    PetscCall(ISGetLocalSize(amgf->sub.rows, &nrows));
+    PetscCall(ISGetIndices(amgf->sub.rows, &rows));
+  }
+  PetscCall(VecGetArrayRead(diagonal, &now));
+  PetscCall(VecGetArrayRead(amgf->lag.diagonal, &old));
+  for (PetscInt i = 0; i < n; i++) {
+    if (k < nrows && rows[k] == start + i) k++;
+    else if (now[i] != old[i]) {
+      const PetscReal a = PetscRealPart(now[i]), b = PetscRealPart(old[i]);
+
+      *drift = PetscMax(*drift, a > 0.0 && b > 0.0 ? PetscMax(a / b, b / a) : PETSC_MAX_REAL);
+    }
+  }
+  PetscCall(VecRestoreArrayRead(amgf->lag.diagonal, &old));
+  PetscCall(VecRestoreArrayRead(diagonal, &now));
+  if (rows) PetscCall(ISRestoreIndices(amgf->sub.rows, &rows));
+  PetscFunctionReturn(0);
+}
+
+/* Too many iterations at the last solve, or the operator has changed where only the AMG looks after it */
+static PetscErrorCode DecideAutomatically(PC pc, PetscBool *rebuild)
+{
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  Vec       diagonal;
+  PetscReal drift;
+
+  PetscFunctionBegin;
+  *rebuild = amgf->lag.overdue;
+  if (amgf->lag.diagonal) {
+    PetscCall(VecDuplicate(amgf->lag.diagonal, &diagonal));
+    PetscCall(MatGetDiagonal(pc->pmat, diagonal));
+    PetscCall(DiagonalDrift(amgf, diagonal, &drift));
+    PetscCall(VecDestroy(&diagonal));
+    if (drift > amgf->lag.ratio) *rebuild = PETSC_TRUE;
+  } else *rebuild = PETSC_TRUE; /* automatic only since the AMG was built: nothing to compare with */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rebuild, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFLagDecide_Private - whether this set-up rebuilds the AMG; the subspace is up to date
+*/
+PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
+{
+  PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
+  AMGFLag       *lag   = &amgf->lag;
+  const PetscInt every = PCAMGFLagEvery_Private(amgf);
+  AMGFStamp      now;
+  PetscBool      unchanged;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
+  unchanged = AMGFStampSameValues(&now, &lag->seen);
+  lag->seen = now;
+  if (!lag->built) *rebuild = PETSC_TRUE;
+  else if (unchanged) *rebuild = PETSC_FALSE;
+  else {
+    lag->age++;
+    if (every > 0) *rebuild = (PetscBool)(lag->age >= every);
+    else if (every == AMGF_LAG_NEVER) *rebuild = PETSC_FALSE;
+    else PetscCall(DecideAutomatically(pc, rebuild));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFLagRebuilt_Private - the AMG has just been built from the present operator
+*/
+PetscErrorCode PCAMGFLagRebuilt_Private(PC pc)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  AMGFLag *lag  = &amgf->lag;
+
+  PetscFunctionBegin;
+  lag->built   = PETSC_TRUE;
+  lag->age     = 0;
+  lag->overdue = PETSC_FALSE;
+  lag->its     = 0.0;
+  lag->rate    = 0.0;
+  if (PCAMGFLagEvery_Private(amgf) == AMGF_LAG_AUTO) {
+    if (!lag->diagonal) PetscCall(MatCreateVecs(pc->pmat, &lag->diagonal, NULL));
+    PetscCall(MatGetDiagonal(pc->pmat, lag->diagonal));
+  } else PetscCall(VecDestroy(&lag->diagonal));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&lag->diagonal));
+  lag->built   = PETSC_FALSE;
+  lag->overdue = PETSC_FALSE;
+  lag->its     = 0.0;
+  lag->rate    = 0.0;
+  lag->age     = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Sees to it that the initial residual is recorded: one entry of history, unless the user keeps one */
+PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
+{
+  PC_AMGF         *amgf = (PC_AMGF *)pc->data;
+  const PetscReal *history;
+
+  PetscFunctionBegin;
+  (void)b;
+  (void)x;
+  if (PCAMGFLagEvery_Private(amgf) != AMGF_LAG_AUTO) PetscFunctionReturn(0);
+  PetscCall(KSPGetResidualHistory(ksp, &history, &amgf->lag.history));
+  if (!history) {
+    PetscCall(KSPSetResidualHistory(ksp, NULL, 1, PETSC_TRUE));
+    amgf->lag.history = 0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Digits by which the solve that just ended reduced its residual; 0 if unknown */
+static PetscErrorCode GetDigits(KSP ksp, PetscInt first, PetscReal *digits)
+{
+  const PetscReal *history;
+  PetscInt         n;
+  PetscReal        last;
+
+  PetscFunctionBegin;
+  *digits = 0.0;
+  PetscCall(KSPGetResidualHistory(ksp, &history, &n));
+  if (!history || n <= first) PetscFunctionReturn(0);
+  PetscCall(KSPGetResidualNorm(ksp, &last));
+  if (last > 0.0 && history[first] > last) *digits = PetscLog10Real(history[first] / last);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tolerances vary from solve to solve (inexact Newton), so what is compared with the first solve after the last rebuild is
+   iterations per digit of residual reduction; plain iterations where the residual is unknown.
+*/
+PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
+{
+  AMGFLag           *lag = &((PC_AMGF *)pc->data)->lag;
+  KSPConvergedReason reason;
+  PetscInt           its;
+  PetscReal          digits, allowed;
+
+  PetscFunctionBegin;
+  (void)b;
+  (void)x;
+  if (PCAMGFLagEvery_Private((PC_AMGF *)pc->data) != AMGF_LAG_AUTO) PetscFunctionReturn(0);
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(KSPGetIterationNumber(ksp, &its));
+  PetscCall(GetDigits(ksp, lag->history, &digits));
+  if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0);
+  else if (its == 0) PetscFunctionReturn(0);
+  else if (lag->its == 0.0) {
+    lag->its  = (PetscReal)its;
+    lag->rate = digits > 0.0 ? its / digits : 0.0;
+  } else if (lag->age > 0) {
+    allowed      = lag->ratio * (lag->rate > 0.0 && digits > 0.0 ? lag->rate * digits : lag->its) + SLACK;
+    lag->overdue = (PetscBool)(its > allowed);
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,25 @@
+/* What differs between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of August 2026 (3.25). */
+#ifndef PETSCCOMPAT_H
+#define PETSCCOMPAT_H
+
+#include <petscsys.h>
+
+#if PETSC_VERSION_LT(3, 20, 0)
+  #define PetscAssertPointer(pointer, argument) PetscValidPointer(pointer, argument)
+#endif
+
+/* PetscOptionItems became a pointer */
+#if PETSC_VERSION_LT(3, 23, 0)
+typedef PetscOptionItems *AMGFOptionItems;
+#else
+typedef PetscOptionItems AMGFOptionItems;
+#endif
+
+/* PetscBool became C's bool */
+#if PETSC_VERSION_LT(3, 24, 0)
+  #define MPI_PETSCBOOL MPIU_BOOL
+#else
+  #define MPI_PETSCBOOL MPI_C_BOOL
+#endif
+
+#endif

@@ -1,0 +1,66 @@
+/* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
+#include "amgfimpl.h"
+
+PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+
+static PetscBool initialized = PETSC_FALSE;
+
+PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
+PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
+
+/*@C
+  PetscAMGFInitializePackage - registers the preconditioner `PCAMGF`, the optimizer `TAOIPFILTER` and their log events
+
+  Logically Collective
+
+  Level: developer
+
+  Notes:
+  Called when the shared library is loaded with `-dll_append`. A program linked with the library calls it once
+  after `PetscInitialize()`; further calls do nothing.
+
+.seealso: `PCAMGF`, `TAOIPFILTER`, `PetscAMGFFinalizePackage()`
+@*/
+PetscErrorCode PetscAMGFInitializePackage(void)
+{
+  PetscFunctionBegin;
+  if (initialized) PetscFunctionReturn(0);
+  initialized = PETSC_TRUE;
+  PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
+  PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
+  PetscCall(PetscLogEventRegister("PCAMGFAMGSetUp", PC_CLASSID, &PC_AMGF_AMGSetUp));
+  PetscCall(PetscLogEventRegister("PCAMGFAMGApply", PC_CLASSID, &PC_AMGF_AMGApply));
+  PetscCall(PetscLogEventRegister("PCAMGFFltSetUp", PC_CLASSID, &PC_AMGF_FltSetUp));
+  PetscCall(PetscLogEventRegister("PCAMGFFltApply", PC_CLASSID, &PC_AMGF_FltApply));
+  PetscCall(PetscRegisterFinalize(PetscAMGFFinalizePackage));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  PetscAMGFFinalizePackage - forgets that the package was initialized, so that it can be again after another `PetscInitialize()`
+
+  Logically Collective
+
+  Level: developer
+
+  Note:
+  Called by `PetscFinalize()`; PETSc itself frees the lists of types.
+
+.seealso: `PetscAMGFInitializePackage()`
+@*/
+PetscErrorCode PetscAMGFFinalizePackage(void)
+{
+  PetscFunctionBegin;
+  initialized = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+  PetscDLLibraryRegister_petscamgf - what PETSc calls on -dll_append libpetscamgf.so; the name follows from the file's
+*/
+PetscErrorCode PetscDLLibraryRegister_petscamgf(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscAMGFInitializePackage());
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,147 @@
+/* A few rows of a large symmetric matrix as a matrix of their own, in whatever format the large one is */
+#include "amgfimpl.h"
+#include <petsc/private/hashmapi.h>
+
+/* Rows stored in full: AIJ, BAIJ */
+static PetscErrorCode InsertRows_Full(Mat A, PetscInt n, const PetscInt rows[], Mat R)
+{
+  PetscInt first;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(R, &first, NULL));
+  for (PetscInt k = 0; k < n; k++) {
+    PetscInt           ncols, row = first + k;
+    const PetscInt    *cols;
+    const PetscScalar *vals;
+
+    PetscCall(MatGetRow(A, rows[k], &ncols, &cols, &vals));
+    PetscCall(MatSetValues(R, 1, &row, ncols, cols, vals, INSERT_VALUES));
+    PetscCall(MatRestoreRow(A, rows[k], &ncols, &cols, &vals));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Position in R of every wanted row of A, on all ranks */
+static PetscErrorCode CreateRowMap(IS rows, PetscHMapI *map)
+{
+  IS              all;
+  PetscInt        n;
+  const PetscInt *idx;
+
+  PetscFunctionBegin;
+  PetscCall(PetscHMapICreate(map));
+  PetscCall(ISAllGather(rows, &all));
+  PetscCall(ISGetLocalSize(all, &n));
+  PetscCall(ISGetIndices(all, &idx));
+  for (PetscInt k = 0; k < n; k++) PetscCall(PetscHMapISet(*map, idx[k], k));
+  PetscCall(ISRestoreIndices(all, &idx));
+  PetscCall(ISDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/* Only the upper triangle is stored, SBAIJ: what is left of the diagonal in a wanted row is a column of that number in rows above it,
+   so every row is visited. Entry (i,j), i <= j, is (k(i), j) and, mirrored, (k(j), i). */
+static PetscErrorCode InsertRows_UpperTriangle(Mat A, IS rows, Mat R)
+{
+  PetscHMapI map;
+  PetscInt   start, end;
+
+  PetscFunctionBegin;
+  PetscCall(CreateRowMap(rows, &map));
+  PetscCall(MatGetOwnershipRange(A, &start, &end));
+  PetscCall(MatGetRowUpperTriangular(A));
+  for (PetscInt i = start; i < end; i++) {
+    PetscInt           ncols, ki, kj;
+    const PetscInt    *cols;
+    const PetscScalar *vals;
+
+    PetscCall(PetscHMapIGet(map, i, &ki));
+    PetscCall(MatGetRow(A, i, &ncols, &cols, &vals));
+    for (PetscInt c = 0; c < ncols; c++) {
+      if (cols[c] < i) continue; /* lower half of the diagonal block */
+      if (ki >= 0) PetscCall(MatSetValue(R, ki, cols[c], vals[c], INSERT_VALUES));
+      if (cols[c] == i) continue;
+      PetscCall(PetscHMapIGet(map, cols[c], &kj));
+      if (kj >= 0) PetscCall(MatSetValue(R, kj, i, vals[c], INSERT_VALUES));
+    }
+    PetscCall(MatRestoreRow(A, i, &ncols, &cols, &vals));
+  }
+  PetscCall(MatRestoreRowUpperTriangular(A));
+  PetscCall(PetscHMapIDestroy(&map));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode InsertRows(Mat A, IS rows, Mat R)
+{
+  PetscBool upper;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)A, &upper, MATSEQSBAIJ, MATMPISBAIJ, MATSBAIJ, ""));
+  if (upper) {
+    PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "SBAIJ matrices are not supported with complex scalars: use AIJ or BAIJ");
+    PetscCall(InsertRows_UpperTriangle(A, rows, R));
+  } else {
+    PetscInt        n;
+    const PetscInt *idx;
+
+    PetscCall(ISGetLocalSize(rows, &n));
+    PetscCall(ISGetIndices(rows, &idx));
+    PetscCall(InsertRows_Full(A, n, idx, R));
+    PetscCall(ISRestoreIndices(rows, &idx));
+  }
+  PetscCall(MatAssemblyBegin(R, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(R, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* An AIJ matrix with room for exactly the rows' entries */
+static PetscErrorCode CreateThinMatrix(Mat A, IS rows, Mat *R)
+{
+  MPI_Comm comm;
+  Mat      pattern;
+  PetscInt m, n, N;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetComm((PetscObject)A, &comm));
+  PetscCall(ISGetLocalSize(rows, &m));
+  PetscCall(MatGetLocalSize(A, NULL, &n));
+  PetscCall(MatGetSize(A, NULL, &N));
+  PetscCall(MatCreate(comm, &pattern));
+  PetscCall(MatSetSizes(pattern, m, n, PETSC_DETERMINE, N));
+  PetscCall(MatSetType(pattern, MATPREALLOCATOR));
+  PetscCall(MatSetUp(pattern));
+  PetscCall(InsertRows(A, rows, pattern));
+  PetscCall(MatCreate(comm, R));
+  PetscCall(MatSetSizes(*R, m, n, PETSC_DETERMINE, N));
+  PetscCall(MatSetType(*R, MATAIJ));
+  PetscCall(MatPreallocatorPreallocate(pattern, PETSC_TRUE, *R));
+  PetscCall(MatSetOption(*R, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  PetscCall(MatDestroy(&pattern));
+  PetscFunctionReturn(0);
+}
+
+/*
+  MatGetThinRows_AMGF - the given rows of a symmetric matrix
+
+  Input Parameters:
++ A     - symmetric matrix (n x n) of any format with MatGetRow()
+. rows  - rows of A, each on the rank that owns it, sorted, without repetition
+- reuse - *R was made by this function from the same rows and nonzero pattern: replace its values
+
+  Output Parameter:
+. R - AIJ matrix; rows as in the IS, columns as in A
+
+  Note:
+  MatCreateSubMatrix() would do for AIJ only: BAIJ and SBAIJ take nothing but whole blocks.
+*/
+PetscErrorCode MatGetThinRows_AMGF(Mat A, IS rows, PetscBool reuse, Mat *R)
+{
+  PetscBool has;
+
+  PetscFunctionBegin;
+  PetscCall(MatHasOperation(A, MATOP_GET_ROW, &has));
+  PetscCheck(has, PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "PCAMGF needs an assembled operator (AIJ, BAIJ or SBAIJ), not one of type %s", ((PetscObject)A)->type_name);
+  if (!reuse) PetscCall(CreateThinMatrix(A, rows, R));
+  PetscCall(InsertRows(A, rows, *R));
+  PetscFunctionReturn(0);
+}

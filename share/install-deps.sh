@@ -1,0 +1,78 @@
+#!/bin/sh
+# Installs what amgf needs and does not find: with apt on Debian and Ubuntu, elsewhere it says what is missing.
+# Silent and quick where nothing is.
+set -u
+
+# PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for
+if [ -n "${PETSC_DIR:-}" ]; then
+  PKG_CONFIG_PATH=$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:${PKG_CONFIG_PATH:-}
+  export PKG_CONFIG_PATH
+fi
+python=python3
+[ ! -x /usr/bin/python3 ] || python=/usr/bin/python3
+
+have() { command -v "$1" >/dev/null 2>&1; }
+
+have_harness() {
+  for dir in "${PETSC_DIR:-}/config" "$(pkg-config --variable=prefix PETSc 2>/dev/null)/share/petsc/examples/config"; do
+    [ -f "$dir/gmakegentest.py" ] && return 0
+  done
+  return 1
+}
+
+# The reference BLAS makes a direct factorization ten times slower
+have_fast_blas() {
+  have update-alternatives || return 0
+  blas=$(update-alternatives --list "libblas.so.3-$(gcc -dumpmachine)" 2>/dev/null) || return 0
+  [ -n "$blas" ] || return 0
+  case $(readlink -f "/usr/lib/$(gcc -dumpmachine)/libblas.so.3") in */blas/libblas.so*) return 1 ;; esac
+  return 0
+}
+
+# One line for each thing that is missing
+missing() {
+  have pkg-config || echo "pkg-config"
+  have mpicc && have mpiexec || echo "an MPI with its compiler wrapper"
+  pkg-config --exists PETSc 2>/dev/null || echo "PETSc >= 3.18 with hypre, MUMPS and HDF5 (set PETSC_DIR and PETSC_ARCH)"
+  have_harness || echo "PETSc's examples with config/gmakegentest.py"
+  for header in metis.h hdf5.h; do
+    cflags=$(pkg-config --cflags PETSc hdf5-openmpi 2>/dev/null || pkg-config --cflags PETSc hdf5 2>/dev/null || pkg-config --cflags PETSc 2>/dev/null)
+    # shellcheck disable=SC2086
+    echo "#include <$header>" | "${CC:-mpicc}" $cflags -E - >/dev/null 2>&1 || echo "$header"
+  done
+  have_fast_blas || echo "an optimized BLAS, for example OpenBLAS"
+  for module in numpy matplotlib h5py petsc4py; do
+    $python -c "import importlib.util as u, sys; sys.exit(u.find_spec('$module') is None)" 2>/dev/null || echo "Python 3 with $module"
+  done
+}
+
+lacking=$(missing)
+[ -n "$lacking" ] || exit 0
+
+if ! have apt-get; then
+  echo "amgf needs, and this machine has not:" >&2
+  echo "$lacking" | sed 's/^/  /' >&2
+  exit 1
+fi
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+  have sudo || { echo "apt-get needs root, and there is no sudo. Missing:" >&2; echo "$lacking" | sed 's/^/  /' >&2; exit 1; }
+  as_root=sudo
+fi
+apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >/dev/null; }
+
+echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
+apt update || { echo "apt-get update failed" >&2; exit 1; }
+packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libopenblas0-serial
+          python3 python3-numpy python3-matplotlib python3-h5py"
+if [ -z "${PETSC_DIR:-}" ]; then
+  version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
+  packages="$packages libpetsc-real-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"
+fi
+# shellcheck disable=SC2086
+apt install --no-install-recommends -y $packages || { echo "apt-get could not install: $packages" | tr -s ' \n' ' ' >&2; exit 1; }
+
+# A BLAS chosen by hand stays; alternatives in auto mode prefer OpenBLAS
+lacking=$(missing)
+[ -z "$lacking" ] || { echo "Still missing after apt-get:" >&2; echo "$lacking" | sed 's/^/  /' >&2; exit 1; }

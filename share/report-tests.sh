@@ -1,0 +1,23 @@
+#!/bin/sh
+# Usage: report-tests.sh COUNTS LABEL...
+# Adds up what PETSc's harness left in COUNTS for every test; one that left nothing did not build or died: it failed.
+counts=$1
+shift
+count() { awk -v key="$1" '$1 == key {n += $2} END {print n + 0}' "$file"; }
+passed=0 failed=0 skipped=0 failures=
+for label; do
+  file=$counts/$label.counts
+  if [ ! -f "$file" ]; then
+    failed=$((failed + 1))
+    failures="$failures $label(no result)"
+    continue
+  fi
+  skipped=$((skipped + $(count skip) + $(count todo)))
+  passed=$((passed + $(count success)))
+  failed=$((failed + $(count failed)))
+  failures="$failures$(awk '$1 == "failures" {for (i = 2; i <= NF; i++) printf " %s", $i}' "$file")"
+done
+[ $skipped -eq 0 ] || echo "# skipped: $skipped"
+[ -z "$failures" ] || echo "# failed:$failures"
+echo "$passed passed, $failed failed" | tee "$counts/../summary"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

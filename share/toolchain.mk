@@ -1,0 +1,48 @@
+# What the makefiles share: where PETSc, its compiler and its HDF5 are, and how a source file is compiled.
+# Where PETSc is not installed yet, its variables are empty and nothing fails.
+
+ifneq ($(PETSC_DIR),)
+  export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PKG_CONFIG_PATH)
+endif
+comma := ,
+pkg_config = $(shell pkg-config $(1) 2>/dev/null)
+
+PETSC_PREFIX := $(or $(PETSC_DIR),$(call pkg_config,--variable=prefix PETSc))
+PETSC_CFLAGS := $(call pkg_config,--cflags PETSc)
+petsc_libdir := $(call pkg_config,--variable=libdir PETSc)
+PETSC_LIBS   := $(call pkg_config,--libs PETSc) $(if $(petsc_libdir),-Wl$(comma)-rpath$(comma)$(petsc_libdir))
+
+# petscviewerhdf5.h includes hdf5.h, which must be the one of PETSc's MPI
+mpi_name     := $(if $(findstring Open MPI,$(shell mpiexec --version 2>/dev/null)),openmpi,mpich)
+HDF5_CFLAGS  := $(or $(call pkg_config,--cflags hdf5-$(mpi_name)),$(call pkg_config,--cflags hdf5))
+
+ifeq ($(origin CC),default)
+  CC := $(or $(call pkg_config,--variable=ccompiler PETSc),mpicc)
+endif
+
+# Optimization is the caller's to choose: make CFLAGS='-g -O0', make MARCH=native
+CFLAGS ?= -g -O3
+MARCH  ?=
+ifneq ($(MARCH),)
+  override CFLAGS += -march=$(MARCH)
+endif
+COMPILE = $(CC) -std=c11 -Wall -Wextra -fPIC -MMD -MP -Iinclude -I$(<D) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(CPPFLAGS) $(CFLAGS) -c
+
+# Debian's Python packages serve Debian's Python only
+PYTHON := $(firstword $(wildcard /usr/bin/python3) python3)
+
+# As many jobs as cores, unless the caller chose
+PARALLEL := $(if $(findstring -j,$(MAKEFLAGS))$(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 1))
+
+# Open MPI refuses to run as root unless asked twice, and counts a rank a core unless told otherwise
+ifeq ($(shell id -u),0)
+  export OMPI_ALLOW_RUN_AS_ROOT := 1
+  export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+endif
+
+# V=1 shows the commands
+V ?= 0
+ifeq ($(V),0)
+  Q   := @
+  say = @echo '  $(1) $(2)'
+endif

@@ -1,0 +1,80 @@
+/* Polygons in the plane: area, centroid, and clipping against a convex polygon */
+#include "contactimpl.h"
+
+/* Relative to the first vertex, so that small polygons far from the origin keep their digits */
+PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
+{
+  PetscReal area = 0.0;
+
+  for (PetscInt i = 1; i + 1 < n; ++i) area += 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
+  return area;
+}
+
+/* Mean of the vertices where the polygon has no area */
+void ContactPolygonCentroid(PetscInt n, const PetscReal p[][2], PetscReal c[2])
+{
+  PetscReal mean[2] = {0.0, 0.0}, moment[2] = {0.0, 0.0}, area = 0.0;
+
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt d = 0; d < 2; ++d) mean[d] += p[i][d] / (PetscReal)n;
+  }
+  for (PetscInt i = 1; i + 1 < n; ++i) {
+    const PetscReal t = 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
+
+    area += t;
+    for (PetscInt d = 0; d < 2; ++d) moment[d] += t * ((p[i][d] - p[0][d]) + (p[i + 1][d] - p[0][d])) / 3.0;
+  }
+  for (PetscInt d = 0; d < 2; ++d) c[d] = area > 0.0 ? p[0][d] + moment[d] / area : mean[d];
+}
+
+/* Twice the signed area of the triangle (a, b, p): positive where p is left of the line a -> b */
+static PetscReal LeftOf(const PetscReal a[2], const PetscReal b[2], const PetscReal p[2])
+{
+  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+/*
+  Sutherland and Hodgman: what is left of the subject after cutting it along every edge of the convex polygon clip.
+
+  Vertices on an edge count as inside and a cut is made only between vertices strictly on either side, so no division is
+  by zero; coinciding edges or vertices give repeated vertices, which enclose no area.
+*/
+PetscInt ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2])
+{
+  PetscReal in[CONTACT_MAX_POLYGON][2];
+
+  for (PetscInt i = 0; i < n; ++i) {
+    out[i][0] = subject[i][0];
+    out[i][1] = subject[i][1];
+  }
+  for (PetscInt e = 0; e < nclip && n > 2; ++e) {
+    const PetscReal *a = clip[e], *b = clip[(e + 1) % nclip];
+    const PetscInt   nin = n;
+    PetscReal        last;
+
+    for (PetscInt i = 0; i < n; ++i) {
+      in[i][0] = out[i][0];
+      in[i][1] = out[i][1];
+    }
+    n    = 0;
+    last = LeftOf(a, b, in[nin - 1]);
+    for (PetscInt i = 0; i < nin; ++i) {
+      const PetscReal *p = in[(i + nin - 1) % nin], *q = in[i];
+      const PetscReal  d = LeftOf(a, b, q);
+
+      if ((d >= 0.0) != (last >= 0.0)) {
+        const PetscReal t = last / (last - d);
+
+        for (PetscInt k = 0; k < 2; ++k) out[n][k] = p[k] + t * (q[k] - p[k]);
+        ++n;
+      }
+      if (d >= 0.0) {
+        out[n][0] = q[0];
+        out[n][1] = q[1];
+        ++n;
+      }
+      last = d;
+    }
+  }
+  return n > 2 ? n : 0;
+}

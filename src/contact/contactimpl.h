@@ -1,0 +1,152 @@
+/* Contact, private: the object, the surfaces of its pairs, and the geometry of one pair of facets. */
+#ifndef CONTACTIMPL_H
+#define CONTACTIMPL_H
+
+#include <gap.h>
+
+typedef struct _n_ContactPairData ContactPairData;
+
+/* How the gap is measured */
+typedef enum {
+  CONTACT_GAP_MORTAR /* segment to segment, integrated over the clipped overlap */
+} ContactGapType;
+PETSC_INTERN const char *const ContactGapTypes[];
+
+PETSC_INTERN PetscLogEvent CONTACT_Search, CONTACT_Integrate;
+
+/* The facets of a named face that this rank owns */
+typedef struct {
+  char      *name;
+  PetscInt   nfacets;
+  PetscInt  *vertex;       /* [4 nfacets] local DMPlex points, counterclockwise seen from outside */
+  PetscInt  *node;         /* [4 nfacets] global numbers of the vertices: a third of their first global row */
+  PetscReal *reference;    /* [12 nfacets] coordinates of the undeformed vertices [length] */
+  PetscReal *x;            /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscReal  area;         /* of the whole undeformed face, all ranks [length^2] */
+  PetscReal  thickness;    /* smallest mean thickness of the bodies behind the face, all ranks [length] */
+} ContactSurface;
+
+/* Mortar facets that may face one of this rank's nonmortar facets, whoever owns them */
+typedef struct {
+  PetscInt   n;
+  PetscInt  *node; /* [4 n] */
+  PetscReal *x;    /* [12 n] */
+} ContactCandidates;
+
+/* Of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] whose boxes it meets */
+typedef struct {
+  PetscInt *offset, *facet;
+} ContactNear;
+
+struct _n_ContactPairData {
+  ContactSurface mortar, nonmortar;
+  PetscInt      *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
+  PetscReal     *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
+  PetscReal      distance; /* facets farther apart than this do not pair [length] */
+  PetscReal      depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
+};
+
+/* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
+typedef struct {
+  PetscInt  nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
+  PetscInt *vertex;         /* [nlocal] local DMPlex points */
+  PetscReal *normal;        /* [3 nlocal] averaged unit normals */
+  Vec        mass;          /* int phi_A over the whole undeformed nonmortar face [length^2] */
+} ContactRows;
+
+/* One linearization under construction. entries: (row, node, value), added up where they repeat */
+typedef struct {
+  Vec          gap;          /* int phi_A gap [length^3] */
+  PetscInt     n, size;      /* entries in use, and space for them */
+  PetscInt    *row, *node;   /* global row, global number of the vertex */
+  PetscScalar *value;        /* int phi_A (N2 - N1) [length^2]: times n_A, what the vertex's displacement adds to the gap */
+} ContactAssembly;
+
+struct _n_Contact {
+  DM               dm;
+  MPI_Comm         comm;
+  PetscInt         npairs;
+  ContactPairData *pairs;
+  ContactRows      rows;
+  ContactGapType   type;
+  PetscReal        distance;             /* 0: from the size of each pair's faces */
+  PetscReal        depth;                /* 0: from the thickness of the bodies */
+  PetscReal        cosine;               /* facets pair when n1.n2 is at most this */
+  PetscReal        overlap_drop;         /* relative to the smaller facet's area */
+  PetscReal        row_drop;             /* relative to the largest row's 1-norm */
+  PetscInt         noverlaps, nrows;     /* of the last linearization: overlaps on this rank, rows on all */
+  /* Adds one pair's gap and coupling to the assembly */
+  PetscErrorCode (*gap)(Contact, const ContactPairData *, const ContactCandidates *, const ContactNear *, ContactAssembly *);
+};
+
+/* surface.c */
+PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
+
+/* thickness.c */
+PETSC_INTERN PetscErrorCode ContactBodyThickness(DM, PetscInt *nbodies, PetscReal *thickness[]);
+
+/* search.c */
+PETSC_INTERN void           ContactFacetBox(const PetscReal x[12], PetscReal inflate, PetscReal box[6]);
+PETSC_INTERN PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+PETSC_INTERN PetscErrorCode ContactSearch(const ContactPairData *, const ContactCandidates *, ContactNear *);
+PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
+
+/* exchange.c */
+PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const ContactPairData *, ContactCandidates *);
+PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
+
+/* clip.c: convex polygons in the plane, vertices counterclockwise */
+#define CONTACT_MAX_POLYGON 32
+PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
+PETSC_INTERN void      ContactPolygonCentroid(PetscInt n, const PetscReal p[][2], PetscReal c[2]);
+PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
+
+/* quadrature.c */
+#define CONTACT_TRIANGLE_POINTS 7
+PETSC_INTERN void ContactTriangleRule(PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], PetscReal weight[CONTACT_TRIANGLE_POINTS]);
+
+/* facet.c: bilinear facets */
+PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
+PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
+PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
+PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+
+/* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
+   frozen, the weighted gap is linear in the coordinates. */
+#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_TRIANGLE_POINTS)
+typedef struct {
+  PetscInt  n;
+  PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
+  PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
+  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
+  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
+} ContactOverlap;
+typedef struct {
+  PetscReal cosine, overlap_drop, distance, depth;
+} ContactOverlapLimits;
+PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, ContactOverlap *);
+
+/* integrate.c */
+typedef struct {
+  PetscReal gap[4];      /* int phi_A (x2 - x1).n_A [length^3] */
+  PetscReal weight[4];   /* int phi_A over the overlap [length^2] */
+  PetscReal D[4][4];     /* int phi_A N1_B */
+  PetscReal M[4][4];     /* int phi_A N2_B */
+} ContactIntegrals;
+PETSC_INTERN void           ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
+PETSC_INTERN PetscErrorCode ContactGap_Mortar(Contact, const ContactPairData *, const ContactCandidates *, const ContactNear *, ContactAssembly *);
+
+/* rows.c */
+PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
+
+/* assemble.c */
+PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
+PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, const PetscInt node[4], const PetscReal value[4]);
+PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
+PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
+
+#endif

@@ -1,0 +1,139 @@
+/* Mortar facets go to the ranks whose nonmortar facets they may face; nothing else of a mesh is exchanged */
+#include <petscsf.h>
+#include "contactimpl.h"
+
+/* Facets on their way, those for one rank together */
+typedef struct {
+  PetscMPIInt  nranks, *rank;
+  PetscInt    *range; /* [2 nranks] for each rank, first facet and number of facets */
+  PetscInt     n, *node;
+  PetscReal   *x;
+} Outgoing;
+
+/* Every rank's box about its nonmortar facets, inflated by the search distance; empty where it has none */
+static PetscErrorCode GatherBoxes(MPI_Comm comm, const ContactPairData *pair, PetscReal boxes[])
+{
+  const ContactSurface *s       = &pair->nonmortar;
+  const PetscReal       inflate = PetscMax(pair->distance, pair->depth);
+  PetscReal             mine[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < s->nfacets; ++f) {
+    PetscReal box[6];
+
+    ContactFacetBox(&s->x[12 * f], inflate, box);
+    for (PetscInt c = 0; c < 3; ++c) {
+      mine[c]     = PetscMin(mine[c], box[c]);
+      mine[3 + c] = PetscMax(mine[3 + c], box[3 + c]);
+    }
+  }
+  PetscCallMPI(MPI_Allgather(mine, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Counts the facets for each rank, or packs them once out->x is there */
+static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[], Outgoing *out)
+{
+  PetscFunctionBegin;
+  out->n      = 0;
+  out->nranks = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    const PetscInt first = out->n;
+
+    for (PetscInt f = 0; f < s->nfacets; ++f) {
+      PetscReal box[6];
+
+      ContactFacetBox(&s->x[12 * f], 0.0, box);
+      if (!ContactBoxesMeet(box, &boxes[6 * r])) continue;
+      if (out->x) {
+        PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
+        PetscCall(PetscArraycpy(&out->node[4 * out->n], &s->node[4 * f], 4));
+      }
+      ++out->n;
+    }
+    if (out->n == first) continue;
+    out->rank[out->nranks]          = r;
+    out->range[2 * out->nranks]     = first;
+    out->range[2 * out->nranks + 1] = out->n - first;
+    ++out->nranks;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The star forest from the facets that go out (roots) to those that come in (leaves), by rank they come from */
+static PetscErrorCode CreateForest(MPI_Comm comm, const Outgoing *out, PetscInt *nincoming, PetscSF *sf)
+{
+  PetscMPIInt  nfrom, *from;
+  PetscInt    *range, *order, n = 0;
+  PetscSFNode *remote;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCommBuildTwoSided(comm, 2, MPIU_INT, out->nranks, out->rank, out->range, &nfrom, &from, &range));
+  PetscCall(PetscMalloc1(nfrom, &order));
+  for (PetscMPIInt i = 0; i < nfrom; ++i) {
+    order[i] = i;
+    n += range[2 * i + 1];
+  }
+  PetscCall(PetscSortMPIIntWithIntArray(nfrom, from, order));
+  PetscCall(PetscMalloc1(n, &remote));
+  *nincoming = n;
+  n          = 0;
+  for (PetscMPIInt i = 0; i < nfrom; ++i) {
+    for (PetscInt k = 0; k < range[2 * order[i] + 1]; ++k) {
+      remote[n].rank    = from[i];
+      remote[n++].index = range[2 * order[i]] + k;
+    }
+  }
+  PetscCall(PetscFree(order));
+  PetscCall(PetscFree(from));
+  PetscCall(PetscFree(range));
+  PetscCall(PetscSFCreate(comm, sf));
+  PetscCall(PetscSFSetGraph(*sf, out->n, n, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Broadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit, const void *out, void *in)
+{
+  MPI_Datatype type;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Type_contiguous(count, unit, &type));
+  PetscCallMPI(MPI_Type_commit(&type));
+  PetscCall(PetscSFBcastBegin(sf, type, out, in, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, type, out, in, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&type));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The mortar facets of all ranks whose boxes meet the box about this rank's nonmortar facets */
+PetscErrorCode ContactExchange(MPI_Comm comm, const ContactPairData *pair, ContactCandidates *in)
+{
+  PetscMPIInt size;
+  PetscReal  *boxes;
+  PetscSF     sf;
+  Outgoing    out = {0};
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
+  PetscCall(GatherBoxes(comm, pair, boxes));
+  PetscCall(PackFacets(&pair->mortar, size, boxes, &out));
+  PetscCall(PetscMalloc2(12 * out.n, &out.x, 4 * out.n, &out.node));
+  if (out.n) PetscCall(PackFacets(&pair->mortar, size, boxes, &out));
+  PetscCall(CreateForest(comm, &out, &in->n, &sf));
+  PetscCall(PetscMalloc2(12 * in->n, &in->x, 4 * in->n, &in->node));
+  PetscCall(Broadcast(sf, 12, MPIU_REAL, out.x, in->x));
+  PetscCall(Broadcast(sf, 4, MPIU_INT, out.node, in->node));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscCall(PetscFree2(out.x, out.node));
+  PetscCall(PetscFree3(boxes, out.rank, out.range));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(in->x, in->node));
+  in->n = 0;
+  PetscFunctionReturn(0);
+}

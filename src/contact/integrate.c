@@ -1,0 +1,72 @@
+/* Mortar integrals of a pair of facets, and of all pairs of this rank's nonmortar facets */
+#include "contactimpl.h"
+
+/* All sums over the points of the overlap; coordinates of both facets interpolated there */
+void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *m)
+{
+  *m = (ContactIntegrals){0};
+  for (PetscInt q = 0; q < o->n; ++q) {
+    PetscReal phi1[4], phi2[4], d[3] = {0, 0, 0};
+
+    ContactShape(o->xi1[q], phi1);
+    ContactShape(o->xi2[q], phi2);
+    for (PetscInt b = 0; b < 4; ++b) {
+      for (PetscInt c = 0; c < 3; ++c) d[c] += phi2[b] * (x2[3 * b + c] - x1[c]) - phi1[b] * (x1[3 * b + c] - x1[c]);
+    }
+    for (PetscInt a = 0; a < 4; ++a) {
+      const PetscReal w = o->weight[q] * phi1[a];
+
+      m->weight[a] += w;
+      for (PetscInt c = 0; c < 3; ++c) m->gap[a] += w * d[c] * normals[3 * a + c];
+      for (PetscInt b = 0; b < 4; ++b) {
+        m->D[a][b] += w * phi1[b];
+        m->M[a][b] += w * phi2[b];
+      }
+    }
+  }
+}
+
+/* One nonmortar facet against the candidates near it */
+static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const ContactPairData *pair, PetscInt f, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
+{
+  const PetscReal *x1 = &pair->nonmortar.x[12 * f], *normal = &pair->normal[12 * f];
+  const PetscInt  *row = &pair->row[4 * f];
+  PetscReal        D[4][4] = {{0}};
+  PetscScalar      gap[4]  = {0};
+  PetscInt         n = 0;
+  ContactOverlap   overlap;
+  ContactIntegrals m;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < nnear; ++k) {
+    const PetscReal *x2 = &mortar->x[12 * near[k]];
+
+    if (!ContactOverlapFind(x1, x2, limits, &overlap)) continue;
+    ContactIntegrate(&overlap, x1, x2, normal, &m);
+    ++n;
+    for (PetscInt a = 0; a < 4; ++a) {
+      gap[a] += m.gap[a];
+      for (PetscInt b = 0; b < 4; ++b) D[a][b] -= m.D[a][b];
+      PetscCall(ContactAssemblyAdd(assembly, row[a], &mortar->node[4 * near[k]], m.M[a]));
+    }
+  }
+  if (n) {
+    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], &pair->nonmortar.node[4 * f], D[a]));
+    PetscCall(VecSetValues(assembly->gap, 4, row, gap, ADD_VALUES));
+  }
+  *noverlaps += n;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactGap_Mortar(Contact contact, const ContactPairData *pair, const ContactCandidates *mortar, const ContactNear *near, ContactAssembly *assembly)
+{
+  const ContactOverlapLimits limits = {contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
+    const PetscInt first = near->offset[f], n = near->offset[f + 1] - first;
+
+    PetscCall(MortarFacet(&limits, pair, f, mortar, n, near->facet + first, assembly, &contact->noverlaps));
+  }
+  PetscFunctionReturn(0);
+}

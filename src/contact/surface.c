@@ -1,0 +1,152 @@
+/* The facets of a named face: taken from the mesh once, deformed at every linearization */
+#include <mesh.h>
+#include "contactimpl.h"
+
+/* Number of a vertex among those of all ranks; the mesh lays out 3 rows a vertex, owned ones as they are, others encoded */
+static PetscErrorCode VertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
+{
+  PetscInt offset;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSectionGetOffset(global, vertex, &offset));
+  *node = (offset < 0 ? -(offset + 1) : offset) / 3;
+  PetscFunctionReturn(0);
+}
+
+/* x = values of a local vector of 3 components a vertex at n vertices */
+static PetscErrorCode GatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[], PetscReal x[])
+{
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(local, &a));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, vertex[i], &offset));
+    for (PetscInt c = 0; c < 3; ++c) x[3 * i + c] = PetscRealPart(a[offset + c]);
+  }
+  PetscCall(VecRestoreArrayRead(local, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Smallest thickness of the bodies these facets belong to */
+static PetscErrorCode SurfaceThickness(DM dm, PetscInt nfacets, const PetscInt facet[], const PetscReal thickness[], PetscReal *smallest)
+{
+  PetscReal mine = PETSC_MAX_REAL;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < nfacets; ++f) {
+    const PetscInt *cell;
+    PetscInt        body;
+
+    PetscCall(DMPlexGetSupport(dm, facet[f], &cell));
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cell[0], &body));
+    mine = PetscMin(mine, thickness[body]);
+  }
+  PetscCallMPI(MPI_Allreduce(&mine, smallest, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)dm)));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. thickness: of every body */
+PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal thickness[], ContactSurface *s)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        total;
+  PetscReal       mass[4], area = 0.0;
+  PetscSection    global, coordsection;
+  Vec             coordinates;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(face, &s->name));
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &s->nfacets));
+  PetscCallMPI(MPI_Allreduce(&s->nfacets, &total, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCheck(total > 0, comm, PETSC_ERR_ARG_WRONG, "Face \"%s\" of a contact pair has no facets", face);
+  PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference, 12 * s->nfacets, &s->x));
+  PetscCall(DMGetGlobalSection(dm, &global));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < s->nfacets; ++i) {
+    PetscCall(MeshGetFacetVertices(dm, f[i], &s->vertex[4 * i]));
+    for (PetscInt a = 0; a < 4; ++a) PetscCall(VertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));
+  }
+  PetscCall(SurfaceThickness(dm, s->nfacets, f, thickness, &s->thickness));
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &coordsection));
+  PetscCall(GatherVertices(coordsection, coordinates, 4 * s->nfacets, s->vertex, s->reference));
+  for (PetscInt i = 0; i < s->nfacets; ++i) area += ContactFacetMass(&s->reference[12 * i], mass);
+  PetscCallMPI(MPI_Allreduce(&area, &s->area, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Coordinates of the vertices moved by a local displacement vector */
+PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
+{
+  PetscSection section;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(GatherVertices(section, ulocal, 4 * s->nfacets, s->vertex, s->x));
+  for (PetscInt i = 0; i < 12 * s->nfacets; ++i) s->x[i] += s->reference[i];
+  PetscFunctionReturn(0);
+}
+
+static void Normalize(PetscInt n, PetscReal normal[])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscReal      *v      = &normal[3 * i];
+    const PetscReal length = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+
+    for (PetscInt c = 0; c < 3; ++c) v[c] = length > 0.0 ? v[c] / length : 0.0;
+  }
+}
+
+/*
+  Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the sum of
+  the area vectors of the face's facets about a vertex, whatever ranks they are on, scaled to length 1. Zero where they
+  cancel: such a vertex has no normal, and its row is empty.
+*/
+PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[])
+{
+  PetscSection section;
+  PetscScalar *a;
+  Vec          local, global;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMGetLocalVector(dm, &local));
+  PetscCall(DMGetGlobalVector(dm, &global));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecZeroEntries(global));
+  PetscCall(VecGetArray(local, &a));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    PetscReal area[3];
+    PetscInt  offset;
+
+    ContactFacetAreaVector(&s->x[12 * (i / 4)], area);
+    PetscCall(PetscSectionGetOffset(section, s->vertex[i], &offset));
+    for (PetscInt c = 0; c < 3; ++c) a[offset + c] += area[c];
+  }
+  PetscCall(VecRestoreArray(local, &a));
+  PetscCall(DMLocalToGlobal(dm, local, ADD_VALUES, global));
+  PetscCall(DMGlobalToLocal(dm, global, INSERT_VALUES, local));
+  PetscCall(GatherVertices(section, local, 4 * s->nfacets, s->vertex, normal));
+  PetscCall(GatherVertices(section, local, n, vertex, vertexnormal));
+  PetscCall(DMRestoreGlobalVector(dm, &global));
+  PetscCall(DMRestoreLocalVector(dm, &local));
+  Normalize(4 * s->nfacets, normal);
+  Normalize(n, vertexnormal);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(s->name));
+  PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,192 @@
+/* Elasticity: creation, options, prescribed displacements */
+#include "elasticity_private.h"
+#include <mesh.h>
+
+static PetscClassId ELASTICITY_CLASSID;
+PetscLogEvent       ELASTICITY_Tangent, ELASTICITY_Force;
+
+static PetscErrorCode ElasticityInitializePackage(void)
+{
+  static PetscBool initialized = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (initialized) PetscFunctionReturn(0);
+  initialized = PETSC_TRUE;
+  PetscCall(PetscClassIdRegister("Elasticity", &ELASTICITY_CLASSID));
+  PetscCall(PetscLogEventRegister("ElastTangent", ELASTICITY_CLASSID, &ELASTICITY_Tangent));
+  PetscCall(PetscLogEventRegister("ElastForce", ELASTICITY_CLASSID, &ELASTICITY_Force));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ElasticityReadOptions(Elasticity e)
+{
+  PetscInt points = 2;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(e->mattype, MATBAIJ, sizeof(e->mattype)));
+  PetscOptionsBegin(PetscObjectComm((PetscObject)e->dm), NULL, "Elasticity options", NULL);
+  PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3", "ElasticityCreate", points, &points, NULL));
+  PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList, e->mattype, e->mattype, sizeof(e->mattype), NULL));
+  PetscOptionsEnd();
+  PetscCall(HexBasisCreate(points, &e->basis));
+  PetscFunctionReturn(0);
+}
+
+/* Nodes and body of every cell */
+static PetscErrorCode ElasticitySetUpCells(Elasticity e)
+{
+  MPI_Comm     comm = PetscObjectComm((PetscObject)e->dm);
+  PetscSection section, coordinates;
+  DMLabel      label;
+  PetscInt     start, end, size, bad[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(e->dm, &section));
+  PetscCall(DMGetCoordinateSection(e->dm, &coordinates));
+  PetscCall(DMGetLabel(e->dm, MESH_BODY_LABEL, &label));
+  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\" that gives the body of each cell", MESH_BODY_LABEL);
+  PetscCall(DMPlexGetHeightStratum(e->dm, 0, &start, &end));
+  PetscCall(PetscSectionGetStorageSize(section, &size));
+  e->nnodes = size / 3;
+  e->ncells = end - start;
+  PetscCall(PetscMalloc2(8 * e->ncells, &e->cellnodes, e->ncells, &e->cellbody));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscInt vertices[8];
+
+    PetscCall(DMLabelGetValue(label, start + c, &e->cellbody[c]));
+    if (e->cellbody[c] < 0 || e->cellbody[c] >= e->nbodies) bad[0] = 1;
+    PetscCall(MeshGetCellVertices(e->dm, start + c, vertices));
+    for (PetscInt a = 0; a < 8; ++a) {
+      PetscInt offset, coordinateoffset;
+
+      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+      PetscCall(PetscSectionGetOffset(coordinates, vertices[a], &coordinateoffset));
+      if (offset != coordinateoffset) bad[1] = 1;
+      e->cellnodes[8 * c + a] = offset / 3;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPIU_INT, MPI_MAX, comm));
+  PetscCheck(!bad[0], comm, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
+  PetscCheck(!bad[1], comm, PETSC_ERR_ARG_WRONG, "The mesh's local section does not lay out the displacements as the coordinates are");
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityCreate - Creates the elasticity of the bodies of a mesh, with trilinear hexahedra and full integration
+
+  Collective
+
+  Input Parameters:
++ dm        - the mesh, from `MeshCreate()`
+. nbodies   - number of bodies
+- materials - materials[b] belongs to the cells whose "body" label is b
+
+  Output Parameter:
+. elasticity - the new context
+
+  Options Database Keys:
++ -elasticity_quadrature <2>   - Gauss points per axis, 2 or 3; 2 is exact for the linear law on parallelepipeds
+- -elasticity_mat_type <baij>  - type of the tangent: baij, aij or sbaij
+
+  Level: beginner
+
+.seealso: `MeshCreate()`, `ElasticitySetPrescribed()`, `ElasticityCreateTangent()`, `ElasticityForce()`
+@*/
+PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], Elasticity *elasticity)
+{
+  Elasticity e;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityInitializePackage());
+  PetscCall(PetscNew(&e));
+  PetscCall(PetscObjectReference((PetscObject)dm));
+  e->dm      = dm;
+  e->nbodies = nbodies;
+  PetscCall(PetscMalloc1(nbodies, &e->bodies));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    PetscCall(MaterialGetLame(&materials[b], &e->bodies[b].lambda, &e->bodies[b].mu));
+    PetscCall(MaterialGetLaw(&materials[b], &e->bodies[b].law));
+  }
+  PetscCall(ElasticityReadOptions(e));
+  PetscCall(ElasticitySetUpCells(e));
+  *elasticity = e;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticitySetPrescribed - Sets the unknowns whose displacement is prescribed
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- rows       - global rows owned by this rank, repeated ones allowed; `NULL` for none
+
+  Level: beginner
+
+  Notes:
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it.
+
+.seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
+@*/
+PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
+{
+  Vec                global, local;
+  PetscScalar       *g;
+  const PetscScalar *l;
+  const PetscInt    *r;
+  PetscInt           n, first, last, bad = -1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(e->prescribed));
+  if (!rows) PetscFunctionReturn(0);
+  PetscCall(DMGetGlobalVector(e->dm, &global));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(global));
+  PetscCall(VecGetOwnershipRange(global, &first, &last));
+  PetscCall(ISGetLocalSize(rows, &n));
+  PetscCall(ISGetIndices(rows, &r));
+  PetscCall(VecGetArray(global, &g));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (r[i] < first || r[i] >= last) bad = r[i];
+    else g[r[i] - first] = 1;
+  }
+  PetscCall(VecRestoreArray(global, &g));
+  PetscCall(ISRestoreIndices(rows, &r));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
+  PetscCheck(bad < 0, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "Prescribed row %" PetscInt_FMT " is not owned by the rank that gives it", bad);
+  PetscCall(DMGlobalToLocal(e->dm, global, INSERT_VALUES, local));
+  PetscCall(PetscCalloc1(e->nnodes, &e->prescribed));
+  PetscCall(VecGetArrayRead(local, &l));
+  for (PetscInt i = 0; i < 3 * e->nnodes; ++i) {
+    if (PetscRealPart(l[i]) > 0) e->prescribed[i / 3] |= (unsigned char)(1 << i % 3);
+  }
+  PetscCall(VecRestoreArrayRead(local, &l));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscCall(DMRestoreGlobalVector(e->dm, &global));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityDestroy - Destroys an elasticity context
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Level: beginner
+
+.seealso: `ElasticityCreate()`
+@*/
+PetscErrorCode ElasticityDestroy(Elasticity *e)
+{
+  PetscFunctionBegin;
+  if (!*e) PetscFunctionReturn(0);
+  PetscCall(DMDestroy(&(*e)->dm));
+  PetscCall(PetscFree((*e)->bodies));
+  PetscCall(PetscFree2((*e)->cellnodes, (*e)->cellbody));
+  PetscCall(PetscFree((*e)->prescribed));
+  PetscCall(PetscFree(*e));
+  PetscFunctionReturn(0);
+}

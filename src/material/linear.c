@@ -1,0 +1,50 @@
+/* Isotropic linear elasticity: W = lambda/2 (tr e)^2 + mu e:e, e = (H + H^T)/2 */
+#include "laws.h"
+
+static PetscReal MaterialEnergy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+{
+  const PetscReal trace = H[0] + H[4] + H[8];
+  const PetscReal xy = H[1] + H[3], yz = H[5] + H[7], zx = H[2] + H[6];
+
+  return 0.5 * lambda * trace * trace + mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
+}
+
+static void MaterialCauchy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+{
+  const PetscReal pressure = lambda * (H[0] + H[4] + H[8]);
+
+  sigma[0] = pressure + 2 * mu * H[0];
+  sigma[1] = pressure + 2 * mu * H[4];
+  sigma[2] = pressure + 2 * mu * H[8];
+  sigma[3] = mu * (H[1] + H[3]);
+  sigma[4] = mu * (H[5] + H[7]);
+  sigma[5] = mu * (H[2] + H[6]);
+}
+
+static void MaterialStress_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+{
+  PetscReal s[6];
+
+  MaterialCauchy_Linear(lambda, mu, H, s);
+  P[0] = s[0];
+  P[4] = s[1];
+  P[8] = s[2];
+  P[1] = P[3] = s[3];
+  P[5] = P[7] = s[4];
+  P[2] = P[6] = s[5];
+}
+
+static void MaterialTangent_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+{
+  (void)H;
+  for (int i = 0; i < 81; ++i) A[i] = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      A[9 * (3 * i + i) + 3 * j + j] += lambda;
+      A[9 * (3 * i + j) + 3 * i + j] += mu;
+      A[9 * (3 * i + j) + 3 * j + i] += mu;
+    }
+  }
+}
+
+const MaterialLaw MaterialLawLinear = {PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear};

@@ -1,0 +1,162 @@
+/* PETSCPARTITIONER "metis": serial METIS on the gathered graph. Debian's PETSc is built without ParMETIS. */
+#include <mesh.h>
+#include <petsc/private/partitionerimpl.h>
+#include <metis.h>
+
+#define PETSCPARTITIONERMETIS "metis"
+
+/* Above this number of parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section 5.1) */
+#define METIS_RECURSIVE_MAX_PARTS 8
+
+/* Calls METIS on a whole graph; part[v] in [0, nparts) when *status is METIS_OK */
+static PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[], int *status)
+{
+  idx_t n, ncon = 1, np, cut, *xadj, *adjncy, *vwgt = NULL, *where, options[METIS_NOPTIONS];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(nv + 1, &xadj, start[nv], &adjncy, nv, &where));
+  for (PetscInt v = 0; v <= nv; ++v) xadj[v] = (idx_t)start[v];
+  for (PetscInt e = 0; e < start[nv]; ++e) adjncy[e] = (idx_t)adjacency[e];
+  if (weights) {
+    PetscCall(PetscMalloc1(nv, &vwgt));
+    for (PetscInt v = 0; v < nv; ++v) vwgt[v] = (idx_t)weights[v];
+  }
+  n  = (idx_t)nv;
+  np = (idx_t)nparts;
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  if (nparts <= METIS_RECURSIVE_MAX_PARTS) *status = METIS_PartGraphRecursive(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
+  else *status = METIS_PartGraphKway(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
+  for (PetscInt v = 0; v < nv; ++v) part[v] = *status == METIS_OK ? (PetscInt)where[v] : 0;
+  PetscCall(PetscFree(vwgt));
+  PetscCall(PetscFree3(xadj, adjncy, where));
+  PetscFunctionReturn(0);
+}
+
+/* METIS's index type may be narrower than PetscInt; its graph is bounded here by what MPI can gather at once, which fits either.
+   Concatenates the ranks' arrays on rank 0; *all and *total matter there only */
+static PetscErrorCode GatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
+{
+  PetscMPIInt rank, size, count;
+  PetscInt64  sum = 0, local64 = n;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCallMPI(MPI_Allreduce(&local64, &sum, 1, MPIU_INT64, MPI_SUM, comm));
+  PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP, "The graph to be gathered for METIS has %" PetscInt64_FMT " entries; distribute a coarser mesh", sum);
+  PetscCall(PetscMPIIntCast(n, &count));
+  PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
+  *total = (PetscInt)sum;
+  *all   = NULL;
+  if (!rank) {
+    displs[0] = 0;
+    for (PetscMPIInt r = 1; r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
+    PetscCall(PetscMalloc1(sum, all));
+  }
+  PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+/* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without vertices though `weighted` */
+static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
+{
+  PetscMPIInt rank, size, *counts, *displs, nvlocal;
+  int         status = METIS_OK;
+  PetscInt    nvall, neall, *degree, *alldegree, *alladjacency, *allweights = NULL, *allstart = NULL, *allpart = NULL;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc3(size, &counts, size, &displs, nv, &degree));
+  for (PetscInt v = 0; v < nv; ++v) degree[v] = start[v + 1] - start[v];
+  PetscCall(GatherArray(comm, nv ? start[nv] : 0, adjacency, counts, displs, &neall, &alladjacency));
+  if (weighted) PetscCall(GatherArray(comm, nv, weights, counts, displs, &nvall, &allweights));
+  PetscCall(GatherArray(comm, nv, degree, counts, displs, &nvall, &alldegree));
+  if (!rank) {
+    PetscCall(PetscMalloc2(nvall + 1, &allstart, nvall, &allpart));
+    allstart[0] = 0;
+    for (PetscInt v = 0; v < nvall; ++v) allstart[v + 1] = allstart[v] + alldegree[v];
+    PetscCall(MetisPartitionGraph(nparts, nvall, allstart, alladjacency, allweights, allpart, &status));
+  }
+  PetscCallMPI(MPI_Bcast(&status, 1, MPI_INT, 0, comm));
+  PetscCheck(status == METIS_OK, comm, PETSC_ERR_LIB, "METIS failed with status %d on a graph of %" PetscInt_FMT " vertices for %" PetscInt_FMT " parts", status, nvall, nparts);
+  PetscCall(PetscMPIIntCast(nv, &nvlocal));
+  PetscCallMPI(MPI_Scatterv(allpart, counts, displs, MPIU_INT, part, nvlocal, MPIU_INT, 0, comm));
+  PetscCall(PetscFree2(allstart, allpart));
+  PetscCall(PetscFree(alldegree));
+  PetscCall(PetscFree(alladjacency));
+  PetscCall(PetscFree(allweights));
+  PetscCall(PetscFree3(counts, displs, degree));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, PetscInt nparts, PetscInt nv, PetscInt start[], PetscInt adjacency[], PetscSection vertexsection, PetscSection targetsection, PetscSection partsection, IS *partition)
+{
+  MPI_Comm  comm = PetscObjectComm((PetscObject)part);
+  PetscInt *assignment, *weights = NULL, *points, *next;
+
+  PetscFunctionBegin;
+  PetscCheck(!targetsection, comm, PETSC_ERR_SUP, "Partitioner metis makes parts of equal weight only");
+  PetscCall(PetscMalloc3(nv, &assignment, vertexsection ? nv : 0, &weights, nparts, &next));
+  if (vertexsection) {
+    for (PetscInt v = 0; v < nv; ++v) PetscCall(PetscSectionGetDof(vertexsection, v, &weights[v]));
+  }
+  PetscCall(MetisPartitionDistributed(comm, nparts, nv, start, adjacency, vertexsection ? PETSC_TRUE : PETSC_FALSE, weights, assignment));
+
+  PetscCall(PetscArrayzero(next, nparts));
+  for (PetscInt v = 0; v < nv; ++v) ++next[assignment[v]];
+  for (PetscInt p = 0, offset = 0; p < nparts; ++p) {
+    const PetscInt n = next[p];
+
+    PetscCall(PetscSectionSetDof(partsection, p, n));
+    next[p] = offset;
+    offset += n;
+  }
+  PetscCall(PetscMalloc1(nv, &points));
+  for (PetscInt v = 0; v < nv; ++v) points[next[assignment[v]]++] = v;
+  PetscCall(ISCreateGeneral(comm, nv, points, PETSC_OWN_POINTER, partition));
+  PetscCall(PetscFree3(assignment, weights, next));
+  PetscFunctionReturn(0);
+}
+
+/*MC
+  PETSCPARTITIONERMETIS = "metis" - A PetscPartitioner that gathers the graph on rank 0 and calls METIS there
+
+  Level: intermediate
+
+  Notes:
+  Meant for the level 0 mesh, before uniform refinement: the whole graph must fit on rank 0. Up to 8 parts are made by
+  recursive bisection, more by multilevel k-way partitioning.
+
+  References:
+. * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci. Comput. 20 (1998)
+
+.seealso: `MeshRegisterPartitioner()`, `PetscPartitionerSetType()`
+M*/
+static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
+{
+  PetscFunctionBegin;
+  part->noGraph        = PETSC_FALSE;
+  part->ops->partition = PetscPartitionerPartition_Metis;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshRegisterPartitioner - Registers the PetscPartitioner type "metis"
+
+  Not Collective
+
+  Level: developer
+
+  Notes:
+  `MeshCreate()` calls it; a program that distributes its own DMPlex calls it before `-petscpartitioner_type metis` is read.
+
+.seealso: `MeshCreate()`, `PetscPartitionerRegister()`
+@*/
+PetscErrorCode MeshRegisterPartitioner(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPartitionerRegister(PETSCPARTITIONERMETIS, PetscPartitionerCreate_Metis));
+  PetscFunctionReturn(0);
+}

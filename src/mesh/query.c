@@ -1,0 +1,212 @@
+/* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
+#include "mesh_private.h"
+
+/* Points of a face label's stratum 1 within [start, end), as a sorted index set, empty on ranks without any */
+static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)
+{
+  PetscBool       has;
+  IS              all;
+  const PetscInt *p;
+  PetscInt        n, first, last;
+
+  PetscFunctionBegin;
+  PetscCall(DMHasLabel(dm, face, &has));
+  PetscCheck(has, PetscObjectComm((PetscObject)dm), PETSC_ERR_ARG_WRONG, "The mesh has no face \"%s\"", face);
+  PetscCall(DMGetStratumIS(dm, face, 1, &all));
+  if (!all) {
+    PetscCall(ISCreateGeneral(PETSC_COMM_SELF, 0, NULL, PETSC_COPY_VALUES, points));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ISSort(all));
+  PetscCall(ISGetLocalSize(all, &n));
+  PetscCall(ISGetIndices(all, &p));
+  PetscCall(PetscFindInt(start, n, p, &first));
+  PetscCall(PetscFindInt(end, n, p, &last));
+  if (first < 0) first = -(first + 1);
+  if (last < 0) last = -(last + 1);
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, last - first, p + first, PETSC_COPY_VALUES, points));
+  PetscCall(ISRestoreIndices(all, &p));
+  PetscCall(ISDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFacets - Gets the facets of a named face that this rank has
+
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. facets - the facets as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+
+  Level: intermediate
+
+  Notes:
+  Every facet is on exactly one rank. A name that is not a face of the mesh is an error.
+
+.seealso: `MeshCreate()`, `MeshGetFaceVertices()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, facets));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFaceVertices - Gets the vertices of a named face that this rank has, also those whose facets are on other ranks
+
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. vertices - the vertices as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+
+  Level: intermediate
+
+.seealso: `MeshCreate()`, `MeshGetFacets()`, `MeshGetFaceDofs()`
+@*/
+PetscErrorCode MeshGetFaceVertices(DM dm, const char face[], IS *vertices)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, vertices));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFaceDofs - Gets the global rows of one displacement component on a named face
+
+  Collective
+
+  Input Parameters:
++ dm        - the mesh
+. face      - name of the face, "<body>.<face>"
+- component - 0, 1 or 2
+
+  Output Parameter:
+. rows - the global rows that this rank owns, sorted; an index set on the mesh's communicator
+
+  Level: intermediate
+
+.seealso: `MeshGetFaceVertices()`, `ElasticitySetPrescribed()`
+@*/
+PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS *rows)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  IS              vertices;
+  PetscSection    section;
+  const PetscInt *v;
+  PetscInt        n, nowned = 0, *owned;
+
+  PetscFunctionBegin;
+  PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE, "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
+  PetscCall(MeshGetFaceVertices(dm, face, &vertices));
+  PetscCall(DMGetGlobalSection(dm, &section));
+  PetscCall(ISGetLocalSize(vertices, &n));
+  PetscCall(ISGetIndices(vertices, &v));
+  PetscCall(PetscMalloc1(n, &owned));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, v[i], &offset));
+    if (offset >= 0) owned[nowned++] = offset + component;
+  }
+  PetscCall(ISRestoreIndices(vertices, &v));
+  PetscCall(ISDestroy(&vertices));
+  PetscCall(ISCreateGeneral(comm, nowned, owned, PETSC_COPY_VALUES, rows));
+  PetscCall(PetscFree(owned));
+  PetscCall(ISSort(*rows));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFacetVertices - Gets the vertices of a boundary facet, counterclockwise seen from outside the body
+
+  Not Collective
+
+  Input Parameters:
++ dm    - the mesh
+- facet - the facet, a local DMPlex point with one cell
+
+  Output Parameter:
+. vertices - its 4 vertices, local DMPlex points
+
+  Level: developer
+
+.seealso: `MeshGetFacets()`, `MeshGetCellVertices()`
+@*/
+PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
+{
+  const PetscInt *cells, *cone, *orientation;
+  PetscInt        ncells, nfacets, npoints, vstart, vend, n = 0, sign = 0, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
+  PetscCheck(ncells == 1, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a boundary facet: it has %" PetscInt_FMT " cells", facet, ncells);
+  PetscCall(DMPlexGetSupport(dm, facet, &cells));
+  PetscCall(DMPlexGetConeSize(dm, cells[0], &nfacets));
+  PetscCall(DMPlexGetCone(dm, cells[0], &cone));
+  PetscCall(DMPlexGetConeOrientation(dm, cells[0], &orientation));
+  for (PetscInt f = 0; f < nfacets; ++f) {
+    if (cone[f] == facet) sign = orientation[f];
+  }
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(DMPlexGetTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints; ++p) {
+    const PetscInt q = closure[2 * p];
+
+    /* a negative orientation: the cell sees the facet's vertices in reverse */
+    if (q >= vstart && q < vend) {
+      vertices[sign < 0 ? 3 - n : n] = q;
+      ++n;
+    }
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetCellVertices - Gets the vertices of a hexahedron in tensor order
+
+  Not Collective
+
+  Input Parameters:
++ dm   - the mesh
+- cell - the cell, a local DMPlex point
+
+  Output Parameter:
+. vertices - its 8 vertices, local DMPlex points; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube
+
+  Level: developer
+
+.seealso: `MeshCreate()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
+{
+  PetscInt npoints, vstart, vend, n = 0, plex[8], *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints && n < 8; ++p) {
+    const PetscInt q = closure[2 * p];
+
+    if (q >= vstart && q < vend) plex[n++] = q;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  PetscCheck(n == 8, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a hexahedron", cell);
+  for (PetscInt a = 0; a < 8; ++a) vertices[a] = plex[MeshHexTensorOrder[a]];
+  PetscFunctionReturn(0);
+}

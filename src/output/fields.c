@@ -1,0 +1,212 @@
+/* Mesh and fields as HDF5 datasets: vertices in the order of the DM's global vectors, cells rank by rank */
+#include "outputimpl.h"
+#include <mesh.h>
+#include <math.h>
+
+static PetscErrorCode FieldCreate(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCreate(output->comm, field));
+  PetscCall(VecSetSizes(*field, n * components, PETSC_DECIDE));
+  PetscCall(VecSetBlockSize(*field, components));
+  PetscCall(VecSetType(*field, VECSTANDARD));
+  PetscCall(PetscObjectSetName((PetscObject)*field, name));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldWrite(Vec *field, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(VecView(*field, viewer));
+  PetscCall(VecDestroy(field));
+  PetscFunctionReturn(0);
+}
+
+/* Number of a local vertex among all, whoever owns it */
+static PetscErrorCode GlobalVertex(PetscSection global, PetscInt point, PetscInt *number)
+{
+  PetscInt offset;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSectionGetOffset(global, point, &offset));
+  *number = (offset < 0 ? -(offset + 1) : offset) / 3;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteVertices(Output output, PetscViewer viewer)
+{
+  PetscSection       global, csection;
+  Vec                coordinates, field;
+  const PetscScalar *x;
+  PetscScalar       *values;
+  PetscInt           vstart, vend;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(output->dm, &global));
+  PetscCall(DMGetCoordinateSection(output->dm, &csection));
+  PetscCall(DMGetCoordinatesLocal(output->dm, &coordinates));
+  PetscCall(DMPlexGetDepthStratum(output->dm, 0, &vstart, &vend));
+  PetscCall(FieldCreate(output, "vertices", output->nowned, 3, &field));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(VecGetArray(field, &values));
+  for (PetscInt v = vstart; v < vend; ++v) {
+    PetscInt number = 0, offset, from;
+
+    PetscCall(PetscSectionGetOffset(global, v, &offset));
+    if (offset < 0) continue;
+    PetscCall(GlobalVertex(global, v, &number));
+    PetscCall(PetscSectionGetOffset(csection, v, &from));
+    for (PetscInt d = 0; d < 3; ++d) values[3 * (number - output->first) + d] = x[from + d];
+  }
+  PetscCall(VecRestoreArray(field, &values));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(FieldWrite(&field, viewer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteIndices(Output output, const char name[], PetscInt components, PetscInt *indices, PetscViewer viewer)
+{
+  IS is;
+
+  PetscFunctionBegin;
+  PetscCall(ISCreateGeneral(output->comm, output->ncellslocal * components, indices, PETSC_OWN_POINTER, &is));
+  PetscCall(ISSetBlockSize(is, components));
+  PetscCall(PetscObjectSetName((PetscObject)is, name));
+  PetscCall(ISView(is, viewer));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteCells(Output output, PetscViewer viewer)
+{
+  static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6}; /* of the tensor order: around the bottom, around the top */
+  PetscSection          global;
+  DMLabel               label;
+  PetscInt              cstart, cend, *cells, *bodies, vertices[8];
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(output->dm, &global));
+  PetscCall(DMGetLabel(output->dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  PetscCall(PetscMalloc1(8 * (cend - cstart), &cells));
+  PetscCall(PetscMalloc1(cend - cstart, &bodies));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscCall(MeshGetCellVertices(output->dm, c, vertices));
+    for (PetscInt i = 0; i < 8; ++i) PetscCall(GlobalVertex(global, vertices[vtk[i]], &cells[8 * (c - cstart) + i]));
+    PetscCall(DMLabelGetValue(label, c, &bodies[c - cstart]));
+  }
+  PetscCall(WriteIndices(output, "cells", 8, cells, viewer));
+  PetscCall(WriteIndices(output, "body", 1, bodies, viewer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteMesh(PetscViewer viewer, void *ctx)
+{
+  PetscFunctionBegin;
+  PetscCall(WriteVertices((Output)ctx, viewer));
+  PetscCall(WriteCells((Output)ctx, viewer));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputWriteMesh(Output output)
+{
+  char file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
+  PetscCall(FileWriteHDF5(output->comm, file, WriteMesh, output));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteDisplacement(Output output, Vec displacement, PetscViewer viewer)
+{
+  Vec field;
+
+  PetscFunctionBegin;
+  /* A plain vector: those of a DMPlex are viewed in PETSc's own file layout */
+  PetscCall(FieldCreate(output, "displacement", output->nowned, 3, &field));
+  PetscCall(VecCopy(displacement, field));
+  PetscCall(FieldWrite(&field, viewer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteStress(Output output, const PetscReal stress[], PetscViewer viewer)
+{
+  static const PetscInt xdmf[6] = {0, 3, 5, 1, 4, 2}; /* xx xy xz yy yz zz of xx yy zz xy yz zx */
+  Vec                   tensor, scalar;
+  PetscScalar          *t, *s;
+
+  PetscFunctionBegin;
+  PetscCall(FieldCreate(output, "stress", output->ncellslocal, 6, &tensor));
+  PetscCall(FieldCreate(output, "von_mises", output->ncellslocal, 1, &scalar));
+  PetscCall(VecGetArray(tensor, &t));
+  PetscCall(VecGetArray(scalar, &s));
+  for (PetscInt c = 0; c < output->ncellslocal; ++c) {
+    for (PetscInt i = 0; i < 6; ++i) t[6 * c + i] = stress[7 * c + xdmf[i]];
+    s[c] = stress[7 * c + 6];
+  }
+  PetscCall(VecRestoreArray(scalar, &s));
+  PetscCall(VecRestoreArray(tensor, &t));
+  PetscCall(FieldWrite(&tensor, viewer));
+  PetscCall(FieldWrite(&scalar, viewer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteContact(Output output, const OutputState *state, PetscViewer viewer)
+{
+  PetscSection global;
+  Vec          pressure, gap;
+  PetscScalar *p, *g;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(output->dm, &global));
+  PetscCall(FieldCreate(output, "contact_pressure", output->nowned, 1, &pressure));
+  PetscCall(FieldCreate(output, "contact_gap", output->nowned, 1, &gap));
+  PetscCall(VecSet(pressure, 0.0));
+  PetscCall(VecGetArray(pressure, &p));
+  PetscCall(VecGetArray(gap, &g));
+  for (PetscInt v = 0; v < output->nowned; ++v) g[v] = NAN;
+  for (PetscInt r = 0; r < state->nrows; ++r) {
+    PetscInt v = 0;
+
+    PetscCall(GlobalVertex(global, state->row_vertex[r], &v));
+    v -= output->first;
+    PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact row %" PetscInt_FMT " is at a vertex of another rank", r);
+    p[v] += state->pressure[r];
+    if (!(PetscRealPart(g[v]) <= state->gap[r])) g[v] = state->gap[r];
+  }
+  PetscCall(VecRestoreArray(gap, &g));
+  PetscCall(VecRestoreArray(pressure, &p));
+  PetscCall(FieldWrite(&pressure, viewer));
+  PetscCall(FieldWrite(&gap, viewer));
+  PetscFunctionReturn(0);
+}
+
+typedef struct {
+  Output             output;
+  const OutputState *state;
+} StateOf;
+
+static PetscErrorCode WriteState(PetscViewer viewer, void *ctx)
+{
+  Output             output = ((StateOf *)ctx)->output;
+  const OutputState *state  = ((StateOf *)ctx)->state;
+
+  PetscFunctionBegin;
+  PetscCall(WriteDisplacement(output, state->displacement, viewer));
+  PetscCall(WriteStress(output, state->stress, viewer));
+  PetscCall(WriteContact(output, state, viewer));
+  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &state->time));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputWriteFields(Output output, const OutputState *state)
+{
+  char    file[PETSC_MAX_PATH_LEN];
+  StateOf what = {output, state};
+
+  PetscFunctionBegin;
+  PetscCall(OutputGetStepFile(output, state->step, file, sizeof(file)));
+  PetscCall(FileWriteHDF5(output->comm, file, WriteState, &what));
+  PetscFunctionReturn(0);
+}

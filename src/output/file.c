@@ -1,0 +1,110 @@
+/* Files that appear whole or not at all */
+#include "outputimpl.h"
+#include <errno.h>
+#include <string.h>
+
+static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(part, length, "%s.part", file));
+  PetscFunctionReturn(0);
+}
+
+/* error is the first rank's errno */
+static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], int error)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
+  PetscCheck(!error, comm, PETSC_ERR_FILE_OPEN, "cannot write \"%s\": %s", file, strerror(error));
+  PetscFunctionReturn(0);
+}
+
+/* HDF5 has no sentence for a folder that is not there */
+static PetscErrorCode FileCheckWritable(MPI_Comm comm, const char file[])
+{
+  char        part[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE *stream = fopen(part, "wb");
+
+    if (!stream) error = errno;
+    else if (fclose(stream) || remove(part)) error = errno;
+  }
+  PetscCall(FileRaise(comm, file, error));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FileCommit(MPI_Comm comm, const char file[])
+{
+  char        part[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0 && rename(part, file)) error = errno;
+  PetscCall(FileRaise(comm, file, error));
+  PetscFunctionReturn(0);
+}
+
+static char complaint[256];
+
+static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+{
+  (void)comm, (void)line, (void)function, (void)file, (void)ctx;
+  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(complaint, message, sizeof(complaint));
+  return n;
+}
+
+PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
+{
+  char           part[PETSC_MAX_PATH_LEN];
+  PetscViewer    viewer;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(FileCheckWritable(comm, file));
+  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  complaint[0] = 0;
+  PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
+  ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
+  if (!ierr) ierr = write(viewer, ctx);
+  if (!ierr) ierr = PetscViewerDestroy(&viewer);
+  PetscCall(PetscPopErrorHandler());
+  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
+  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
+  PetscCall(FileCommit(comm, file));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx)
+{
+  char        part[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE *stream = fopen(part, "w");
+
+    if (!stream) error = errno;
+    else {
+      errno = 0;
+      PetscCall(fill(stream, ctx));
+      if (fflush(stream) || ferror(stream)) error = errno ? errno : EIO;
+      if (fclose(stream) && !error) error = errno;
+      if (error) (void)remove(part);
+    }
+  }
+  PetscCall(FileRaise(comm, file, error));
+  PetscCall(FileCommit(comm, file));
+  PetscFunctionReturn(0);
+}

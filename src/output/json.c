@@ -1,0 +1,124 @@
+/* The report of a run as JSON */
+#include "outputimpl.h"
+
+static void WriteString(FILE *stream, const char key[], const char text[], const char end[])
+{
+  fprintf(stream, "\"%s\": \"", key);
+  for (const unsigned char *c = (const unsigned char *)(text ? text : ""); *c; ++c) {
+    if (*c == '"' || *c == '\\') fprintf(stream, "\\%c", *c);
+    else if (*c < 0x20) fprintf(stream, "\\u%04x", (unsigned)*c);
+    else fputc(*c, stream);
+  }
+  fprintf(stream, "\"%s", end);
+}
+
+/* JSON knows neither NaN nor infinity */
+static void WriteNumber(FILE *stream, double value)
+{
+  if (PetscIsInfOrNanReal((PetscReal)value)) fputs("null", stream);
+  else fprintf(stream, "%.17g", value);
+}
+
+static void WriteReal(FILE *stream, const char key[], double value, const char end[])
+{
+  fprintf(stream, "\"%s\": ", key);
+  WriteNumber(stream, value);
+  fputs(end, stream);
+}
+
+static void WriteInt(FILE *stream, const char key[], PetscInt value, const char end[])
+{
+  fprintf(stream, "\"%s\": %" PetscInt_FMT "%s", key, value, end);
+}
+
+static void WriteVector(FILE *stream, const char key[], const PetscReal value[3], const char end[])
+{
+  fprintf(stream, "\"%s\": [", key);
+  for (PetscInt i = 0; i < 3; ++i) {
+    if (i) fputs(", ", stream);
+    WriteNumber(stream, (double)value[i]);
+  }
+  fprintf(stream, "]%s", end);
+}
+
+static void WriteStep(FILE *stream, const StepReport *step)
+{
+  const char *next = ",\n      ";
+
+  fputs("    {\n      ", stream);
+  WriteInt(stream, "step", step->step, next);
+  WriteReal(stream, "load", (double)step->load, next);
+  WriteInt(stream, "constraints", step->constraints, next);
+  WriteInt(stream, "filter_dofs", step->filter_dofs, next);
+  WriteInt(stream, "ip_iterations", step->ip_iterations, next);
+  fputs("\"ksp_iterations\": [", stream);
+  for (PetscInt i = 0; i < step->nksp; ++i) fprintf(stream, "%s%" PetscInt_FMT, i ? ", " : "", step->ksp_iterations[i]);
+  fprintf(stream, "]%s", next);
+  WriteInt(stream, "amg_applications", step->amg_applications, next);
+  WriteInt(stream, "amg_setups", step->amg_setups, next);
+  WriteReal(stream, "energy", (double)step->energy, next);
+  WriteReal(stream, "kkt_error", (double)step->kkt_error, next);
+  WriteReal(stream, "kkt_error_unscaled", (double)step->kkt_error_unscaled, next);
+  WriteReal(stream, "gap_min", (double)step->gap_min, next);
+  WriteReal(stream, "complementarity", (double)step->complementarity, next);
+  WriteVector(stream, "contact_force", step->contact_force, next);
+  WriteVector(stream, "reaction", step->reaction, next);
+  fprintf(stream, "\"converged\": %s%s", step->converged ? "true" : "false", next);
+  WriteString(stream, "reason", step->reason, "\n    }");
+}
+
+static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
+{
+  const RunReport *report = (const RunReport *)ctx;
+
+  PetscFunctionBegin;
+  fputs("{\n  ", stream);
+  WriteString(stream, "problem", report->problem, ",\n  ");
+  WriteInt(stream, "ranks", report->ranks, ",\n  ");
+  WriteInt(stream, "dofs", report->dofs, ",\n  ");
+  WriteInt(stream, "refine", report->refine, ",\n  ");
+  fprintf(stream, "\"converged\": %s,\n  ", report->converged ? "true" : "false");
+  WriteString(stream, "reason", report->reason, ",\n  \"steps\": [\n");
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    WriteStep(stream, &report->steps[s]);
+    fputs(s + 1 < report->nsteps ? ",\n" : "\n", stream);
+  }
+  fputs("  ],\n  \"time\": {\n    ", stream);
+  WriteReal(stream, "total", report->time.total, ",\n    ");
+  WriteReal(stream, "mesh", report->time.mesh, ",\n    ");
+  WriteReal(stream, "assembly", report->time.assembly, ",\n    ");
+  WriteReal(stream, "contact", report->time.contact, ",\n    ");
+  WriteReal(stream, "amg_setup", report->time.amg_setup, ",\n    ");
+  WriteReal(stream, "amg_apply", report->time.amg_apply, ",\n    ");
+  WriteReal(stream, "filter_setup", report->time.filter_setup, ",\n    ");
+  WriteReal(stream, "filter_apply", report->time.filter_apply, ",\n    ");
+  WriteReal(stream, "other", report->time.other, "\n  },\n  ");
+  WriteReal(stream, "peak_memory_bytes", report->peak_memory_bytes, "\n}\n");
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportWriteJSON - Writes the report of a run for programs
+
+   Collective
+
+   Input Parameters:
++  comm   - the communicator; its first rank writes
+.  report - the report, the same on every rank
+-  file   - the file; an older one is replaced when the new one is whole
+
+   Level: intermediate
+
+   Note:
+   The keys are the members of RunReport and StepReport. Numbers have full precision; NaN and infinity become null.
+
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the file cannot be written.
+
+.seealso: `ReportView()`
+@*/
+PetscErrorCode ReportWriteJSON(MPI_Comm comm, const RunReport *report, const char file[])
+{
+  PetscFunctionBegin;
+  PetscCall(FileWriteText(comm, file, WriteReport, report));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,143 @@
+/* The life of an output: a mesh file, one file a load step, and an XDMF file that ties them together */
+#include "outputimpl.h"
+
+PetscErrorCode OutputGetMeshFile(Output output, char file[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(file, length, "%s.h5", output->base));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputGetStepFile(Output output, PetscInt step, char file[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(file, length, "%s_%04" PetscInt_FMT ".h5", output->base, step));
+  PetscFunctionReturn(0);
+}
+
+/* Vertices are numbered as the DM's global vectors are */
+static PetscErrorCode OutputCount(Output output)
+{
+  Vec      global;
+  PetscInt n, N, start, cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(output->dm, &global));
+  PetscCall(VecGetLocalSize(global, &n));
+  PetscCall(VecGetSize(global, &N));
+  PetscCall(VecGetOwnershipRange(global, &start, NULL));
+  PetscCall(DMRestoreGlobalVector(output->dm, &global));
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  output->nowned      = n / 3;
+  output->nvertices   = N / 3;
+  output->first       = start / 3;
+  output->ncellslocal = cend - cstart;
+  PetscCallMPI(MPIU_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputCreate - Prepares results on disk for ParaView, and writes the mesh
+
+   Collective
+
+   Input Parameters:
++  dm        - mesh of hexahedra with 3 displacement components a vertex, as MeshCreate() makes it
+.  nbodies   - number of bodies
+.  bodynames - their names
+-  basename  - path of the files without ending
+
+   Output Parameter:
+.  output - the output
+
+   Level: intermediate
+
+   Notes:
+   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell) and,
+   a load step, to <basename>_<step>.h5. Every file is written under another name and renamed when it is whole, and
+   the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable.
+
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written.
+
+.seealso: `OutputWrite()`, `OutputDestroy()`
+@*/
+PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames[], const char basename[], Output *output)
+{
+  Output o;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&o));
+  PetscCall(PetscObjectGetComm((PetscObject)dm, &o->comm));
+  PetscCall(PetscObjectReference((PetscObject)dm));
+  o->dm = dm;
+  PetscCall(PetscStrallocpy(basename, &o->base));
+  o->nbodies = nbodies;
+  PetscCall(PetscMalloc1(nbodies, &o->bodynames));
+  for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
+  PetscCall(OutputCount(o));
+  PetscCall(OutputWriteMesh(o));
+  PetscCall(OutputWriteXDMF(o));
+  *output = o;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputWrite - Adds the state at the end of a load step
+
+   Collective
+
+   Input Parameters:
++  output - the output
+-  state  - the state; its contact rows are at vertices that this rank owns
+
+   Level: intermediate
+
+   Notes:
+   Fields at vertices: displacement [length], contact_pressure [force/length^2], contact_gap [length]. Away from the
+   contact rows the pressure is 0 and the gap is NaN, which ParaView paints in its NaN colour. A vertex with rows of
+   several pairs has the sum of their pressures and the smallest of their gaps.
+   Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body.
+
+.seealso: `OutputCreate()`, `OutputDestroy()`
+@*/
+PetscErrorCode OutputWrite(Output output, const OutputState *state)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputWriteFields(output, state));
+  if (output->nsteps == output->maxsteps) {
+    output->maxsteps = 2 * output->maxsteps + 8;
+    PetscCall(PetscRealloc(output->maxsteps * sizeof(*output->steps), &output->steps));
+  }
+  output->steps[output->nsteps].step = state->step;
+  output->steps[output->nsteps].time = state->time;
+  output->nsteps++;
+  PetscCall(OutputWriteXDMF(output));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputDestroy - Frees an output; its files are complete after every call and stay
+
+   Collective
+
+   Input Parameter:
+.  output - the output, set to NULL; may point to NULL
+
+   Level: intermediate
+
+.seealso: `OutputCreate()`
+@*/
+PetscErrorCode OutputDestroy(Output *output)
+{
+  Output o = *output;
+
+  PetscFunctionBegin;
+  if (!o) PetscFunctionReturn(0);
+  for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
+  PetscCall(PetscFree(o->bodynames));
+  PetscCall(PetscFree(o->base));
+  PetscCall(PetscFree(o->steps));
+  PetscCall(DMDestroy(&o->dm));
+  PetscCall(PetscFree(*output));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,80 @@
+/* The report of a run as a table for people */
+#include "outputimpl.h"
+
+static PetscErrorCode ViewSteps(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %8s %8s %4s %6s %6s %6s %7s  %15s %9s %10s %9s\n", "step", "load", "contact", "filter", "ip", "pcg", "pcg/ip", "amg", "amg", "energy", "KKT", "smallest", "complem."));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %8s %8s %4s %6s %6s %6s %7s  %15s %9s %10s %9s\n", "", "factor", "rows", "dofs", "its", "its", "", "applic", "set-ups", "", "error", "gap", "error"));
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+    PetscInt          pcg  = 0;
+
+    for (PetscInt i = 0; i < step->nksp; ++i) pcg += step->ksp_iterations[i];
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8.4f %8" PetscInt_FMT " %8" PetscInt_FMT " %4" PetscInt_FMT " %6" PetscInt_FMT " %6.1f %6" PetscInt_FMT " %7" PetscInt_FMT "  %15.8e %9.2e %10.2e %9.2e%s\n", step->step, (double)step->load, step->constraints, step->filter_dofs, step->ip_iterations, pcg, step->nksp ? (double)pcg / (double)step->nksp : 0.0, step->amg_applications, step->amg_setups, (double)step->energy, (double)step->kkt_error, (double)step->gap_min, (double)step->complementarity, step->converged ? "" : "  not converged"));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s  %-41s  %-41s\n", "step", "contact force on the nonmortar side", "reaction, sum of all prescribed rows"));
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const PetscReal *f = report->steps[s].contact_force, *r = report->steps[s].reaction;
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  %13.6e %13.6e %13.6e  %13.6e %13.6e %13.6e\n", report->steps[s].step, (double)f[0], (double)f[1], (double)f[2], (double)r[0], (double)r[1], (double)r[2]));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
+{
+  const struct {
+    const char    *name;
+    PetscLogDouble time;
+  } phases[] = {
+    {"mesh",         report->time.mesh        },
+    {"assembly",     report->time.assembly    },
+    {"contact",      report->time.contact     },
+    {"AMG set-up",   report->time.amg_setup   },
+    {"AMG apply",    report->time.amg_apply   },
+    {"filter set-up", report->time.filter_setup},
+    {"filter apply", report->time.filter_apply},
+    {"other",        report->time.other       },
+    {"total",        report->time.total       },
+  };
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10s %6s\n", "phase", "time [s]", "share"));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(phases); ++i) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10.3f %5.1f%%\n", phases[i].name, phases[i].time, report->time.total > 0 ? 100 * phases[i].time / report->time.total : 0.0));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportView - Prints the report of a run: steps, forces, times, memory
+
+   Collective on the viewer
+
+   Input Parameters:
++  report - the report
+-  viewer - an ASCII viewer
+
+   Level: beginner
+
+.seealso: `ReportWriteJSON()`
+@*/
+PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %d rank%s: %s\n\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
+  PetscCall(ViewSteps(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewForces(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewTimes(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown\n", report->peak_memory_bytes / 1e6, report->dofs ? report->peak_memory_bytes / 1e3 / (double)report->dofs : 0.0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,89 @@
+/* The XDMF file: what is in the HDF5 files, one grid a load step */
+#include "outputimpl.h"
+#include <string.h>
+
+/* Files stand in one folder, so the XDMF file names them without */
+static const char *WithoutFolder(const char path[])
+{
+  const char *slash = strrchr(path, '/');
+
+  return slash ? slash + 1 : path;
+}
+
+/* Text of an XML attribute or element */
+static void WriteEscaped(FILE *stream, const char text[])
+{
+  for (const char *c = text; *c; ++c) {
+    if (*c == '&') fputs("&amp;", stream);
+    else if (*c == '<') fputs("&lt;", stream);
+    else if (*c == '>') fputs("&gt;", stream);
+    else if (*c == '"') fputs("&quot;", stream);
+    else fputc(*c, stream);
+  }
+}
+
+static void WriteDataItem(FILE *stream, const char file[], const char dataset[], PetscBool integer, PetscInt n, PetscInt components)
+{
+  fprintf(stream, "          <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%" PetscInt_FMT, integer ? "Int" : "Float", integer ? (int)sizeof(PetscInt) : (int)sizeof(PetscReal), n);
+  /* PETSc stores index sets with a second dimension, vectors of scalars without */
+  if (integer || components > 1) fprintf(stream, " %" PetscInt_FMT, components);
+  fputs("\">", stream);
+  WriteEscaped(stream, WithoutFolder(file));
+  fprintf(stream, ":/%s</DataItem>\n", dataset);
+}
+
+static void WriteAttribute(FILE *stream, const char file[], const char name[], const char type[], const char center[], PetscBool integer, PetscInt n, PetscInt components)
+{
+  fprintf(stream, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", name, type, center);
+  WriteDataItem(stream, file, name, integer, n, components);
+  fputs("        </Attribute>\n", stream);
+}
+
+static void WriteMeshGrid(FILE *stream, Output output, const char file[])
+{
+  fprintf(stream, "        <Topology TopologyType=\"Hexahedron\" NumberOfElements=\"%" PetscInt_FMT "\">\n", output->ncells);
+  WriteDataItem(stream, file, "cells", PETSC_TRUE, output->ncells, 8);
+  fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
+  WriteDataItem(stream, file, "vertices", PETSC_FALSE, output->nvertices, 3);
+  fputs("        </Geometry>\n", stream);
+  WriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
+}
+
+static PetscErrorCode WriteDocument(FILE *stream, const void *ctx)
+{
+  Output output = (Output)ctx;
+  char   mesh[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(OutputGetMeshFile(output, mesh, sizeof(mesh)));
+  fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n", stream);
+  for (PetscInt b = 0; b < output->nbodies; ++b) {
+    fprintf(stream, "    <Information Name=\"body %" PetscInt_FMT "\" Value=\"", b);
+    WriteEscaped(stream, output->bodynames[b]);
+    fputs("\"/>\n", stream);
+  }
+  fputs("    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
+  for (PetscInt s = 0; s < output->nsteps; ++s) {
+    PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
+    fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", output->steps[s].step, (double)output->steps[s].time);
+    WriteMeshGrid(stream, output, mesh);
+    WriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
+    WriteAttribute(stream, file, "contact_pressure", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+    WriteAttribute(stream, file, "contact_gap", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+    WriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
+    WriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    fputs("      </Grid>\n", stream);
+  }
+  fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputWriteXDMF(Output output)
+{
+  char file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(file, sizeof(file), "%s.xmf", output->base));
+  PetscCall(FileWriteText(output->comm, file, WriteDocument, output));
+  PetscFunctionReturn(0);
+}

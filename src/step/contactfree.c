@@ -1,0 +1,71 @@
+/* The yardstick: what the same mesh and the same AMG cost without contact. */
+#include "stepimpl.h"
+#include <petsctime.h>
+
+/* PCAMGF without a subspace is its AMG alone, so the solve takes its options from the optimizer's prefix */
+static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPCreate(sim->comm, ksp));
+  PetscCall(KSPSetOptionsPrefix(*ksp, "tao_ipfilter_"));
+  PetscCall(KSPSetType(*ksp, KSPCG));
+  PetscCall(KSPGetPC(*ksp, &pc));
+  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(KSPSetFromOptions(*ksp));
+  PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
+  PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
+  PetscCall(KSPSetOperators(*ksp, sim->K, sim->K));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationContactFree - Solves the first load step's elastic problem as if its contact pairs were not there, by PCG
+   with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time, condition number beta and the
+   bound sqrt(2 (beta+3)/beta) iterations into the report.
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, before or after any step; its state does not change
+
+   Level: advanced
+
+   Notes:
+   beta is the ratio of the extreme Ritz values of CG. Every body must be held without contact; where one is not the
+   solve does not converge and the report keeps iterations = 0.
+
+.seealso: `SimulationGetReport()`, `PCAMGF`
+@*/
+PetscErrorCode SimulationContactFree(Simulation sim)
+{
+  RunReport         *report = &sim->report;
+  QuadraticModel     model;
+  KSP                ksp;
+  KSPConvergedReason reason;
+  PetscReal          emax, emin;
+  PetscLogDouble     t0, t1;
+
+  PetscFunctionBegin;
+  PetscCall(QuadraticCreate(sim, sim->scene->load[0], &model));
+  PetscCall(ContactFreeKSP(sim, &ksp));
+  PetscCall(KSPSetComputeSingularValues(ksp, PETSC_TRUE));
+  PetscCall(PetscTime(&t0));
+  PetscCall(KSPSolve(ksp, model.force, model.w));
+  PetscCall(PetscTime(&t1));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  if (reason > 0) {
+    PetscReal beta;
+
+    PetscCall(KSPComputeExtremeSingularValues(ksp, &emax, &emin));
+    beta = emin > 0.0 ? emax / emin : PETSC_INFINITY;
+    PetscCall(KSPGetIterationNumber(ksp, &report->contact_free.iterations));
+    report->contact_free.condition  = beta;
+    report->contact_free.bound      = PetscSqrtReal(2.0 * (1.0 + 3.0 / beta)) * (PetscReal)report->contact_free.iterations;
+    report->contact_free.solve_time = t1 - t0;
+  }
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(QuadraticDestroy(&model));
+  PetscFunctionReturn(0);
+}

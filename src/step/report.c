@@ -1,0 +1,173 @@
+/* What a load step and a run report: forces, work of the preconditioner, time of the phases, memory. */
+#include "stepimpl.h"
+#include <petsctime.h>
+#include <sys/resource.h>
+
+/* Iterations, and what the preconditioner did for them: amgf counts for itself, any other PC is applied once an iteration */
+PetscErrorCode ReportPreconditioner(KSP ksp, StepReport *report)
+{
+  PC           pc;
+  PetscBool    isamgf;
+  PCAMGFCounts counts;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &isamgf));
+  if (isamgf) {
+    PetscCall(PCAMGFGetCounts(pc, &counts));
+    PetscCall(PCAMGFGetFilterSize(pc, &report->filter_dofs));
+    report->amg_applications = counts.amg_applies;
+    report->amg_setups       = counts.amg_setups;
+  } else {
+    for (PetscInt i = 0; i < report->nksp; ++i) report->amg_applications += report->ksp_iterations[i];
+    report->amg_setups = report->nksp;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* q = J_full^T M z: the force of contact on the bodies; its sum over a pair's nonmortar vertices acts on that side */
+static PetscErrorCode ReportContactForce(Simulation sim, Vec q, StepReport *report)
+{
+  const PetscScalar *a;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(q, &rstart, NULL));
+  PetscCall(VecGetArrayRead(q, &a));
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      IS              is;
+      const PetscInt *rows;
+      PetscInt        n;
+
+      PetscCall(MeshGetFaceDofs(sim->dm, sim->scene->pairs[p].nonmortar, c, &is));
+      PetscCall(ISGetLocalSize(is, &n));
+      PetscCall(ISGetIndices(is, &rows));
+      for (PetscInt k = 0; k < n; ++k) report->contact_force[c] += PetscRealPart(a[rows[k] - rstart]);
+      PetscCall(ISRestoreIndices(is, &rows));
+      PetscCall(ISDestroy(&is));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(q, &a));
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, report->contact_force, 3, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReportGap(const ContactSolution *sol, StepReport *report)
+{
+  Vec       product;
+  PetscReal most;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(sol->gap, &report->constraints));
+  if (!report->constraints) PetscFunctionReturn(0);
+  PetscCall(VecMin(sol->gap, NULL, &report->gap_min));
+  PetscCall(VecDuplicate(sol->gap, &product));
+  PetscCall(VecPointwiseMult(product, sol->gap, sol->pressure));
+  PetscCall(VecNorm(product, NORM_INFINITY, &most));
+  report->complementarity = most;
+  PetscCall(VecDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
+/* Reaction = internal force - contact force on the prescribed rows; both taken from the elements, not from the solver */
+PetscErrorCode ReportStepForces(Simulation sim, const QuadraticModel *q, Vec u, const ContactSolution *sol, StepReport *report)
+{
+  Vec force, contact, weighted;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(q->base, &force));
+  PetscCall(ElasticityForce(sim->elasticity, u, force));
+  if (sol->pressure) {
+    PetscCall(ReportGap(sol, report));
+    PetscCall(VecDuplicate(sol->pressure, &weighted));
+    PetscCall(VecDuplicate(q->base, &contact));
+    PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
+    PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
+    PetscCall(ReportContactForce(sim, contact, report));
+    PetscCall(VecAXPY(force, -1.0, contact));
+    PetscCall(VecDestroy(&weighted));
+    PetscCall(VecDestroy(&contact));
+  }
+  PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode EventTime(const char name[], PetscLogDouble *time)
+{
+  PetscLogEvent      event;
+  PetscEventPerfInfo info;
+
+  PetscFunctionBegin;
+  *time = 0.0;
+  PetscCall(PetscLogEventGetId(name, &event));
+  if (event < 0) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventGetPerfInfo(0, event, &info));
+  *time = info.time;
+  PetscFunctionReturn(0);
+}
+
+/* Times are the largest over the ranks; "other" is what remains of the total */
+PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
+{
+  static const char *const events[] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply"};
+  PetscLogDouble           t[9], sum = 0.0, now;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 7; ++i) {
+    PetscCall(EventTime(events[i], &t[i]));
+    sum += t[i];
+  }
+  PetscCall(PetscTime(&now));
+  t[7] = now - sim->start;
+  t[8] = PetscMax(0.0, t[7] - sum);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 9, MPI_DOUBLE, MPI_MAX, sim->comm));
+  report->time.mesh         = t[0];
+  report->time.assembly     = t[1];
+  report->time.contact      = t[2];
+  report->time.amg_setup    = t[3];
+  report->time.amg_apply    = t[4];
+  report->time.filter_setup = t[5];
+  report->time.filter_apply = t[6];
+  report->time.total        = t[7];
+  report->time.other        = t[8];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReportMemory(MPI_Comm comm, PetscLogDouble *bytes)
+{
+  struct rusage usage;
+
+  PetscFunctionBegin;
+  PetscCheck(!getrusage(RUSAGE_SELF, &usage), PETSC_COMM_SELF, PETSC_ERR_SYS, "getrusage() failed");
+  *bytes = 1024.0 * (PetscLogDouble)usage.ru_maxrss;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetReport - The report of the run so far: one entry a load step, time of the phases, memory.
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  report - a view; its arrays and strings are borrowed and end with the simulation
+
+   Level: intermediate
+
+   Note:
+   Phase times come from PETSc's events, so PetscLogDefaultBegin() (or -log_view) must have been called before the
+   simulation was created; otherwise only the total is known.
+@*/
+PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(ReportTimes(sim, &sim->report));
+  PetscCall(ReportMemory(sim->comm, &sim->report.peak_memory_bytes));
+  *report = sim->report;
+  PetscFunctionReturn(0);
+}

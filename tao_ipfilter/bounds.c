@@ -1,0 +1,110 @@
+/* Variable bounds x_l <= x <= x_u as complementarity pairs. */
+#include "ipfilterimpl.h"
+
+/* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
+static PetscErrorCode BoundDistance(Vec x, Vec bound, PetscReal sign, Vec t)
+{
+  const PetscScalar *xa, *ba;
+  PetscScalar       *ta;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetArrayRead(x, &xa));
+  PetscCall(VecGetArrayRead(bound, &ba));
+  PetscCall(VecGetArrayWrite(t, &ta));
+  for (PetscInt i = 0; i < n; i++) ta[i] = PetscAbsScalar(ba[i]) < PETSC_INFINITY ? sign * (xa[i] - ba[i]) : PETSC_INFINITY;
+  PetscCall(VecRestoreArrayWrite(t, &ta));
+  PetscCall(VecRestoreArrayRead(bound, &ba));
+  PetscCall(VecRestoreArrayRead(x, &xa));
+  PetscFunctionReturn(0);
+}
+
+/* Distances of x from its bounds, into t of the pairs or into their trial vectors */
+PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
+
+  PetscFunctionBegin;
+  if (lower->n) PetscCall(BoundDistance(x, tao->XL, 1.0, trial ? lower->trial : lower->t));
+  if (upper->n) PetscCall(BoundDistance(x, tao->XU, -1.0, trial ? upper->trial : upper->t));
+  PetscFunctionReturn(0);
+}
+
+/* Finite entries of a bound vector, over all ranks */
+static PetscErrorCode BoundCount(Vec bound, PetscInt *count)
+{
+  const PetscScalar *b;
+  PetscInt           n, local = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(bound, &n));
+  PetscCall(VecGetArrayRead(bound, &b));
+  for (PetscInt i = 0; i < n; i++) local += PetscAbsScalar(b[i]) < PETSC_INFINITY;
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(MPIU_Allreduce(&local, count, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)bound)));
+  PetscFunctionReturn(0);
+}
+
+/* Pairs for the finite bounds. Their weight is the mean of M_s, so that t z has one unit, that of mu, in all pairs. */
+PetscErrorCode IPBoundsSetUp(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     w  = ip->mi ? ip->pair[IP_SLACK].weight / ip->mi : 1.0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair  *p     = &ip->pair[b];
+    Vec      bound = b == IP_LOWER ? tao->XL : tao->XU;
+    PetscInt count = 0;
+
+    if (bound) PetscCall(BoundCount(bound, &count));
+    if (count && !p->t) PetscCall(IPPairCreate(tao->solution, NULL, p));
+    if (!count) PetscCall(IPPairDestroy(p));
+    p->n      = count;
+    p->weight = w * count;
+    if (count) PetscCall(VecSet(p->w, w));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances.
+   The margin is a fraction of the distance between the bounds, or of the bound's or of x's size where only one is given. */
+PetscErrorCode IPBoundsPush(Tao tao)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  Vec                v[2] = {tao->XL, tao->XU};
+  const PetscScalar *b[2] = {NULL, NULL};
+  PetscScalar       *x;
+  PetscReal          size, bad = 0.0, worst;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  if (!ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n) PetscFunctionReturn(0);
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecGetArrayRead(v[k], &b[k]));
+  PetscCall(VecGetArray(tao->solution, &x));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
+    const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
+    PetscReal       gap;
+
+    if (!(l < u)) bad = 1.0;
+    if (!hasl && !hasu) continue;
+    gap = hasl && hasu ? u - l : PetscMax(PetscAbsReal(hasl ? l : u), size);
+    if (gap == 0.0) gap = 1.0;
+    gap *= ip->bound_push;
+    if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + gap);
+    if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - gap);
+  }
+  PetscCall(VecRestoreArray(tao->solution, &x));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
+  PetscCall(MPIU_Allreduce(&bad, &worst, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscCheck(worst == 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "TAOIPFILTER needs lower bounds below upper bounds, strictly, for every variable");
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,185 @@
+/* The outer iteration. */
+#include "ipfilterimpl.h"
+
+/* Objective, constraints and derivatives at the starting point, pushed inside its bounds; *finite is false where one is not a number */
+static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm, size = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeVariableBounds(tao));
+  PetscCall(IPBoundsSetUp(tao));
+  PetscCall(IPBoundsPush(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->xsize0));
+  if (ip->mi) {
+    PetscCall(VecSet(ip->lambda, 0.0));
+    PetscCall(TaoComputeInequalityConstraints(tao, tao->solution, ip->c));
+    PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
+  }
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  ip->gradient0 = norm;
+  ip->length0   = size;
+  *finite       = (PetscBool)(!PetscIsInfOrNanReal(ip->f) && !PetscIsInfOrNanReal(norm) && !PetscIsInfOrNanReal(size));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ResetRecord(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->niter_ksp    = 0;
+  ip->nerror       = 0;
+  ip->nacceptable  = 0;
+  ip->delta        = ip->delta_last = 0.0;
+  ip->theta0       = -1.0;
+  ip->best_error   = PETSC_INFINITY;
+  ip->dx_norm      = ip->alpha_primal = ip->alpha_dual = 0.0;
+  ip->nls          = 0;
+  ip->step_tag     = ' ';
+  ip->reason[0]    = '\0';
+  tao->ksp_its     = 0;
+  tao->ksp_tot_its = 0;
+  tao->reason      = TAO_CONTINUE_ITERATING;
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Keeps the iterate of smallest KKT error */
+static PetscErrorCode KeepBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->kkt.error >= ip->best_error) PetscFunctionReturn(0);
+  ip->best_error = ip->kkt.error;
+  PetscCall(VecCopy(tao->solution, ip->xbest));
+  if (ip->mi) {
+    PetscCall(VecCopy(ip->pair[IP_SLACK].t, ip->sbest));
+    PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->zbest));
+    PetscCall(VecCopy(ip->lambda, ip->lambdabest));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Returns to the best iterate where the last one is worse */
+static PetscErrorCode RestoreBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->best_error == PETSC_INFINITY || ip->kkt.error <= ip->best_error) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ip->xbest, tao->solution));
+  if (ip->mi) {
+    PetscCall(VecCopy(ip->sbest, ip->pair[IP_SLACK].t));
+    PetscCall(VecCopy(ip->zbest, ip->pair[IP_SLACK].z));
+    PetscCall(VecCopy(ip->lambdabest, ip->lambda));
+    PetscCall(TaoComputeInequalityConstraints(tao, tao->solution, ip->c));
+  }
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Ends the iteration where the KKT error, a limit or the values themselves say so */
+static PetscErrorCode TestConvergence(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  const IPKKT  *k  = &ip->kkt;
+
+  PetscFunctionBegin;
+  ip->nacceptable = k->error <= ip->acceptable_tol ? ip->nacceptable + 1 : 0;
+  if (PetscIsInfOrNanReal(k->error) || PetscIsInfOrNanReal(ip->f)) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
+  } else if (k->error <= ip->tol) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)k->error, (double)ip->tol));
+  } else if (ip->f <= tao->fmin && k->primal <= ip->tol) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->f, (double)tao->fmin));
+  } else if (ip->nacceptable >= ip->acceptable_it) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
+  } else if (tao->niter >= tao->max_it) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
+  } else if (tao->max_funcs >= 0 && PetscMax(tao->nfuncs, tao->nfuncgrads) > tao->max_funcs) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)k->error));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* KKT error at the new iterate, its record and the monitors */
+static PetscErrorCode AssessIterate(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPComputeKKT(tao));
+  PetscCall(TestConvergence(tao));
+  if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
+  PetscCall(KeepBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(TaoLogConvergenceHistory(tao, ip->f, ip->kkt.error, ip->kkt.inf_pr, tao->ksp_tot_its));
+  PetscCall(IPMonitor(tao));
+  PetscCall(TaoMonitor(tao, tao->niter, ip->f, ip->kkt.error, ip->kkt.inf_pr, ip->alpha_primal));
+  PetscFunctionReturn(0);
+}
+
+/* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
+static PetscErrorCode Step(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     ok;
+
+  PetscFunctionBegin;
+  tao->ksp_its = 0;
+  PetscCall(IPBarrierUpdate(tao));
+  if (tao->niter) PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPComputeDirection(tao, &ok));
+  if (!ok) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g, with the Hessian shifted by up to %g", KSPConvergedReasons[ip->ksp_reason], (double)ip->linear_residual, (double)ip->delta));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) {
+    const PetscBool infeasible = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
+
+    if (ip->kkt.error <= ip->acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
+    else if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g: the constraints may be infeasible", (double)ip->kkt.inf_pr));
+    else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
+    PetscFunctionReturn(0);
+  }
+  tao->niter++;
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoSolve_IPFilter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     finite = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ResetRecord(tao));
+  PetscCall(FirstPoint(tao, &finite));
+  if (!finite) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPStartPoint(tao));
+  PetscCall(AssessIterate(tao));
+  while (tao->reason == TAO_CONTINUE_ITERATING) {
+    PetscTryTypeMethod(tao, update, tao->niter, tao->user_update);
+    PetscCall(Step(tao));
+    if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(AssessIterate(tao));
+  }
+  PetscCall(RestoreBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  tao->fc       = ip->f;
+  tao->residual = ip->kkt.error;
+  tao->cnorm    = ip->kkt.inf_pr;
+  PetscFunctionReturn(0);
+}

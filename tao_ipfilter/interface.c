@@ -1,0 +1,331 @@
+/* Public functions of TAOIPFILTER. */
+#include "ipfilterimpl.h"
+
+static PetscErrorCode ReplaceVec(Vec v, Vec *slot)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)v));
+  PetscCall(VecDestroy(slot));
+  *slot = v;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CopyVec(Vec v, Vec *slot)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(slot));
+  if (!v) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(v, slot));
+  PetscCall(VecCopy(v, *slot));
+  PetscFunctionReturn(0);
+}
+
+/* Weights must be positive, on every rank */
+static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
+{
+  PetscReal least;
+
+  PetscFunctionBegin;
+  if (!mass) PetscFunctionReturn(0);
+  PetscCall(VecMin(mass, NULL, &least));
+  PetscCheck(least > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "%s mass must be positive, its smallest entry is %g", what, (double)least);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetSlackMass_IPFilter(Tao tao, Vec mass)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CheckPositive(tao, mass, "slack"));
+  PetscCall(ReplaceVec(mass, &ip->slack_mass));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetPrimalMass_IPFilter(Tao tao, Vec mass)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CheckPositive(tao, mass, "primal"));
+  PetscCall(ReplaceVec(mass, &ip->primal_mass));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP, "give both slacks and multipliers, or neither");
+  PetscCall(CopyVec(s, &ip->warm_s));
+  PetscCall(CopyVec(z, &ip->warm_z));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetSlack_IPFilter(Tao tao, Vec *s, Vec *z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (s) *s = ip->pair[IP_SLACK].t;
+  if (z) *z = ip->pair[IP_SLACK].z;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetKSPIterations_IPFilter(Tao tao, PetscInt *n, const PetscInt *its[])
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (n) *n = ip->niter_ksp;
+  if (its) *its = ip->ksp_iterations;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetKKTError_IPFilter(Tao tao, PetscReal *scaled, PetscReal *unscaled)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (scaled) *scaled = ip->kkt.error;
+  if (unscaled) *unscaled = ip->kkt.unscaled;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetReason_IPFilter(Tao tao, const char *reason[])
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *reason = ip->reason;
+  PetscFunctionReturn(0);
+}
+
+/* Attaches the implementations to the object, or detaches them */
+PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
+{
+  PetscObject o = (PetscObject)tao;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSlackMass_C", attach ? TaoIPFilterSetSlackMass_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetPrimalMass_C", attach ? TaoIPFilterSetPrimalMass_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStart_C", attach ? TaoIPFilterSetWarmStart_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSlack_C", attach ? TaoIPFilterGetSlack_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C", attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetSlackMass - Sets the lumped weights of the inequality constraints
+
+  Logically Collective
+
+  Input Parameters:
++ tao  - the `TAOIPFILTER`
+- mass - positive weights m_i, laid out as the constraint vector of `TaoSetInequalityConstraintsRoutine()`; NULL for 1
+
+  Level: intermediate
+
+  Notes:
+  The barrier is mu sum_i m_i log s_i and the Lagrangian f - sum_i m_i lambda_i (c_i - s_i). With the lumped areas of a
+  surface as weights, c_i is a length, lambda_i a pressure, and iterations do not depend on the mesh.
+
+  The vector is referenced, not copied: it must not change during `TaoSolve()`. `TaoGetDualVariables()` gives
+  m_i lambda_i, the multiplier of the unweighted constraint.
+
+  Errors if an entry is not positive.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterGetMultiplier()`
+@*/
+PetscErrorCode TaoIPFilterSetSlackMass(Tao tao, Vec mass)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetSlackMass_C", (Tao, Vec), (tao, mass));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetPrimalMass - Sets the lumped mass of the unknowns
+
+  Logically Collective
+
+  Input Parameters:
++ tao  - the `TAOIPFILTER`
+- mass - positive weights laid out as the solution; NULL for 1
+
+  Level: intermediate
+
+  Notes:
+  It weighs the stationarity residual in `-tao_ipfilter_kkt mass`, and regularization adds a multiple of it to the
+  Hessian. The vector is referenced, not copied.
+
+  Errors if an entry is not positive.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSlackMass()`
+@*/
+PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetPrimalMass_C", (Tao, Vec), (tao, mass));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetWarmStart - Sets slacks and multipliers from which `-tao_ipfilter_start warm` begins
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+. s   - slacks, laid out as the inequality constraints; NULL forgets earlier values
+- z   - their multipliers with s_i z_i -> mu (`TaoIPFilterGetMultiplier()`), same layout; NULL with s
+
+  Level: intermediate
+
+  Notes:
+  The vectors are copied. They need not be positive: each pair is moved onto the central path of its constraint,
+  keeping s - z/rho with the constraint's stiffness rho, and mu is taken from the average of s_i z_i, or from a
+  fraction of the products s_i z_i would have off the solution if that is larger.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`
+@*/
+PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (s) PetscValidHeaderSpecific(s, VEC_CLASSID, 2);
+  if (z) PetscValidHeaderSpecific(z, VEC_CLASSID, 3);
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStart_C", (Tao, Vec, Vec), (tao, s, z));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetSlack - Gets the slacks of the inequality constraints
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. s - slacks s > 0 with c_I(x) - s -> 0, laid out as the constraints; owned by `tao`; NULL before `TaoSetUp()`
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
+@*/
+PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidPointer(s, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, s, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetMultiplier - Gets the multipliers of the slacks
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. z - multipliers z > 0 with s_i z_i -> mu, per unit of the slack mass (contact: pressure), laid out as the
+      constraints; owned by `tao`; NULL before `TaoSetUp()`
+
+  Level: intermediate
+
+  Note:
+  `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a force.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
+@*/
+PetscErrorCode TaoIPFilterGetMultiplier(Tao tao, Vec *z)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidPointer(z, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, NULL, z));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterGetKSPIterations - Gets the Krylov iterations of every linear solve of the last `TaoSolve()`
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameters:
++ n   - linear solves, those of the starting point, of predictors and of regularization attempts included
+- its - iterations of each; owned by `tao`, valid until the next `TaoSolve()`
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoGetLinearSolveIterations()`
+@*/
+PetscErrorCode TaoIPFilterGetKSPIterations(Tao tao, PetscInt *n, const PetscInt *its[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetKSPIterations_C", (Tao, PetscInt *, const PetscInt *[]), (tao, n, its));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetKKTError - Gets the residual of the optimality conditions at the returned point, with mu = 0
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameters:
++ scaled   - the measure that decides convergence: dimensionless, or absolute with `-tao_ipfilter_kkt mass`; may be NULL
+- unscaled - largest absolute entry of grad f - J^T M lambda - bound multipliers, c - s and s z, in the problem's units; may be NULL
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetReason()`
+@*/
+PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *unscaled)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetKKTError_C", (Tao, PetscReal *, PetscReal *), (tao, scaled, unscaled));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterGetReason - Gets one sentence on why the last `TaoSolve()` stopped
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. reason - the sentence; owned by `tao`, empty before the first solve
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoGetConvergedReason()`
+@*/
+PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidPointer(reason, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetReason_C", (Tao, const char *[]), (tao, reason));
+  PetscFunctionReturn(0);
+}

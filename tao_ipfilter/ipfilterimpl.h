@@ -1,0 +1,241 @@
+/*
+   TAOIPFILTER: primal-dual interior point with a filter line search.
+
+   The problem is min f(x) subject to c_E(x) = 0, c_I(x) >= 0, x_l <= x <= x_u. With slacks s for c_I and lumped weights
+   M = diag(m_i) the Lagrangian is
+
+     L = f(x) + y^T c_E(x) - lambda^T M (c_I(x) - s) - z^T M s - bound terms,
+
+   so that c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
+
+   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x.
+*/
+#ifndef IPFILTERIMPL_H
+#define IPFILTERIMPL_H
+
+#include <petsc/private/taoimpl.h>
+#include <petscamgf.h>
+
+typedef enum {
+  IP_START_COLD,
+  IP_START_PREDICT,
+  IP_START_WARM
+} IPStart;
+typedef enum {
+  IP_BARRIER_MONOTONE,
+  IP_BARRIER_MEHROTRA
+} IPBarrier;
+typedef enum {
+  IP_KKT_RELATIVE,
+  IP_KKT_MASS
+} IPKKTMeasure;
+typedef enum {
+  IP_FORCING_ADAPTIVE,
+  IP_FORCING_FIXED
+} IPForcing;
+typedef enum {
+  IP_SCALING_PROBLEM,
+  IP_SCALING_NONE
+} IPScaling;
+
+/* Blocks of complementarity pairs */
+enum {
+  IP_SLACK,
+  IP_LOWER,
+  IP_UPPER,
+  IP_NPAIRS
+};
+
+/* Pairs (t_i, z_i), t_i z_i -> mu. Where a bound is absent t is PETSC_INFINITY and z is zero. */
+typedef struct {
+  PetscInt  n;      /* pairs present, over all ranks; the vectors are NULL when there are none */
+  PetscReal weight; /* sum of the weights of the pairs present */
+  Vec       w;      /* weights m_i */
+  Vec       t, z;   /* distance to the boundary and its multiplier */
+  Vec       dt, dz; /* direction */
+  Vec       target; /* right-hand side of the linearized t z = target: mu, or mu less the second-order term */
+  Vec       trial;  /* t at a trial point */
+} IPPair;
+
+/* Magnitudes by which residuals are divided; all 1 in the published measure */
+typedef struct {
+  PetscReal dual;     /* forces that cancel in the stationarity condition */
+  PetscReal length;   /* values of the constraints */
+  PetscReal pressure; /* multipliers */
+  PetscReal product;  /* length x pressure: complementarity and mu */
+} IPScale;
+
+/* Residuals of the optimality conditions at the current iterate */
+typedef struct {
+  PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
+  PetscReal centrality;                    /* as complementarity, for the present mu */
+  PetscReal error;                         /* max(dual, primal, complementarity): decides convergence */
+  PetscReal barrier;                       /* max(dual, primal, centrality): decides when mu is reduced */
+  PetscReal unscaled;                      /* largest absolute entry of all residuals, mu = 0 */
+  PetscReal dual_norm;                     /* 2-norm of the stationarity residual */
+  PetscReal inf_pr, inf_du;                /* largest absolute entries of the primal and the dual residual */
+} IPKKT;
+
+/* Pairs (theta, phi) that no later iterate may be dominated by */
+typedef struct {
+  PetscInt   n, max;
+  PetscReal *theta, *phi;
+} IPFilterSet;
+
+/* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
+typedef struct {
+  Mat              A;
+  Mat              J, DJ, JtDJ;              /* Jacobian as AIJ, D J, J^T D J */
+  Vec              shift;                    /* Sigma + delta M_u, the diagonal added to H */
+  Vec              hdiag;                    /* diagonal of H, kept while a shift is added to it */
+  PetscBool        shifted;                  /* A's diagonal holds a shift */
+  PetscObjectState H_state, H_nonzero;       /* of the H that A was assembled from */
+  PetscObjectId    H_id, J_id, JtDJ_id;      /* which H, which Jacobian, and which Jacobian the product came from */
+  PetscObjectState J_state, J_nonzero;       /* of the Jacobian that J, the pattern and the filter came from */
+  PetscInt         nrows;                    /* rows of this rank touched by J^T D J */
+  PetscInt        *rows;
+  IS               filter;                   /* composed on A under PCAMGF_FILTER_KEY */
+} IPCondensed;
+
+typedef struct {
+  /* iterate and direction beside tao->solution and the pairs */
+  Vec       c, lambda;          /* c_I and its multipliers (a density: the force is M lambda) */
+  Vec       rc;                 /* c_I - s */
+  Vec       rx;                 /* grad f - J^T M lambda - bound multipliers */
+  Vec       dx, dlambda;
+  PetscReal f;
+  Vec       xtrial, ctrial;
+  Vec       xbest, sbest, zbest, lambdabest; /* iterate of smallest KKT error */
+  PetscReal ftrial;
+  Vec       xwork, xwork2, cwork, cwork2, rhs;
+  Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
+  Vec       warm_s, warm_z;          /* the caller's starting values */
+  Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
+  Vec       hdiag;                   /* |diagonal of H| at the start */
+  PetscInt  mi;                      /* inequality constraints, all ranks */
+  PetscReal gradient0, length0, xsize0; /* largest gradient norm so far; sizes of c_I, s and of x at the start */
+
+  IPPair      pair[IP_NPAIRS];
+  IPCondensed cond;
+  IPFilterSet filter;
+  IPScale     scale;
+  IPKKT       kkt;
+
+  /* barrier */
+  PetscReal mu;
+  PetscBool free_mu;                 /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
+  PetscReal error_history[4];        /* KKT errors that the free mode must improve on */
+  PetscInt  nerror;
+
+  /* line search */
+  PetscReal theta, phi, theta0, theta_ref, phi_ref;
+  PetscReal rounding;                /* changes of phi below this mean nothing */
+  PetscReal alpha_primal, alpha_dual;
+  PetscInt  nls;
+  char      step_tag;                /* how the step was accepted: f, h, F, H (second-order correction), T */
+
+  /* regularization */
+  PetscReal delta, delta_last, hscale;
+
+  /* record */
+  PetscInt  niter_ksp, max_ksp, *ksp_iterations; /* Krylov iterations of every linear solve */
+  PetscReal linear_residual;                     /* ||b - A d|| of the last solve */
+  PetscReal best_error;
+  PetscInt  nacceptable;                         /* iterates in a row within the acceptable tolerance */
+  KSPConvergedReason ksp_reason;                 /* of the last solve */
+  PetscReal dx_norm;
+  char      reason[256];
+
+  /* options */
+  PetscReal    tol, acceptable_tol;
+  PetscInt     acceptable_it;
+  IPStart      start;
+  IPBarrier    barrier;
+  IPKKTMeasure measure;
+  IPForcing    forcing;
+  IPScaling    scaling;
+  PetscBool    monitor;
+  PetscReal    mu0, s0, z0, mu_start, mu_warm, forcing_start;
+  PetscReal    kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
+  PetscInt     max_mu_first, max_mu_later;
+  PetscReal    gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact;
+  PetscInt     max_soc;
+  PetscReal    kappa_soc;
+  PetscReal    forcing_max, forcing_reduce, forcing_last;
+  PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
+  PetscReal    filter_threshold;
+  PetscReal    bound_push;
+} TAO_IPFILTER;
+
+PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
+
+/* pairs.c */
+PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, IPPair *);
+PETSC_INTERN PetscErrorCode IPPairDestroy(IPPair *);
+PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal, PetscBool);
+PETSC_INTERN PetscErrorCode IPPairGetSigma(const IPPair *, Vec);
+PETSC_INTERN PetscErrorCode IPPairGetForce(const IPPair *, Vec);
+PETSC_INTERN PetscErrorCode IPPairDualDirection(IPPair *);
+PETSC_INTERN PetscErrorCode IPPairMaxStep(Vec, Vec, PetscReal, PetscReal *);
+PETSC_INTERN PetscErrorCode IPPairLogSum(const IPPair *, Vec, PetscReal *);
+PETSC_INTERN PetscErrorCode IPPairLogSlope(const IPPair *, PetscReal *);
+PETSC_INTERN PetscErrorCode IPPairProducts(const IPPair *, PetscReal, PetscReal *, PetscReal *);
+PETSC_INTERN PetscErrorCode IPPairStepProducts(const IPPair *, PetscReal, PetscReal, PetscReal *, PetscReal *);
+PETSC_INTERN PetscErrorCode IPPairSafeguard(IPPair *, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPPairMoveTrial(IPPair *, PetscReal);
+
+/* bounds.c */
+PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
+PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool);
+
+/* start.c */
+PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
+
+/* kkt.c */
+PETSC_INTERN PetscErrorCode IPEvaluateDerivatives(Tao);
+PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
+PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
+PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
+PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
+PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
+
+/* condense.c */
+PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPCondenseJacobian(Tao);
+PETSC_INTERN PetscErrorCode IPCondenseRHS(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPBackSubstitute(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
+
+/* linsolve.c */
+PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *);
+
+/* regularize.c */
+PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
+
+/* barrier.c */
+PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
+PETSC_INTERN PetscErrorCode IPBarrierPredict(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPBarrierAverage(Tao, PetscReal *);
+
+/* filter.c */
+PETSC_INTERN PetscErrorCode IPFilterSetReset(IPFilterSet *);
+PETSC_INTERN PetscErrorCode IPFilterSetAdd(IPFilterSet *, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPFilterSetAccepts(const IPFilterSet *, PetscReal, PetscReal, PetscBool *);
+PETSC_INTERN PetscErrorCode IPFilterSetDestroy(IPFilterSet *);
+
+/* linesearch.c */
+PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPMerit(Tao, Vec, PetscReal, Vec, PetscReal *, PetscReal *);
+
+/* monitor.c */
+PETSC_INTERN PetscErrorCode IPMonitor(Tao);
+PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...);
+
+/* driver.c */
+PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
+
+/* interface.c */
+PETSC_INTERN PetscErrorCode TaoIPFilterComposeFunctions(Tao, PetscBool);
+
+#endif

@@ -1,0 +1,237 @@
+/* Derivatives at the iterate, residuals of the optimality conditions, and the scales they are measured by. */
+#include "ipfilterimpl.h"
+
+/* M_s v, or v where there is no M_s */
+static PetscErrorCode MassMult(Vec mass, Vec v, Vec out)
+{
+  PetscFunctionBegin;
+  if (mass) PetscCall(VecPointwiseMult(out, mass, v));
+  else PetscCall(VecCopy(v, out));
+  PetscFunctionReturn(0);
+}
+
+/* Gradient, constraint Jacobians at tao->solution */
+PetscErrorCode IPEvaluateDerivatives(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->f, tao->gradient));
+  if (ip->mi) {
+    PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
+    PetscCall(IPCondenseJacobian(tao));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* tao->DI = M lambda: the multipliers of c_I in f - DI^T c_I, which the Hessian routine needs */
+PetscErrorCode IPSetMultipliers(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(MassMult(ip->slack_mass, ip->lambda, tao->DI));
+  PetscFunctionReturn(0);
+}
+
+/* r = grad f - J^T M multiplier - bound multipliers, for multipliers lambda or z of the slacks */
+PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(tao->gradient, r));
+  if (ip->mi) {
+    PetscCall(MassMult(ip->slack_mass, multiplier, ip->cwork));
+    PetscCall(VecScale(ip->cwork, -1.0));
+    PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, r, r));
+  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecPointwiseMult(ip->xwork2, ip->pair[b].w, ip->pair[b].z));
+    PetscCall(VecAXPY(r, b == IP_LOWER ? -1.0 : 1.0, ip->xwork2));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of H.
+   Its inverse sums the compliances of both sides of a contact, so the softer side decides. */
+PetscErrorCode IPComputeStiffness(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Mat           scaled;
+  PetscScalar  *h, *rho;
+  PetscReal     hmax, cmax;
+  PetscInt      n, rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(tao->hessian, ip->hdiag));
+  PetscCall(VecAbs(ip->hdiag));
+  PetscCall(VecSum(ip->hdiag, &ip->hscale));
+  PetscCall(VecGetSize(ip->hdiag, &n));
+  ip->hscale = ip->hscale > 0.0 ? ip->hscale / n : 1.0;
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(VecMax(ip->hdiag, NULL, &hmax));
+  if (!(hmax > 0.0)) hmax = 1.0;
+  PetscCall(VecCopy(ip->hdiag, ip->xwork));
+  PetscCall(VecGetLocalSize(ip->xwork, &n));
+  PetscCall(VecGetArray(ip->xwork, &h));
+  for (PetscInt j = 0; j < n; j++) h[j] = 1.0 / PetscSqrtReal(PetscMax(PetscRealPart(h[j]), 1e-8 * hmax));
+  PetscCall(VecRestoreArray(ip->xwork, &h));
+  PetscCall(MatDuplicate(ip->cond.J, MAT_COPY_VALUES, &scaled));
+  PetscCall(MatDiagonalScale(scaled, NULL, ip->xwork));
+  PetscCall(MatGetOwnershipRange(scaled, &rstart, &rend));
+  PetscCall(VecGetArrayWrite(ip->stiffness, &rho));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscScalar *v;
+    PetscInt           nv;
+    PetscReal          compliance = 0.0;
+
+    PetscCall(MatGetRow(scaled, i, &nv, NULL, &v));
+    for (PetscInt k = 0; k < nv; k++) compliance += PetscSqr(PetscAbsScalar(v[k]));
+    PetscCall(MatRestoreRow(scaled, i, &nv, NULL, &v));
+    rho[i - rstart] = compliance;
+  }
+  PetscCall(VecRestoreArrayWrite(ip->stiffness, &rho));
+  PetscCall(MatDestroy(&scaled));
+  PetscCall(VecPointwiseMult(ip->stiffness, ip->stiffness, ip->pair[IP_SLACK].w));
+  PetscCall(VecMax(ip->stiffness, NULL, &cmax));
+  PetscCall(VecGetArray(ip->stiffness, &rho));
+  for (PetscInt i = 0; i < rend - rstart; i++) rho[i] = cmax > 0.0 ? 1.0 / PetscMax(PetscRealPart(rho[i]), 1e-8 * cmax) : 1.0;
+  PetscCall(VecRestoreArray(ip->stiffness, &rho));
+  PetscFunctionReturn(0);
+}
+
+/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times this */
+static PetscErrorCode RoundingFloor(Tao tao, PetscReal *floor)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(ip->xwork2, ip->hdiag, tao->solution));
+  PetscCall(VecNorm(ip->xwork2, NORM_2, floor));
+  *floor *= 10.0 * PETSC_MACHINE_EPSILON;
+  PetscFunctionReturn(0);
+}
+
+/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
+   forces against the forces that cancel, constraints against the largest constraint value seen at the start or now,
+   products t z against length times pressure. Where multipliers vanish, a small fraction of the stiffness's pressure
+   and of the first gradient takes their place. */
+PetscErrorCode IPComputeScale(Tao tao)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal small = 1e-3;
+  PetscReal     norm, floor, xsize;
+  IPScale      *s = &ip->scale;
+
+  PetscFunctionBegin;
+  if (ip->scaling == IP_SCALING_NONE || ip->measure == IP_KKT_MASS) {
+    *s = (IPScale){1.0, 1.0, 1.0, 1.0};
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  ip->gradient0 = PetscMax(ip->gradient0, norm);
+  s->dual = PetscMax(norm, (ip->mi || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
+  PetscCall(RoundingFloor(tao, &floor));
+  s->dual = PetscMax(s->dual, floor / ip->tol);
+  s->length = s->pressure = s->product = 0.0;
+  if (ip->mi) {
+    PetscReal rho, c, t;
+
+    PetscCall(VecNorm(ip->c, NORM_INFINITY, &c));
+    PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
+    s->length = PetscMax(PetscMax(c, t), ip->length0);
+    PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
+    PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
+    s->pressure = PetscMax(s->pressure, small * rho * s->length);
+    s->product  = s->length * s->pressure;
+  }
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    PetscReal z;
+
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
+    s->product = PetscMax(s->product, PetscMax(xsize, ip->xsize0) * PetscMax(z, small * ip->hscale * xsize));
+  }
+  if (!(s->dual > 0.0)) s->dual = 1.0;
+  if (!(s->length > 0.0)) s->length = 1.0;
+  if (!(s->pressure > 0.0)) s->pressure = 1.0;
+  if (!(s->product > 0.0)) s->product = 1.0;
+  PetscFunctionReturn(0);
+}
+
+/* sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s), with r_s = M_s (lambda - z) */
+static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   uu, ss = 0.0;
+
+  PetscFunctionBegin;
+  if (ip->primal_mass) PetscCall(VecPointwiseDivide(ip->xwork2, ip->rx, ip->primal_mass));
+  else PetscCall(VecCopy(ip->rx, ip->xwork2));
+  PetscCall(VecDot(ip->rx, ip->xwork2, &uu));
+  if (ip->mi) {
+    PetscCall(VecWAXPY(ip->cwork, -1.0, ip->pair[IP_SLACK].z, ip->lambda));
+    PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork, ip->pair[IP_SLACK].w));
+    PetscCall(VecDot(ip->cwork, ip->cwork2, &ss));
+  }
+  *norm = PetscSqrtReal(PetscRealPart(uu) + PetscRealPart(ss));
+  PetscFunctionReturn(0);
+}
+
+/* ||lambda - z|| in the norm of the weights, per unit weight: the stationarity residual of the slacks */
+static PetscErrorCode SlackStationarity(Tao tao, PetscReal *norm)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   ss;
+
+  PetscFunctionBegin;
+  *norm = 0.0;
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(VecWAXPY(ip->cwork, -1.0, ip->pair[IP_SLACK].z, ip->lambda));
+  PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork, ip->pair[IP_SLACK].w));
+  PetscCall(VecDot(ip->cwork, ip->cwork2, &ss));
+  *norm = PetscSqrtReal(PetscRealPart(ss) / ip->pair[IP_SLACK].weight);
+  PetscFunctionReturn(0);
+}
+
+/* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
+PetscErrorCode IPComputeKKT(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPKKT        *k   = &ip->kkt;
+  PetscReal     products = 0.0, deviation = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPComputeScale(tao));
+  PetscCall(IPStationarity(tao, ip->lambda, ip->rx));
+  PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
+  PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
+  k->inf_pr = 0.0;
+  if (ip->mi) {
+    PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->c));
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &k->inf_pr));
+  }
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal zero, central;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, &zero, NULL));
+    PetscCall(IPPairProducts(&ip->pair[b], ip->mu, &central, NULL));
+    products  = PetscMax(products, zero);
+    deviation = PetscMax(deviation, central);
+  }
+  if (ip->measure == IP_KKT_MASS) PetscCall(DualMassNorm(tao, &k->dual));
+  else {
+    PetscCall(SlackStationarity(tao, &k->dual));
+    k->dual = PetscMax(k->dual / ip->scale.pressure, k->dual_norm / ip->scale.dual);
+  }
+  k->primal          = k->inf_pr / ip->scale.length;
+  k->complementarity = products / ip->scale.product;
+  k->centrality      = deviation / ip->scale.product;
+  k->error           = PetscMax(PetscMax(k->dual, k->primal), k->complementarity);
+  k->barrier         = PetscMax(PetscMax(k->dual, k->primal), k->centrality);
+  k->unscaled        = PetscMax(PetscMax(k->inf_du, k->inf_pr), products);
+  PetscFunctionReturn(0);
+}

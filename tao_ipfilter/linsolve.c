@@ -1,0 +1,69 @@
+/* The condensed linear system: Krylov tolerance, verdict on the solution, and the record of iterations. */
+#include "ipfilterimpl.h"
+
+static PetscErrorCode RecordIterations(Tao tao, PetscInt its)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->niter_ksp == ip->max_ksp) {
+    ip->max_ksp = 2 * ip->max_ksp + 32;
+    PetscCall(PetscRealloc(ip->max_ksp * sizeof(PetscInt), &ip->ksp_iterations));
+  }
+  ip->ksp_iterations[ip->niter_ksp++] = its;
+  tao->ksp_its += its;
+  tao->ksp_tot_its += its;
+  PetscFunctionReturn(0);
+}
+
+/* ||b - A d||, not the Krylov method's estimate of it */
+static PetscErrorCode TrueResidual(Tao tao, Vec b, Vec d, PetscReal *norm)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(ip->cond.A, d, ip->xwork2));
+  PetscCall(VecAYPX(ip->xwork2, -1.0, b));
+  PetscCall(VecNorm(ip->xwork2, NORM_2, norm));
+  PetscFunctionReturn(0);
+}
+
+/*
+  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold. *usable is false where the direction is not worth having, the
+  matrix is not positive definite, or the preconditioner failed.
+*/
+PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  KSPConvergedReason reason;
+  PetscReal          rtol, abstol, dtol, bnorm;
+  PetscInt           maxits, its;
+  PetscBool          guess;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, d, NULL));
+  PetscCall(KSPSetOperators(tao->ksp, ip->cond.A, ip->cond.A));
+  PetscCall(KSPGetInitialGuessNonzero(tao->ksp, &guess));
+  PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
+  if (ip->forcing == IP_FORCING_ADAPTIVE) {
+    PetscCall(KSPSetInitialGuessNonzero(tao->ksp, PETSC_TRUE));
+    PetscCall(KSPSetTolerances(tao->ksp, PETSC_MACHINE_EPSILON, target, dtol, maxits));
+  }
+  PetscCall(KSPSolve(tao->ksp, b, d));
+  PetscCall(KSPSetTolerances(tao->ksp, rtol, abstol, dtol, maxits));
+  PetscCall(KSPSetInitialGuessNonzero(tao->ksp, guess));
+  PetscCall(KSPGetConvergedReason(tao->ksp, &reason));
+  PetscCall(KSPGetIterationNumber(tao->ksp, &its));
+  PetscCall(RecordIterations(tao, its));
+  PetscCall(TrueResidual(tao, b, d, &ip->linear_residual));
+  *usable = PETSC_TRUE;
+  if (reason < 0) {
+    PetscCall(VecNorm(b, NORM_2, &bnorm));
+    PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)bnorm));
+    *usable = (PetscBool)((reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) && ip->linear_residual <= ip->forcing_max * bnorm);
+  }
+  if (PetscIsInfOrNanReal(ip->linear_residual)) *usable = PETSC_FALSE;
+  ip->ksp_reason = reason;
+  PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, d, NULL));
+  PetscFunctionReturn(0);
+}

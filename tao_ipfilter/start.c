@@ -1,0 +1,224 @@
+/* Starting values of slacks and multipliers. */
+#include "ipfilterimpl.h"
+
+/* The given constants: t stays for bounds, s = s0, z = z0, lambda = 0, mu = mu0 */
+static PetscErrorCode Cold(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->mu = ip->mu0;
+  if (ip->mi) {
+    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->s0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->z0));
+    PetscCall(VecSet(ip->lambda, 0.0));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The point of the central path of one constraint that a penalty of stiffness rho bends: s z = mu and s - q = z/rho */
+static PetscErrorCode CentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
+{
+  const PetscScalar *qa, *ra;
+  PetscScalar       *sa, *za;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(q, &n));
+  PetscCall(VecGetArrayRead(q, &qa));
+  PetscCall(VecGetArrayRead(rho, &ra));
+  PetscCall(VecGetArrayWrite(s, &sa));
+  PetscCall(VecGetArrayWrite(z, &za));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal g = PetscRealPart(qa[i]), r = PetscRealPart(ra[i]), root = PetscSqrtReal(g * g + 4.0 * mu / r);
+
+    /* the root that does not cancel, and the other from their product mu/rho */
+    if (g >= 0.0) {
+      sa[i] = 0.5 * (g + root);
+      za[i] = mu / PetscRealPart(sa[i]);
+    } else {
+      za[i] = 0.5 * r * (root - g);
+      sa[i] = mu / PetscRealPart(za[i]);
+    }
+  }
+  PetscCall(VecRestoreArrayWrite(z, &za));
+  PetscCall(VecRestoreArrayWrite(s, &sa));
+  PetscCall(VecRestoreArrayRead(rho, &ra));
+  PetscCall(VecRestoreArrayRead(q, &qa));
+  PetscFunctionReturn(0);
+}
+
+/* Weighted mean of rho q^2: the product length x pressure of the constraints' present values */
+static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   sum;
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(ip->cwork, q, q));
+  PetscCall(VecPointwiseMult(ip->cwork2, ip->stiffness, ip->pair[IP_SLACK].w));
+  PetscCall(VecDot(ip->cwork, ip->cwork2, &sum));
+  *mean = PetscRealPart(sum) / ip->pair[IP_SLACK].weight;
+  PetscFunctionReturn(0);
+}
+
+/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = rho max(-c, 0) */
+static PetscErrorCode PenaltyPressure(Tao tao, Vec c, Vec z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(z, 0.0));
+  PetscCall(VecPointwiseMin(z, c, z));
+  PetscCall(VecPointwiseMult(z, z, ip->stiffness));
+  PetscCall(VecScale(z, -1.0));
+  PetscFunctionReturn(0);
+}
+
+/* Weighted sums of |c| and z, divided by the weight: a length and a pressure */
+static PetscErrorCode MeanMagnitudes(Tao tao, Vec c, Vec z, PetscReal *length, PetscReal *pressure)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPPair       *p  = &ip->pair[IP_SLACK];
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(ip->cwork2, c, p->w));
+  PetscCall(VecNorm(ip->cwork2, NORM_1, length));
+  PetscCall(VecPointwiseMult(ip->cwork2, z, p->w));
+  PetscCall(VecNorm(ip->cwork2, NORM_1, pressure));
+  *length /= p->weight;
+  *pressure /= p->weight;
+  PetscFunctionReturn(0);
+}
+
+/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit */
+static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     target;
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(ip->cwork, ip->stiffness, ip->pair[IP_SLACK].w));
+  PetscCall(IPCondenseMatrix(tao, ip->cwork));
+  PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
+  PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
+  PetscCall(VecCopy(tao->gradient, ip->rhs));
+  PetscCall(VecScale(ip->rhs, -1.0));
+  PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, ip->rhs, ip->rhs));
+  PetscCall(VecNorm(ip->rhs, NORM_2, &target));
+  PetscCall(VecSet(ip->dx, 0.0));
+  *usable = (PetscBool)(target > 0.0);
+  for (PetscInt pass = 0; pass < 3 && *usable; pass++) {
+    PetscReal force;
+
+    target *= ip->forcing_start;
+    PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, target, usable));
+    PetscCall(MatMultAdd(ip->cond.J, ip->dx, ip->c, ip->ctrial));
+    PetscCall(PenaltyPressure(tao, ip->ctrial, ip->cwork));
+    PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
+    PetscCall(MatMultTranspose(ip->cond.J, ip->cwork, ip->xwork));
+    PetscCall(VecNorm(ip->xwork, NORM_2, &force));
+    if (ip->linear_residual <= ip->forcing_start * force || force == 0.0) break;
+    target = force;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Moves x by the solution of the penalized problem, as far as its bounds allow, if f and c_I are numbers there */
+static PetscErrorCode PenaltyStep(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     f, size, alpha = 1.0;
+  PetscBool     usable = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PenaltySolve(tao, &usable));
+  if (!usable) PetscFunctionReturn(0);
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(VecCopy(ip->dx, p->dt));
+    if (b == IP_UPPER) PetscCall(VecScale(p->dt, -1.0));
+    PetscCall(IPPairMaxStep(p->t, p->dt, 0.9, &alpha));
+  }
+  PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
+  PetscCall(TaoComputeObjective(tao, ip->xtrial, &f));
+  PetscCall(TaoComputeInequalityConstraints(tao, ip->xtrial, ip->ctrial));
+  PetscCall(VecNorm(ip->ctrial, NORM_2, &size));
+  if (PetscIsInfOrNanReal(f) || PetscIsInfOrNanReal(size)) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ip->xtrial, tao->solution));
+  PetscCall(VecCopy(ip->ctrial, ip->c));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
+static PetscErrorCode Predict(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     length, pressure, mean;
+
+  PetscFunctionBegin;
+  PetscCall(PenaltyStep(tao));
+  PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
+  PetscCall(MeanMagnitudes(tao, ip->c, ip->cwork, &length, &pressure));
+  PetscCall(MeanProduct(tao, ip->c, &mean));
+  ip->mu = ip->mu_start * PetscMax(length * pressure, 1e-3 * mean);
+  if (!(ip->mu > 0.0)) ip->mu = ip->mu0;
+  PetscCall(CentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
+  PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->lambda));
+  PetscFunctionReturn(0);
+}
+
+/* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred */
+static PetscErrorCode Warm(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  PetscReal     mean, average;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(ip->warm_s, slack->t));
+  PetscCall(VecCopy(ip->warm_z, slack->z));
+  PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
+  average = PetscMax(average / slack->weight, 0.0);
+  PetscCall(VecPointwiseDivide(ip->ctrial, slack->z, ip->stiffness));
+  PetscCall(VecAYPX(ip->ctrial, -1.0, slack->t));
+  PetscCall(MeanProduct(tao, ip->ctrial, &mean));
+  ip->mu = PetscMax(average, ip->mu_warm * (mean > 0.0 ? mean : 1.0));
+  PetscCall(CentralPair(ip->ctrial, ip->stiffness, ip->mu, slack->t, slack->z));
+  PetscCall(VecCopy(slack->z, ip->lambda));
+  PetscFunctionReturn(0);
+}
+
+/* Fills slacks, multipliers and mu. The Hessian at x is needed for the stiffness of the constraints. */
+PetscErrorCode IPStartPoint(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
+    if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
+  if (ip->start == IP_START_COLD || !ip->mi) PetscCall(Cold(tao));
+  else if (ip->start == IP_START_WARM && ip->warm_s) PetscCall(Warm(tao));
+  else PetscCall(Predict(tao));
+  if (!ip->mi && ip->scaling == IP_SCALING_PROBLEM) {
+    PetscReal x;
+
+    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
+    ip->mu = ip->mu_start * ip->hscale * (x > 0.0 ? x * x : 1.0);
+  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(IPPairSetTarget(p, ip->mu, PETSC_FALSE));
+    PetscCall(IPPairDualDirection(p));
+    PetscCall(VecCopy(p->dz, p->z));
+  }
+  PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}

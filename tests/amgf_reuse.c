@@ -1,0 +1,285 @@
+static char help[] = "PCAMGF on operators that change: what is rebuilt, what is kept, when the AMG lags, what a failure looks like.\n\n";
+
+#include "amgf_problem.h"
+
+typedef struct {
+  MPI_Comm comm;
+  Problem  problem;
+  Mat      A;
+  IS       is;
+  KSP      ksp;
+  PC       pc;
+  Vec      b, x;
+} Context;
+
+static PetscErrorCode ContextCreate(Context *c, PetscInt n)
+{
+  PetscFunctionBeginUser;
+  c->comm = PETSC_COMM_WORLD;
+  PetscCall(ProblemSetDefaults(&c->problem));
+  c->problem.n = n;
+  PetscCall(ProblemCreate(c->comm, &c->problem, MATAIJ, PETSC_TRUE, &c->A));
+  PetscCall(ProblemCreateFilterIS(&c->problem, c->A, c->comm, &c->is));
+  PetscCall(MatCreateVecs(c->A, &c->x, &c->b));
+  PetscCall(FillVector(c->b, 0.8));
+  PetscCall(KSPCreate(c->comm, &c->ksp));
+  PetscCall(KSPSetType(c->ksp, KSPCG));
+  PetscCall(KSPSetTolerances(c->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 2000));
+  PetscCall(KSPSetOperators(c->ksp, c->A, c->A));
+  PetscCall(KSPGetPC(c->ksp, &c->pc));
+  PetscCall(PCSetType(c->pc, PCAMGF));
+  PetscCall(PCAMGFSetFilterIS(c->pc, c->is));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ContextDestroy(Context *c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(KSPDestroy(&c->ksp));
+  PetscCall(VecDestroy(&c->b));
+  PetscCall(VecDestroy(&c->x));
+  PetscCall(ISDestroy(&c->is));
+  PetscCall(MatDestroy(&c->A));
+  PetscFunctionReturn(0);
+}
+
+/* Solves, and prints the AMG set-ups so far if the true residual is small */
+static PetscErrorCode Solve(Context *c, const char what[])
+{
+  PCAMGFCounts       counts;
+  KSPConvergedReason reason;
+  Vec                r;
+  PetscReal          residual;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPSetOperators(c->ksp, c->A, c->A));
+  PetscCall(KSPSolve(c->ksp, c->b, c->x));
+  PetscCall(KSPGetConvergedReason(c->ksp, &reason));
+  PetscCall(PCAMGFGetCounts(c->pc, &counts));
+  PetscCall(VecDuplicate(c->b, &r));
+  PetscCall(MatMult(c->A, c->x, r));
+  PetscCall(RelativeDifference(r, c->b, &residual));
+  PetscCall(VecDestroy(&r));
+  PetscCall(PetscPrintf(c->comm, "  %s: %s, AMG set-ups %" PetscInt_FMT ", filter set-ups %" PetscInt_FMT "\n", what, reason > 0 && residual < 1e-6 ? "solved" : "NOT SOLVED", counts.amg_setups, counts.filter_setups));
+  PetscFunctionReturn(0);
+}
+
+/* Symbolic factorizations since the start of the program */
+static PetscErrorCode SymbolicFactorizations(PetscInt *n)
+{
+  PetscLogEvent      event;
+  PetscEventPerfInfo info;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscLogEventGetId("MatCholFctrSym", &event));
+  PetscCall(PetscLogEventGetPerfInfo(PETSC_DETERMINE, event, &info));
+  *n = info.count;
+  PetscFunctionReturn(0);
+}
+
+/* A barrier that tightens: only D changes */
+static PetscErrorCode CheckPatternReuse(void)
+{
+  Context  c;
+  PetscInt before, after;
+  IS       copy;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "pattern reuse\n"));
+  PetscCall(SymbolicFactorizations(&before));
+  PetscCall(ContextCreate(&c, 12));
+  for (PetscInt i = 0; i < 4; i++) {
+    c.problem.highest = 2.0 + i;
+    PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+    PetscCall(ISDuplicate(c.is, &copy)); /* an equal subspace in a new object */
+    PetscCall(PCAMGFSetFilterIS(c.pc, copy));
+    PetscCall(ISDestroy(&copy));
+    PetscCall(Solve(&c, "new values"));
+  }
+  PetscCall(Solve(&c, "same values"));
+  PetscCall(SymbolicFactorizations(&after));
+  PetscCall(PetscPrintf(c.comm, "  symbolic factorizations: %" PetscInt_FMT "\n", after - before));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, 7, 0, 1, &copy));
+  PetscCall(PCAMGFSetFilterIS(c.pc, copy));
+  PetscCall(PCSetUp(c.pc));
+  PetscCall(ISDestroy(&copy));
+  PetscCall(SymbolicFactorizations(&before));
+  PetscCall(PetscPrintf(c.comm, "  and with another subspace: %" PetscInt_FMT "\n", before - after));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* Five operators with a fixed lag; they decrease, so that an outdated AMG still has A < 2 B^-1 */
+static PetscErrorCode CheckFixedLag(PCAMGFCycle cycle, PetscInt lag)
+{
+  Context c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, lag %" PetscInt_FMT "\n", PCAMGFCycles[cycle], lag));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(PCAMGFSetCycle(c.pc, cycle));
+  PetscCall(PCAMGFSetAMGLag(c.pc, lag));
+  for (PetscInt i = 0; i < 5; i++) {
+    c.problem.ax      = 1.0 - 0.1 * i;
+    c.problem.highest = 6.0 - i;
+    PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+    PetscCall(Solve(&c, "operator"));
+  }
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* Automatic, the default of fbf. The diagonal of K is 4 (ax + ay): with ax + ay fixed the direction of strong coupling turns under an unchanged diagonal */
+static PetscErrorCode CheckAutomaticLag(void)
+{
+  Context c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "automatic lag\n"));
+  PetscCall(ContextCreate(&c, 24));
+  c.problem.ax = 1.9;
+  c.problem.ay = 0.1;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "first operator"));
+  c.problem.highest = 8.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "stiffer on the subspace: kept"));
+  PetscCall(KSPSetTolerances(c.ksp, 1e-13, PETSC_DEFAULT, PETSC_DEFAULT, 2000));
+  c.problem.highest = 7.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "a tighter tolerance takes more iterations: kept"));
+  c.problem.highest = 6.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "so it is still: kept"));
+  c.problem.ax = 0.1;
+  c.problem.ay = 1.9;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "coupling turned, not seen on the diagonal: kept"));
+  c.problem.highest = 5.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "the last solve was dear: rebuilt"));
+  c.problem.ax *= 4.0;
+  c.problem.ay *= 4.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "stiffer everywhere: rebuilt"));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* PCReset(), then an operator of another size */
+static PetscErrorCode CheckReset(void)
+{
+  Context c, d;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "reset\n"));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(ContextCreate(&d, 9));
+  PetscCall(Solve(&c, "first size"));
+  PetscCall(KSPReset(c.ksp));
+  PetscCall(KSPSetOperators(c.ksp, d.A, d.A));
+  PetscCall(PCAMGFSetFilterIS(c.pc, d.is));
+  PetscCall(KSPDestroy(&d.ksp));
+  d.ksp = c.ksp;
+  d.pc  = c.pc;
+  PetscCall(Solve(&d, "second size"));
+  c.ksp = NULL;
+  PetscCall(ContextDestroy(&c));
+  PetscCall(ContextDestroy(&d));
+  PetscFunctionReturn(0);
+}
+
+/* Amat and Pmat differ: each way of taking the products gives a symmetric preconditioner */
+static PetscErrorCode CheckAmat(void)
+{
+  Context     c;
+  Mat         K;
+  Vec         y, Mx, My;
+  PetscScalar xMy, yMx, xMx, yMy;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Amat and Pmat\n"));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(PCAMGFSetCycle(c.pc, PC_AMGF_BFB));
+  c.problem.ax = 1.2;
+  PetscCall(ProblemCreate(c.comm, &c.problem, MATAIJ, PETSC_TRUE, &K));
+  PetscCall(KSPSetOperators(c.ksp, K, c.A));
+  PetscCall(VecDuplicate(c.b, &y));
+  PetscCall(VecDuplicate(c.b, &Mx));
+  PetscCall(VecDuplicate(c.b, &My));
+  PetscCall(FillVector(y, 5.1));
+  for (PetscInt use = 0; use < 2; use++) {
+    PetscCall(PCSetUseAmat(c.pc, use ? PETSC_TRUE : PETSC_FALSE));
+    PetscCall(PCApply(c.pc, c.b, Mx));
+    PetscCall(PCApply(c.pc, y, My));
+    PetscCall(VecDot(c.b, Mx, &xMx));
+    PetscCall(VecDot(y, My, &yMy));
+    PetscCall(VecDot(c.b, My, &xMy));
+    PetscCall(VecDot(y, Mx, &yMx));
+    PetscCall(ReportBound(c.comm, use ? "  products with Amat: symmetric" : "  products with Pmat: symmetric", PetscAbsScalar(xMy - yMx) / PetscSqrtReal(PetscAbsScalar(xMx * yMy)), 1e-11));
+  }
+  PetscCall(MatDestroy(&K));
+  PetscCall(VecDestroy(&y));
+  PetscCall(VecDestroy(&Mx));
+  PetscCall(VecDestroy(&My));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* A subspace matrix that is singular: the solve says so and does not end the program; the next good operator is solved */
+static PetscErrorCode CheckFailure(void)
+{
+  Context            c;
+  Mat                P;
+  KSPConvergedReason reason;
+  PCFailedReason     failed;
+  IS                 twice;
+  PetscInt           start, idx[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "failure\n"));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(MatGetOwnershipRange(c.A, &start, NULL));
+  idx[0] = idx[1] = start;
+  PetscCall(ISCreateGeneral(c.comm, 2, idx, PETSC_COPY_VALUES, &twice));
+  PetscCall(ProblemCreateInterpolation(c.A, twice, 0.0, &P)); /* two equal columns */
+  PetscCall(PCAMGFSetFilterInterpolation(c.pc, P));
+  PetscCall(KSPSolve(c.ksp, c.b, c.x));
+  PetscCall(KSPGetConvergedReason(c.ksp, &reason));
+  PetscCall(PCGetFailedReason(c.pc, &failed));
+  PetscCall(PetscPrintf(c.comm, "  singular subspace: %s, %s\n", KSPConvergedReasons[reason], failed ? "failure reported" : "no failure reported"));
+  PetscCall(PCAMGFSetFilterIS(c.pc, c.is));
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "recovered"));
+  PetscCall(ISDestroy(&twice));
+  PetscCall(MatDestroy(&P));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(MatInitializePackage());
+  PetscCall(PetscLogDefaultBegin());
+  PetscCall(CheckPatternReuse());
+  PetscCall(CheckFixedLag(PC_AMGF_BFB, 1));
+  PetscCall(CheckFixedLag(PC_AMGF_BFB, 3));
+  PetscCall(CheckFixedLag(PC_AMGF_FBF, -1));
+  PetscCall(CheckAutomaticLag());
+  PetscCall(CheckReset());
+  PetscCall(CheckAmat());
+  PetscCall(CheckFailure());
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      suffix: 1
+      nsize: {{1 2 3 5}}
+
+TEST*/

@@ -1,0 +1,441 @@
+static char help[] = "Contact geometry: overlaps of facets against independent areas and integrals, degenerate facets, frozen derivatives.\n";
+
+#include "../src/contact/contactimpl.h"
+
+static const ContactOverlapLimits limits = {-0.174, 1e-8, 1e30, 1e30};
+
+static PetscErrorCode Report(const char what[], PetscReal error, PetscReal tolerance)
+{
+  PetscFunctionBeginUser;
+  if (error <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error below %g\n", what, (double)tolerance));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error %g exceeds %g\n", what, (double)error, (double)tolerance));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal Random(PetscRandom r, PetscReal low, PetscReal high)
+{
+  PetscReal x;
+
+  PetscCallAbort(PETSC_COMM_SELF, PetscRandomGetValueReal(r, &x));
+  return low + (high - low) * x;
+}
+
+/* A random rotation and shift */
+typedef struct {
+  PetscReal R[3][3], shift[3];
+} Motion;
+
+static void RandomMotion(PetscRandom r, Motion *m)
+{
+  PetscReal q[4], s = 0.0;
+
+  for (PetscInt i = 0; i < 4; ++i) {
+    q[i] = Random(r, -1, 1);
+    s += q[i] * q[i];
+  }
+  for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt j = 0; j < 3; ++j) {
+      const PetscInt  k    = 3 - i - j;
+      const PetscReal sign = (j - i + 3) % 3 == 1 ? -1.0 : 1.0;
+
+      m->R[i][j] = i == j ? 1.0 - 2.0 * (1.0 - (q[0] * q[0] + q[1 + i] * q[1 + i]) / s) : 2.0 * (q[1 + i] * q[1 + j] + sign * q[0] * q[1 + k]) / s;
+    }
+    m->shift[i] = Random(r, -1, 1);
+  }
+}
+
+static void Move(const Motion *m, PetscReal x[12])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    PetscReal y[3];
+
+    for (PetscInt i = 0; i < 3; ++i) y[i] = m->shift[i] + m->R[i][0] * x[3 * a] + m->R[i][1] * x[3 * a + 1] + m->R[i][2] * x[3 * a + 2];
+    for (PetscInt i = 0; i < 3; ++i) x[3 * a + i] = y[i];
+  }
+}
+
+/* Facet at height z; facing up, or down for a mortar facet */
+static void Facet(const PetscReal p[4][2], PetscReal z, PetscBool up, PetscReal x[12])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscInt b = up ? a : 3 - a;
+
+    x[3 * a]     = p[b][0];
+    x[3 * a + 1] = p[b][1];
+    x[3 * a + 2] = z;
+  }
+}
+
+static void RandomConvex(PetscRandom r, PetscReal p[4][2])
+{
+  const PetscReal cx = Random(r, -1, 1), cy = Random(r, -1, 1), a = Random(r, 0.2, 2), b = Random(r, 0.2, 2), tilt = Random(r, 0, 7);
+
+  for (PetscInt i = 0; i < 4; ++i) { /* on an ellipse */
+    const PetscReal t = 0.5 * PETSC_PI * (PetscReal)i + Random(r, -0.7, 0.7), u = a * PetscCosReal(t), v = b * PetscSinReal(t);
+
+    p[i][0] = cx + PetscCosReal(tilt) * u - PetscSinReal(tilt) * v;
+    p[i][1] = cy + PetscSinReal(tilt) * u + PetscCosReal(tilt) * v;
+  }
+}
+
+/*
+  Overlap of two convex quadrilaterals by an algorithm of another kind: the boundary integral 1/2 oint x cross dx over the
+  pieces of each edge that lie inside the other polygon.
+*/
+static PetscReal PieceInside(const PetscReal a[2], const PetscReal b[2], const PetscReal q[4][2])
+{
+  PetscReal t0 = 0.0, t1 = 1.0, p[2], e[2];
+
+  for (PetscInt k = 0; k < 4; ++k) {
+    const PetscReal *u = q[k], *v = q[(k + 1) % 4];
+    const PetscReal  da = (v[0] - u[0]) * (a[1] - u[1]) - (v[1] - u[1]) * (a[0] - u[0]);
+    const PetscReal  db = (v[0] - u[0]) * (b[1] - u[1]) - (v[1] - u[1]) * (b[0] - u[0]);
+
+    if (da < 0 && db < 0) return 0.0;
+    if (da < 0) t0 = PetscMax(t0, da / (da - db));
+    else if (db < 0) t1 = PetscMin(t1, da / (da - db));
+  }
+  if (t1 <= t0) return 0.0;
+  for (PetscInt d = 0; d < 2; ++d) {
+    p[d] = a[d] + t0 * (b[d] - a[d]);
+    e[d] = (t1 - t0) * (b[d] - a[d]);
+  }
+  return 0.5 * (p[0] * e[1] - p[1] * e[0]);
+}
+
+static PetscReal OverlapArea(const PetscReal p[4][2], const PetscReal q[4][2])
+{
+  PetscReal area = 0.0;
+
+  for (PetscInt k = 0; k < 4; ++k) area += PieceInside(p[k], p[(k + 1) % 4], q) + PieceInside(q[k], q[(k + 1) % 4], p);
+  return area;
+}
+
+static PetscErrorCode TestRandomAreas(PetscRandom r)
+{
+  PetscReal area = 0.0, unity = 0.0, gaperror = 0.0;
+  PetscInt  noverlap = 0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt trial = 0; trial < 20000; ++trial) {
+    PetscReal        p[4][2], q[4][2], x1[12], x2[12], normals[12], exact, sum = 0.0, size;
+    const PetscReal  h = Random(r, -0.3, 0.3);
+    Motion           motion;
+    ContactOverlap   o;
+    ContactIntegrals m;
+
+    RandomConvex(r, p);
+    RandomConvex(r, q);
+    exact = OverlapArea(p, q);
+    size  = PetscMin(ContactPolygonArea(4, (const PetscReal(*)[2])p), ContactPolygonArea(4, (const PetscReal(*)[2])q));
+    Facet((const PetscReal(*)[2])p, 0.0, PETSC_TRUE, x1);
+    Facet((const PetscReal(*)[2])q, h, PETSC_FALSE, x2);
+    RandomMotion(r, &motion);
+    Move(&motion, x1);
+    Move(&motion, x2);
+    for (PetscInt i = 0; i < 12; ++i) normals[i] = motion.R[i % 3][2];
+    if (!ContactOverlapFind(x1, x2, &limits, &o)) {
+      if (exact > 1.001e-8 * size) area = PetscMax(area, exact / size);
+      continue;
+    }
+    ++noverlap;
+    ContactIntegrate(&o, x1, x2, normals, &m);
+    for (PetscInt a = 0; a < 4; ++a) sum += m.weight[a];
+    area  = PetscMax(area, PetscAbsReal(o.area - exact) / size);
+    unity = PetscMax(unity, PetscAbsReal(sum - exact) / size);
+    for (PetscInt a = 0; a < 4; ++a) gaperror = PetscMax(gaperror, PetscAbsReal(m.gap[a] - h * m.weight[a]) / size);
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "random convex facets: %s\n", noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
+  PetscCall(Report("area of the overlap", area, 1e-12));
+  PetscCall(Report("sum of the weights of the rows", unity, 1e-12));
+  PetscCall(Report("gap of parallel planes", gaperror, 1e-12));
+  PetscFunctionReturn(0);
+}
+
+/* A facet over the cells of a plane mesh: the overlaps make up the whole facet */
+static PetscErrorCode TestTiling(PetscRandom r)
+{
+  const ContactOverlapLimits all   = {-0.174, 0.0, 1e30, 1e30}; /* slivers too */
+  const PetscInt             n     = 12;
+  PetscReal                  error = 0.0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt trial = 0; trial < 50; ++trial) {
+    PetscReal grid[13][13][2], p[4][2], x1[12], x2[12], area = 0.0;
+    Motion    motion;
+
+    RandomMotion(r, &motion);
+    RandomConvex(r, p);
+    for (PetscInt i = 0; i <= n; ++i) {
+      for (PetscInt j = 0; j <= n; ++j) {
+        grid[i][j][0] = 8.0 * (((PetscReal)i + Random(r, -0.2, 0.2)) / (PetscReal)n - 0.5);
+        grid[i][j][1] = 8.0 * (((PetscReal)j + Random(r, -0.2, 0.2)) / (PetscReal)n - 0.5);
+      }
+    }
+    Facet((const PetscReal(*)[2])p, 0.0, PETSC_TRUE, x1);
+    Move(&motion, x1);
+    for (PetscInt i = 0; i < n; ++i) {
+      for (PetscInt j = 0; j < n; ++j) {
+        PetscReal      q[4][2];
+        ContactOverlap o;
+
+        for (PetscInt d = 0; d < 2; ++d) {
+          q[0][d] = grid[i][j][d];
+          q[1][d] = grid[i + 1][j][d];
+          q[2][d] = grid[i + 1][j + 1][d];
+          q[3][d] = grid[i][j + 1][d];
+        }
+        Facet((const PetscReal(*)[2])q, 0.1, PETSC_FALSE, x2);
+        Move(&motion, x2);
+        if (ContactOverlapFind(x1, x2, &all, &o)) area += o.area;
+      }
+    }
+    error = PetscMax(error, PetscAbsReal(area / ContactPolygonArea(4, (const PetscReal(*)[2])p) - 1.0));
+  }
+  PetscCall(Report("facet tiled by a mesh", error, 1e-12));
+  PetscFunctionReturn(0);
+}
+
+/* int over [lo, hi] of the hat functions a on [p0, p1] and b on [q0, q1], by 2 Gauss points */
+static PetscReal Hats(PetscReal lo, PetscReal hi, PetscReal p0, PetscReal p1, PetscInt a, PetscReal q0, PetscReal q1, PetscInt b)
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscReal x = 0.5 * (lo + hi) + (k ? 0.5 : -0.5) * (hi - lo) / PetscSqrtReal(3.0);
+    const PetscReal s = (x - p0) / (p1 - p0), t = (x - q0) / (q1 - q0);
+
+    sum += 0.5 * (hi - lo) * (a ? s : 1.0 - s) * (b ? t : 1.0 - t);
+  }
+  return sum;
+}
+
+/* Rectangles, sheared to parallelograms: products of bilinear functions are integrated exactly */
+static PetscErrorCode TestParallelograms(PetscRandom r)
+{
+  static const PetscInt corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  PetscReal             error = 0.0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt trial = 0; trial < 2000; ++trial) {
+    PetscReal        lo[2][2], hi[2][2], p[2][4][2], from[2], to[2], x1[12], x2[12], normals[12] = {0}, size;
+    const PetscReal  shear = Random(r, -0.5, 0.5);
+    Motion           motion;
+    ContactOverlap   o;
+    ContactIntegrals m;
+
+    for (PetscInt d = 0; d < 2; ++d) {
+      for (PetscInt s = 0; s < 2; ++s) {
+        lo[s][d] = Random(r, -1, 0);
+        hi[s][d] = Random(r, 0.1, 1);
+        for (PetscInt a = 0; a < 4; ++a) p[s][a][d] = corner[a][d] ? hi[s][d] : lo[s][d];
+      }
+      from[d] = PetscMax(lo[0][d], lo[1][d]);
+      to[d]   = PetscMin(hi[0][d], hi[1][d]);
+    }
+    for (PetscInt s = 0; s < 2; ++s) {
+      for (PetscInt a = 0; a < 4; ++a) p[s][a][0] += shear * p[s][a][1];
+    }
+    RandomMotion(r, &motion);
+    Facet((const PetscReal(*)[2])p[0], 0.0, PETSC_TRUE, x1);
+    Facet((const PetscReal(*)[2])p[1], 0.0, PETSC_FALSE, x2);
+    Move(&motion, x1);
+    Move(&motion, x2);
+    PetscCheck(ContactOverlapFind(x1, x2, &limits, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB, "Overlapping parallelograms were not found");
+    ContactIntegrate(&o, x1, x2, normals, &m);
+    size = (to[0] - from[0]) * (to[1] - from[1]);
+    for (PetscInt a = 0; a < 4; ++a) {
+      for (PetscInt b = 0; b < 4; ++b) {
+        PetscReal D = 1.0, M = 1.0;
+
+        for (PetscInt d = 0; d < 2; ++d) {
+          D *= Hats(from[d], to[d], lo[0][d], hi[0][d], corner[a][d], lo[0][d], hi[0][d], corner[b][d]);
+          M *= Hats(from[d], to[d], lo[0][d], hi[0][d], corner[a][d], lo[1][d], hi[1][d], corner[3 - b][d]);
+        }
+        error = PetscMax(error, PetscMax(PetscAbsReal(m.D[a][b] - D), PetscAbsReal(m.M[a][b] - M)) / size);
+      }
+    }
+  }
+  PetscCall(Report("mortar integrals on parallelograms", error, 1e-12));
+  PetscFunctionReturn(0);
+}
+
+/* Overlaps whose area is known, moved about and nearly degenerate */
+static PetscErrorCode TestDegenerate(PetscRandom r)
+{
+  static const PetscReal square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  static const struct {
+    const char *name;
+    PetscReal   q[4][2], area;
+  } cases[] = {
+    {"same facet",               {{0, 0}, {1, 0}, {1, 1}, {0, 1}},                         1    },
+    {"same facet, turned",       {{1, 1}, {0, 1}, {0, 0}, {1, 0}},                         1    },
+    {"edges collinear",          {{0.25, 0}, {0.75, 0}, {0.75, 1}, {0.25, 1}},             0.5  },
+    {"common edge",              {{1, 0}, {2, 0}, {2, 1}, {1, 1}},                         0    },
+    {"common vertex",            {{1, 1}, {2, 1}, {2, 2}, {1, 2}},                         0    },
+    {"vertex on an edge",        {{0.5, 0}, {1, -1}, {1.5, 0}, {1, 1}},                    0.25 },
+    {"diamond through vertices", {{0.5, -0.5}, {1.5, 0.5}, {0.5, 1.5}, {-0.5, 0.5}},       1    },
+    {"sliver",                   {{-1, 0.5}, {2, 0.5}, {2, 0.500001}, {-1, 0.500001}},     1e-6 },
+    {"triangle",                 {{0, 0}, {1, 0}, {1, 1}, {1, 1}},                         0.5  },
+    {"reflex corner",            {{0, 0}, {1, 0}, {0.25, 0.25}, {0, 1}},                   0.25 },
+    {"collapsed to a line",      {{0, 0}, {1, 1}, {1, 1}, {0, 0}},                         0    },
+    {"collapsed to a point",     {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}},         0    },
+    {"apart",                    {{3, 3}, {4, 3}, {4, 4}, {3, 4}},                         0    }
+  };
+
+  PetscFunctionBeginUser;
+  for (size_t c = 0; c < PETSC_STATIC_ARRAY_LENGTH(cases); ++c) {
+    PetscReal error = 0.0;
+
+    for (PetscInt trial = 0; trial < 400; ++trial) {
+      const PetscReal  shift = trial % 4 == 3 ? 1e-7 : (trial % 4) * 1e-12, scale = PetscPowRealInt(10.0, (int)(trial % 13) - 6);
+      const PetscBool  swap  = (PetscBool)(trial % 3 == 1);
+      PetscReal        p[4][2], q[4][2], x1[12], x2[12], normals[12] = {0}, sum = 0.0;
+      Motion           motion;
+      ContactOverlap   o;
+      ContactIntegrals m;
+
+      for (PetscInt a = 0; a < 4; ++a) {
+        for (PetscInt d = 0; d < 2; ++d) {
+          p[a][d] = square[(a + trial) % 4][d] * scale;
+          q[a][d] = (cases[c].q[a][d] + shift * Random(r, -1, 1)) * scale;
+        }
+      }
+      RandomMotion(r, &motion);
+      for (PetscInt d = 0; d < 3; ++d) motion.shift[d] *= scale;
+      Facet((const PetscReal(*)[2])(swap ? q : p), 0.0, PETSC_TRUE, x1);
+      Facet((const PetscReal(*)[2])(swap ? p : q), 0.1 * scale, PETSC_FALSE, x2);
+      Move(&motion, x1);
+      Move(&motion, x2);
+      if (ContactOverlapFind(x1, x2, &limits, &o)) {
+        ContactIntegrate(&o, x1, x2, normals, &m);
+        for (PetscInt a = 0; a < 4; ++a) sum += m.weight[a];
+      }
+      sum /= scale * scale;
+      if (PetscIsInfOrNanReal(sum)) error = PETSC_MAX_REAL;
+      else error = PetscMax(error, PetscAbsReal(sum - cases[c].area) - 8.0 * shift);
+    }
+    PetscCall(Report(cases[c].name, error, cases[c].area < 1e-3 ? 1e-8 : 1e-12));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Warped facets, also far too warped and steep: finite, within the facets, weights add up, derivative of the frozen gap */
+static PetscErrorCode TestWarped(PetscRandom r)
+{
+  PetscReal unity = 0.0, outside = 0.0, derivative = 0.0, reference = 0.0;
+  PetscInt  noverlap = 0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt trial = 0; trial < 20000; ++trial) {
+    const PetscReal  warp = PetscPowReal(10.0, Random(r, -14, 0));
+    PetscReal        p[4][2], q[4][2], x1[12], x2[12], y1[12], y2[12], normals[12], d1[12], d2[12], sum = 0.0;
+    const PetscReal  eps = 1e-3;
+    Motion           motion;
+    ContactOverlap   o;
+    ContactIntegrals m, plus, minus;
+
+    RandomConvex(r, p);
+    RandomConvex(r, q);
+    Facet((const PetscReal(*)[2])p, 0.0, PETSC_TRUE, x1);
+    Facet((const PetscReal(*)[2])q, 0.1, PETSC_FALSE, x2);
+    RandomMotion(r, &motion);
+    Move(&motion, x1);
+    Move(&motion, x2);
+    for (PetscInt i = 0; i < 12; ++i) {
+      x1[i] += warp * Random(r, -1, 1);
+      x2[i] += warp * Random(r, -1, 1);
+      normals[i] = Random(r, -1, 1);
+      d1[i]      = Random(r, -1, 1);
+      d2[i]      = Random(r, -1, 1);
+    }
+    if (!ContactOverlapFind(x1, x2, &limits, &o)) continue;
+    ++noverlap;
+    ContactIntegrate(&o, x1, x2, normals, &m);
+    for (PetscInt a = 0; a < 4; ++a) sum += m.weight[a];
+    unity = PetscMax(unity, PetscAbsReal(sum - o.area) / o.area);
+    for (PetscInt k = 0; k < o.n; ++k) {
+      for (PetscInt d = 0; d < 2; ++d) {
+        const PetscReal xi = PetscMax(PetscAbsReal(o.xi1[k][d]), PetscAbsReal(o.xi2[k][d]));
+
+        outside = PetscIsInfOrNanReal(xi) ? PETSC_MAX_REAL : PetscMax(outside, xi - 1.0);
+      }
+    }
+    for (PetscInt i = 0; i < 12; ++i) {
+      y1[i] = x1[i] - eps * d1[i];
+      y2[i] = x2[i] - eps * d2[i];
+      x1[i] += eps * d1[i];
+      x2[i] += eps * d2[i];
+    }
+    ContactIntegrate(&o, x1, x2, normals, &plus);
+    ContactIntegrate(&o, y1, y2, normals, &minus);
+    for (PetscInt a = 0; a < 4; ++a) {
+      PetscReal J = 0.0;
+
+      for (PetscInt b = 0; b < 4; ++b) {
+        for (PetscInt c = 0; c < 3; ++c) J += (m.M[a][b] * d2[3 * b + c] - m.D[a][b] * d1[3 * b + c]) * normals[3 * a + c];
+      }
+      derivative = PetscMax(derivative, PetscAbsReal(J - (plus.gap[a] - minus.gap[a]) / (2.0 * eps)) / o.area);
+      reference  = PetscMax(reference, PetscAbsReal(J) / o.area);
+    }
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warped facets: %s\n", noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
+  PetscCall(Report("sum of the weights of the rows, warped", unity, 1e-12));
+  PetscCall(Report("points outside the facets", outside, 0.0));
+  PetscCall(Report("frozen gap differentiated", derivative / reference, 1e-10));
+  PetscFunctionReturn(0);
+}
+
+/* Facets that look away from each other, are too far or too deep */
+static PetscErrorCode TestLimits(void)
+{
+  static const PetscReal     square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const ContactOverlapLimits near = {-0.174, 1e-8, 0.5, 0.2};
+  static const struct {
+    PetscReal z;
+    PetscBool up, pairs;
+  } cases[] = {
+    {0.4,  PETSC_FALSE, PETSC_TRUE },
+    {0.6,  PETSC_FALSE, PETSC_FALSE},
+    {-0.1, PETSC_FALSE, PETSC_TRUE },
+    {-0.3, PETSC_FALSE, PETSC_FALSE},
+    {0.0,  PETSC_TRUE,  PETSC_FALSE}
+  };
+  PetscInt wrong = 0;
+
+  PetscFunctionBeginUser;
+  for (size_t c = 0; c < PETSC_STATIC_ARRAY_LENGTH(cases); ++c) {
+    PetscReal      x1[12], x2[12];
+    ContactOverlap o;
+
+    Facet(square, 0.0, PETSC_TRUE, x1);
+    Facet(square, cases[c].z, cases[c].up, x2);
+    wrong += ContactOverlapFind(x1, x2, &near, &o) != cases[c].pairs;
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "search limits: %" PetscInt_FMT " wrong\n", wrong));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscRandom r;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscRandomCreate(PETSC_COMM_SELF, &r));
+  PetscCall(TestRandomAreas(r));
+  PetscCall(TestTiling(r));
+  PetscCall(TestParallelograms(r));
+  PetscCall(TestDegenerate(r));
+  PetscCall(TestWarped(r));
+  PetscCall(TestLimits());
+  PetscCall(PetscRandomDestroy(&r));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+
+TEST*/

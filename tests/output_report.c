@@ -1,0 +1,47 @@
+static char help[] = "Writes and prints a report with awkward values: -summary FILE.\n";
+
+#include <output.h>
+#include <math.h>
+
+int main(int argc, char **argv)
+{
+  PetscInt   iterations[] = {3, 14, 15};
+  StepReport steps[]      = {
+    {.step = 1, .load = 0.5, .constraints = 81, .filter_dofs = 111, .ip_iterations = 3, .ksp_iterations = iterations, .nksp = 3, .amg_applications = 35, .amg_setups = 2, .energy = -1.0 / 3, .kkt_error = 1e-7, .kkt_error_unscaled = 2e-7, .gap_min = -1e-9, .complementarity = 1e-8, .contact_force = {0, 0.25, -1e300}, .reaction = {1, 2, 3}, .converged = PETSC_TRUE, .reason = "converged"},
+    {.step = 2, .load = 1, .energy = NAN, .kkt_error = INFINITY, .gap_min = -INFINITY, .reason = "line \"search\" failed\\\n\tat once"},
+  };
+  RunReport report               = {.problem = "caf\xc3\xa9 \"two\"", .dofs = 13380, .refine = 1, .converged = PETSC_FALSE, .nsteps = 2, .steps = steps, .peak_memory_bytes = 1.5e9};
+  char      file[PETSC_MAX_PATH_LEN] = "summary.json";
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-summary", file, sizeof(file), NULL));
+  report.reason          = "line search failed";
+  report.ranks           = 1;
+  report.time.total      = 2;
+  report.time.amg_apply  = 1.5;
+  report.time.other      = 0.5;
+  PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
+  PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
+  PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+  testset:
+    nsize: {{1 3}}
+
+    test:
+      suffix: 1
+      filter: (cat; ${PYTHON} ${AMGF_DIR}/tests/check_report.py summary.json)
+      output_file: output/output_report_1.out
+
+    test:
+      suffix: unwritable
+      args: -summary nowhere/summary.json
+      filter: Error: grep -o "cannot write .*" | sort -u
+      output_file: output/output_report_unwritable.out
+
+TEST*/

@@ -1,0 +1,35 @@
+# What bin/contact says to bad input, on one rank and on three: its exit code, and one sentence. No hang: 30 s a run.
+contact=$AMGF_DIR/bin/contact
+sound=$AMGF_DIR/share/scenes/two_block.yaml
+
+# A scene that differs from the sound one by a sed command
+change() { sed "$1" "$sound" > changed.yaml; }
+
+try() {
+  name=$1
+  shift
+  echo "$name"
+  for ranks in ${RANKS:-1 3}; do
+    timeout 30 mpiexec --oversubscribe -n $ranks "$contact" "$@" > out 2> err
+    code=$?
+    sentence=$(grep -h 'contact: ' err)
+    echo "  $ranks: exit $([ $code -eq 0 ] && echo 0 || { [ $code -eq 124 ] && echo hang || echo 'not 0'; })," \
+      "$(grep -c . <<< "$sentence") sentence: ${sentence//$AMGF_DIR\//}"
+  done
+}
+
+try "no scene"
+try "no such scene" nowhere.yaml
+change 's/young: 1$/yuong: 1/' && try "misspelt key" changed.yaml
+change 's/young: 1$/young: 0/' && try "E = 0" changed.yaml
+change 's/0.499/0.5/' && try "nu = 0.5" changed.yaml
+change 's/0.499/nan/' && try "NaN" changed.yaml
+change 's/slab.zmin/slab.bottom/' && try "no such face" changed.yaml
+change 's/mortar: slab/mortar: slob/' && try "pair with an unknown body" changed.yaml
+change '/bottom:/d' && try "body held by contact alone" changed.yaml
+change 's/upper: \[4.5/upper: [-5/' && try "negative box" changed.yaml
+try "refine -1" "$sound" -refine -1
+try "no load steps" "$sound" -load_steps 0
+try "unwritable output" "$sound" -output nowhere/results -refine 0
+try "unwritable summary" "$sound" -summary nowhere/summary.json -refine 0
+change 's/cells: .*/cells: [1, 1, 1]/' && RANKS=3 try "more ranks than cells" changed.yaml -refine 0

@@ -1,0 +1,170 @@
+static char help[] = "Every error of a scene: one sentence, the same on every rank.\n";
+
+#include <scene.h>
+#include <petscviewer.h>
+
+typedef struct {
+  const char *name;
+  const char *change; /* of the sound scene below: text that is replaced */
+  const char *by;
+} Mistake;
+
+static const char sound[] = "problem: press\n"
+                            "bodies:\n"
+                            "  - slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2], young: 1, poisson: 0.3}\n"
+                            "  - block: {lower: [1, 1, 1], upper: [2, 2, 2], cells: [2, 2, 2], young: 10, poisson: 0.0}\n"
+                            "displacements:\n"
+                            "  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n"
+                            "  - top: {face: block.zmax, value: [0, 0, -1/10]}\n"
+                            "contact:\n"
+                            "  - pair: {mortar: slab.zmax, nonmortar: block.zmin}\n"
+                            "load: {steps: 2}\n"
+                            "refine: 0\n";
+
+static const Mistake mistakes[] = {
+  {"sound",                             "press",                           "press"                                 },
+  {"malformed: bracket",                "[0, 0, 0], upper",                "[0, 0, 0, upper"                       },
+  {"malformed: no mapping",             sound,                             "just a sentence\n"                     },
+  {"empty",                             sound,                             ""                                      },
+  {"misspelt key of a body",            "young: 1,",                       "yuong: 1,"                             },
+  {"misspelt list",                     "displacements",                   "displacments"                          },
+  {"misspelt top key",                  "refine",                          "refin"                                 },
+  {"misspelt nested key",               "{steps: 2}",                      "{step: 2}"                             },
+  {"unknown key among good ones",       "refine: 0",                       "refine: 0\ncolour: red"                },
+  {"missing key",                       "young: 1,",                       ""                                      },
+  {"no value",                          "young: 1,",                       "young: ,"                              },
+  {"not a number",                      "young: 1,",                       "young: stiff,"                         },
+  {"trailing letters",                  "young: 1,",                       "young: 1GPa,"                          },
+  {"half a fraction",                   "-1/10",                           "-1/"                                   },
+  {"division by zero",                  "-1/10",                           "-1/0"                                  },
+  {"NaN",                               "young: 1,",                       "young: nan,"                           },
+  {"infinity",                          "upper: [4, 4, 1]",                "upper: [4, 4, inf]"                    },
+  {"overflow",                          "upper: [4, 4, 1]",                "upper: [4, 4, 1e999]"                  },
+  {"NaN in a displacement",             "[0, 0, -1/10]",                   "[0, 0, NaN]"                           },
+  {"short list",                        "cells: [4, 4, 2]",                "cells: [4, 4]"                         },
+  {"long list",                         "lower: [0, 0, 0]",                "lower: [0, 0, 0, 0]"                   },
+  {"broken cell",                       "cells: [4, 4, 2]",                "cells: [4, 4.5, 2]"                    },
+  {"huge count",                        "cells: [4, 4, 2]",                "cells: [4, 99999999999999999999, 2]"   },
+  {"no cells",                          "cells: [4, 4, 2]",                "cells: [4, 0, 2]"                      },
+  {"negative box",                      "upper: [4, 4, 1]",                "upper: [4, -4, 1]"                     },
+  {"flat box",                          "upper: [4, 4, 1]",                "upper: [4, 4, 0]"                      },
+  {"unknown shape",                     "slab: {",                         "slab: {shape: sphere, "                },
+  {"unknown material",                  "slab: {",                         "slab: {material: rubber, "             },
+  {"E zero",                            "young: 1,",                       "young: 0,"                             },
+  {"E negative",                        "young: 1,",                       "young: -1,"                            },
+  {"nu one half",                       "poisson: 0.3",                    "poisson: 0.5"                          },
+  {"nu minus one",                      "poisson: 0.3",                    "poisson: -1"                           },
+  {"refine negative",                   "refine: 0",                       "refine: -1"                            },
+  {"zero load steps",                   "steps: 2",                        "steps: 0"                              },
+  {"no load factors",                   "steps: 2",                        "factors: []"                           },
+  {"steps and factors",                 "steps: 2",                        "steps: 2, factors: [1]"                },
+  {"no bodies",                         sound,                             "bodies: []\n"                          },
+  {"two bodies of one name",            "- block: {",                      "- Slab: {"                             },
+  {"bad name",                          "- bottom:",                       "- 2nd:"                                },
+  {"face does not exist",               "slab.zmin",                       "slab.bottom"                           },
+  {"face of no body",                   "face: slab.zmin",                 "face: zmin"                            },
+  {"displacement of an unknown body",   "face: slab.zmin",                 "face: slob.zmin"                       },
+  {"pair with an unknown body",         "mortar: slab.zmax",               "mortar: table.zmax"                    },
+  {"pair with an unknown face",         "nonmortar: block.zmin",           "nonmortar: block.under"                },
+  {"pair of one face",                  "nonmortar: block.zmin",           "nonmortar: slab.zmax"                  },
+  {"pair given twice",                  "load:",                           "  - again: {mortar: block.zmin, nonmortar: slab.zmax}\nload:"},
+  {"component prescribed twice",        "contact:",                        "  - more: {face: slab.zmin, value: [free, free, 1]}\ncontact:"},
+  {"wrong word for free",               "[0, 0, -1/10]",                   "[loose, 0, 0]"                         },
+  {"body held by nothing",              "  - top: {face: block.zmax, value: [0, 0, -1/10]}\ncontact:\n  - pair: {mortar: slab.zmax, nonmortar: block.zmin}\n", ""},
+  {"body held by contact alone",        "  - top: {face: block.zmax, value: [0, 0, -1/10]}\n", ""                },
+  {"no displacement at all",            "displacements:\n  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n  - top: {face: block.zmax, value: [0, 0, -1/10]}\n", ""},
+  {"normal motion held by contact",     "value: [0, 0, -1/10]",            "value: [0, 0, free]"                   },
+  {"free along y",                      "value: [0, 0, -1/10]",            "value: [0, free, -1/10]"               },
+};
+
+static char said[1024];
+
+static PetscErrorCode Listen(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+{
+  (void)comm, (void)line, (void)function, (void)file, (void)ctx;
+  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(said, message, sizeof(said));
+  return n;
+}
+
+static PetscErrorCode WriteScene(const char file[], const Mistake *mistake)
+{
+  char       *text, *where;
+  size_t      length, nchange;
+  PetscMPIInt rank;
+  FILE       *stream;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0) {
+    PetscCall(PetscStrlen(mistake->by, &length));
+    PetscCall(PetscStrlen(mistake->change, &nchange));
+    PetscCall(PetscMalloc1(sizeof(sound) + length, &text));
+    PetscCall(PetscStrstr(sound, mistake->change, &where));
+    PetscCheck(where, PETSC_COMM_SELF, PETSC_ERR_PLIB, "The sound scene does not hold \"%s\"", mistake->change);
+    (void)snprintf(text, sizeof(sound) + length, "%.*s%s%s", (int)(where - sound), sound, mistake->by, where + nchange);
+    PetscCall(PetscFOpen(PETSC_COMM_SELF, file, "w", &stream));
+    PetscCall(PetscFPrintf(PETSC_COMM_SELF, stream, "%s", text));
+    PetscCall(PetscFClose(PETSC_COMM_SELF, stream));
+    PetscCall(PetscFree(text));
+  }
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* Loads and says what came of it; every rank must have the same error */
+static PetscErrorCode TryScene(const char name[], const char file[])
+{
+  Scene          scene = NULL;
+  PetscErrorCode ierr;
+  PetscMPIInt    codes[2], all[2];
+  char           first[sizeof(said)];
+  PetscBool      same;
+
+  PetscFunctionBeginUser;
+  said[0] = 0;
+  PetscCall(PetscPushErrorHandler(Listen, NULL));
+  ierr = SceneLoad(PETSC_COMM_WORLD, file, &scene);
+  PetscCall(PetscPopErrorHandler());
+  codes[0] = (PetscMPIInt)ierr;
+  codes[1] = -(PetscMPIInt)ierr;
+  PetscCallMPI(MPI_Allreduce(codes, all, 2, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
+  PetscCheck(all[0] == -all[1], PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%s: ranks end with different errors", name);
+  PetscCall(PetscArraycpy(first, said, sizeof(said)));
+  PetscCallMPI(MPI_Bcast(first, (PetscMPIInt)sizeof(first), MPI_CHAR, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscStrcmp(first, said, &same));
+  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "%s: ranks say different things", name);
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    %s\n", name, ierr ? said : "loads"));
+  if (!ierr) PetscCall(SceneDestroy(&scene));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(TryScene("no such file", "nowhere.yaml"));
+  PetscCall(TryScene("a folder", "."));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(mistakes); ++i) {
+    PetscCall(WriteScene("scene.yaml", &mistakes[i]));
+    PetscCall(TryScene(mistakes[i].name, "scene.yaml"));
+  }
+  PetscCall(WriteScene("scene.yaml", &mistakes[0]));
+  PetscCall(PetscOptionsSetValue(NULL, "-refine", "-1"));
+  PetscCall(TryScene("refine -1 on the command line", "scene.yaml"));
+  PetscCall(PetscOptionsClearValue(NULL, "-refine"));
+  PetscCall(PetscOptionsSetValue(NULL, "-load_steps", "0"));
+  PetscCall(TryScene("load_steps 0 on the command line", "scene.yaml"));
+  PetscCall(PetscOptionsClearValue(NULL, "-load_steps"));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+  test:
+    suffix: 1
+    nsize: {{1 3}}
+    args: -malloc_dump 0
+    output_file: output/scene_errors_1.out
+
+TEST*/
