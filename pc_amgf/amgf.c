@@ -93,6 +93,7 @@ static PetscErrorCode PCReset_AMGF(PC pc)
   PetscCall(PCAMGFResetSubspace_Private(amgf));
   PetscCall(PCAMGFLagReset_Private(&amgf->lag));
   PetscCall(ISDestroy(&amgf->file_is));
+  PetscCall(ISDestroy(&amgf->detected_is));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(amgf->w); i++) PetscCall(VecDestroy(&amgf->w[i]));
   PetscFunctionReturn(0);
 }
@@ -251,6 +252,10 @@ static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
    The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle lacks most smoothers: there B is taken to be symmetric.
 
    If an inner set-up fails, the owner `KSP` ends with `KSP_DIVERGED_PC_FAILED`, or with an error under `-ksp_error_if_not_converged`.
+
+   References:
+.  * - S. Petrides, T. Hartland, Tz. Kolev, C. S. Lee, M. Puso, J. Solberg, E. B. Chin, J. Wang, C. Petra, AMG with filtering: an efficient preconditioner for
+   interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCCOMPOSITE`, `PCDEFLATION`

@@ -37,7 +37,8 @@ typedef struct {
   AMGFStamp seen;      /* operator at the last set-up */
   Vec       diagonal;  /* diagonal of the operator the AMG was built from; automatic only */
   PetscBool overdue;   /* the last solve cost too much */
-  PetscReal its, rate; /* of the first solve after the last rebuild: iterations (0: none yet), iterations per digit (0: unknown) */
+  PetscInt  its;       /* reference: iterations, */
+  PetscReal digits;    /* and digits of residual reduction */
   PetscInt  history;   /* length of the residual history when the solve began */
 } AMGFLag;
 
@@ -63,6 +64,7 @@ typedef struct {
   char     *file;
   IS        file_is;
   PetscReal detect; /* 0: off */
+  IS        detected_is;
 
   AMGFSubspace sub;
   AMGFStamp    galerkin; /* operator R and Aw were filled from */

@@ -263,8 +263,9 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual reduction
-  (iterations, if the residual is not known) or a diagonal entry of the operator outside the subspace has changed by more than the ratio,
-  or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner.
+  (iterations, if the residual is not known) have grown by more than the ratio, or a diagonal entry of the operator outside the subspace has changed by more
+  than that, or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was
+  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
 @*/

@@ -88,6 +88,13 @@ PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
   PetscFunctionReturn(0);
 }
 
+/* The solve later ones are compared with; its = 0: none yet, digits = 0: unknown */
+static void SetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
+{
+  lag->its    = its;
+  lag->digits = digits;
+}
+
 /*
   PCAMGFLagRebuilt_Private - the AMG has just been built from the present operator
 */
@@ -100,8 +107,7 @@ PetscErrorCode PCAMGFLagRebuilt_Private(PC pc)
   lag->built   = PETSC_TRUE;
   lag->age     = 0;
   lag->overdue = PETSC_FALSE;
-  lag->its     = 0.0;
-  lag->rate    = 0.0;
+  SetReference(lag, 0, 0.0);
   if (PCAMGFLagEvery_Private(amgf) == AMGF_LAG_AUTO) {
     if (!lag->diagonal) PetscCall(MatCreateVecs(pc->pmat, &lag->diagonal, NULL));
     PetscCall(MatGetDiagonal(pc->pmat, lag->diagonal));
@@ -115,8 +121,7 @@ PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
   PetscCall(VecDestroy(&lag->diagonal));
   lag->built   = PETSC_FALSE;
   lag->overdue = PETSC_FALSE;
-  lag->its     = 0.0;
-  lag->rate    = 0.0;
+  SetReference(lag, 0, 0.0);
   lag->age     = 0;
   PetscFunctionReturn(0);
 }
@@ -157,14 +162,28 @@ static PetscErrorCode GetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 
 /*
    Tolerances vary from solve to solve (inexact Newton), so what is compared with the first solve after the last rebuild is
-   iterations per digit of residual reduction; plain iterations where the residual is unknown.
+   iterations per digit of residual reduction; plain iterations where the residual is unknown. The first digits come cheaply: a reference
+   of a few digits is replaced by the first solve of many, unless that one is out of all proportion.
 */
+static PetscBool TooMany(AMGFLag *lag, PetscInt its, PetscReal digits)
+{
+  const PetscBool perdigit = (PetscBool)(lag->digits > 0.0 && digits > 0.0);
+  const PetscReal allowed  = lag->ratio * lag->its * (perdigit ? digits / lag->digits : 1.0);
+
+  if (its <= allowed + SLACK) return PETSC_FALSE;
+  if (perdigit && digits > 2.0 * lag->digits && its <= lag->ratio * allowed + SLACK) {
+    SetReference(lag, its, digits);
+    return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
 {
   AMGFLag           *lag = &((PC_AMGF *)pc->data)->lag;
   KSPConvergedReason reason;
   PetscInt           its;
-  PetscReal          digits, allowed;
+  PetscReal          digits;
 
   PetscFunctionBegin;
   (void)b;
@@ -174,13 +193,7 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(GetDigits(ksp, lag->history, &digits));
   if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0);
-  else if (its == 0) PetscFunctionReturn(0);
-  else if (lag->its == 0.0) {
-    lag->its  = (PetscReal)its;
-    lag->rate = digits > 0.0 ? its / digits : 0.0;
-  } else if (lag->age > 0) {
-    allowed      = lag->ratio * (lag->rate > 0.0 && digits > 0.0 ? lag->rate * digits : lag->its) + SLACK;
-    lag->overdue = (PetscBool)(its > allowed);
-  }
+  else if (its > 0 && lag->its == 0) SetReference(lag, its, digits);
+  else if (its > 0 && lag->age > 0) lag->overdue = TooMany(lag, its, digits);
   PetscFunctionReturn(0);
 }

@@ -23,7 +23,7 @@ static PetscErrorCode LoadFilterFile(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* The first source that is given wins. *is is a new reference. */
+/* The first source that is given wins. *is and *P are borrowed. */
 static PetscErrorCode FindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
 {
   PC_AMGF    *amgf = (PC_AMGF *)pc->data;
@@ -52,10 +52,10 @@ static PetscErrorCode FindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
     *is     = amgf->file_is;
   } else if (amgf->detect > 0.0) {
     *source = AMGF_SOURCE_DETECT;
-    PetscCall(PCAMGFDetectRows_Private(pc->pmat, amgf->detect, is));
-    PetscFunctionReturn(0);
+    PetscCall(ISDestroy(&amgf->detected_is));
+    PetscCall(PCAMGFDetectRows_Private(pc->pmat, amgf->detect, &amgf->detected_is));
+    *is = amgf->detected_is;
   }
-  if (*is) PetscCall(PetscObjectReference((PetscObject)*is));
   PetscFunctionReturn(0);
 }
 
@@ -220,6 +220,5 @@ PetscErrorCode PCAMGFUpdateSubspace_Private(PC pc, PetscBool *same)
   else if (P) PetscCall(UpdateFromInterpolation(pc, P, same));
   else PetscCall(PCAMGFResetSubspace_Private(amgf));
   amgf->sub.source = source;
-  PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,4 @@
-/* The barrier parameter: Fiacco and McCormick's monotone reduction. */
+/* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
 #include "ipfilterimpl.h"
 
 /* Weighted mean of t z over all pairs */
@@ -49,10 +49,63 @@ static PetscErrorCode Monotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses mu for the next step and clears the filter where it changed */
+/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it */
+PetscErrorCode IPBarrierFromAffine(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, sigma;
+
+  PetscFunctionBegin;
+  PetscCall(IPFractionToBoundary(tao, 1.0, &primal, &dual));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal now, next;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &now));
+    PetscCall(IPPairStepProducts(&ip->pair[b], primal, dual, NULL, &next));
+    before += now;
+    after += next;
+  }
+  if (!(before > 0.0)) PetscFunctionReturn(0);
+  sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
+  PetscCall(IPBarrierAverage(tao, &before));
+  ip->mu = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the KKT error is below the worst of the last iterates in free mode, which it then replaces there
+   (Nocedal, Waechter and Waltz 2009, section 4) */
+static PetscBool Progress(TAO_IPFILTER *ip)
+{
+  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->error_history);
+  PetscReal      worst  = 0.0;
+
+  for (PetscInt k = 0; k < PetscMin(ip->nerror, length); k++) worst = PetscMax(worst, ip->error_history[k]);
+  if (ip->nerror >= length && ip->kkt.error > ip->kappa_progress * worst) return PETSC_FALSE;
+  ip->error_history[ip->nerror++ % length] = ip->kkt.error;
+  return PETSC_TRUE;
+}
+
+/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is left for the monotone one
+   while the KKT error does not fall. */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     was_free;
+
   PetscFunctionBegin;
-  PetscCall(Monotone(tao));
+  if (ip->barrier == IP_BARRIER_MONOTONE) {
+    PetscCall(Monotone(tao));
+    PetscFunctionReturn(0);
+  }
+  was_free    = ip->free_mu;
+  ip->free_mu = Progress(ip);
+  if (ip->free_mu) PetscFunctionReturn(0);
+  if (was_free) {
+    PetscCall(IPBarrierAverage(tao, &ip->mu));
+    ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
+    PetscCall(IPFilterSetReset(&ip->filter));
+    PetscCall(IPComputeKKT(tao));
+  } else PetscCall(Monotone(tao));
   PetscFunctionReturn(0);
 }

@@ -12,16 +12,20 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscCall(IPBoundsSetUp(tao));
   PetscCall(IPBoundsPush(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->xsize0));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->c, ip->ce));
   if (ip->mi) {
     PetscCall(VecSet(ip->lambda, 0.0));
-    PetscCall(TaoComputeInequalityConstraints(tao, tao->solution, ip->c));
     PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
+  }
+  if (ip->me) {
+    PetscCall(VecSet(ip->y, 0.0));
+    PetscCall(VecNorm(ip->ce, NORM_INFINITY, &ip->equality0));
   }
   PetscCall(IPEvaluateDerivatives(tao));
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   ip->gradient0 = norm;
   ip->length0   = size;
-  *finite       = (PetscBool)(!PetscIsInfOrNanReal(ip->f) && !PetscIsInfOrNanReal(norm) && !PetscIsInfOrNanReal(size));
+  *finite       = (PetscBool)(!PetscIsInfOrNanReal(ip->f) && !PetscIsInfOrNanReal(norm) && !PetscIsInfOrNanReal(size) && !PetscIsInfOrNanReal(ip->equality0));
   PetscFunctionReturn(0);
 }
 
@@ -32,6 +36,8 @@ static PetscErrorCode ResetRecord(Tao tao)
   PetscFunctionBegin;
   ip->niter_ksp    = 0;
   ip->nerror       = 0;
+  ip->equality0    = 0.0;
+  ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
   ip->nacceptable  = 0;
   ip->delta        = ip->delta_last = 0.0;
   ip->theta0       = -1.0;
@@ -56,6 +62,7 @@ static PetscErrorCode KeepBest(Tao tao)
   if (ip->kkt.error >= ip->best_error) PetscFunctionReturn(0);
   ip->best_error = ip->kkt.error;
   PetscCall(VecCopy(tao->solution, ip->xbest));
+  if (ip->me) PetscCall(VecCopy(ip->y, ip->ybest));
   if (ip->mi) {
     PetscCall(VecCopy(ip->pair[IP_SLACK].t, ip->sbest));
     PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->zbest));
@@ -76,8 +83,9 @@ static PetscErrorCode RestoreBest(Tao tao)
     PetscCall(VecCopy(ip->sbest, ip->pair[IP_SLACK].t));
     PetscCall(VecCopy(ip->zbest, ip->pair[IP_SLACK].z));
     PetscCall(VecCopy(ip->lambdabest, ip->lambda));
-    PetscCall(TaoComputeInequalityConstraints(tao, tao->solution, ip->c));
   }
+  if (ip->me) PetscCall(VecCopy(ip->ybest, ip->y));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->c, ip->ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscCall(IPComputeKKT(tao));

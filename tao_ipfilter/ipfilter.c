@@ -24,59 +24,95 @@ static PetscErrorCode EventsRegister(void)
   PetscFunctionReturn(0);
 }
 
-/* Vectors of the slacks and constraints */
-static PetscErrorCode SetUpConstraints(Tao tao)
+/* Duplicates layout into n vectors, afresh */
+static PetscErrorCode DuplicateInto(Vec layout, size_t n, Vec *const v[])
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           c  = tao->constraints_inequality;
-  Vec          *v[] = {&ip->c, &ip->lambda, &ip->rc, &ip->dlambda, &ip->ctrial, &ip->cwork, &ip->cwork2, &ip->stiffness, &ip->sbest, &ip->zbest, &ip->lambdabest};
+  PetscFunctionBegin;
+  for (size_t k = 0; k < n; k++) {
+    PetscCall(VecDestroy(v[k]));
+    PetscCall(VecDuplicate(layout, v[k]));
+    PetscCall(VecSet(*v[k], 0.0));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Vectors of the unknowns, of the inequality and of the equality constraints */
+#define IP_PRIMAL_VECS(ip)     {&(ip)->rx, &(ip)->dx, &(ip)->dxfirst, &(ip)->xtrial, &(ip)->xbest, &(ip)->xwork, &(ip)->xwork2, &(ip)->rhs, &(ip)->hdiag}
+#define IP_INEQUALITY_VECS(ip) {&(ip)->c, &(ip)->lambda, &(ip)->rc, &(ip)->rcsoc, &(ip)->dlambda, &(ip)->ctrial, &(ip)->cwork, &(ip)->cwork2, &(ip)->stiffness, &(ip)->sbest, &(ip)->zbest, &(ip)->lambdabest}
+#define IP_EQUALITY_VECS(ip)   {&(ip)->ce, &(ip)->y, &(ip)->dy, &(ip)->dyfirst, &(ip)->cetrial, &(ip)->cesoc, &(ip)->ybest}
+
+static PetscErrorCode SetUpInequalities(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  Vec          *v[] = IP_INEQUALITY_VECS(ip);
+  Vec           c   = tao->constraints_inequality;
 
   PetscFunctionBegin;
+  PetscCheck(!tao->IU, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "TAOIPFILTER takes no upper bounds of inequality constraints: state c_I(x) <= u as u - c_I(x) >= 0");
   PetscCall(VecGetSize(c, &ip->mi));
   PetscCall(IPPairDestroy(&ip->pair[IP_SLACK]));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(v); k++) PetscCall(VecDestroy(v[k]));
   PetscCall(VecDestroy(&tao->DI));
   PetscCall(VecDuplicate(c, &tao->DI));
   PetscCall(VecSet(tao->DI, 0.0));
   if (!ip->mi) PetscFunctionReturn(0);
   PetscCheck(tao->jacobian_inequality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(v); k++) PetscCall(VecDuplicate(c, v[k]));
   if (ip->slack_mass) {
     PetscInt n;
 
     PetscCall(VecGetSize(ip->slack_mass, &n));
     PetscCheck(n == ip->mi, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_SIZ, "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
   }
+  PetscCall(DuplicateInto(c, PETSC_STATIC_ARRAY_LENGTH(v), v));
   PetscCall(IPPairCreate(c, ip->slack_mass, &ip->pair[IP_SLACK]));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpEqualities(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  Vec          *v[] = IP_EQUALITY_VECS(ip);
+  Vec           c   = tao->constraints_equality;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(c, &ip->me));
+  PetscCall(VecDestroy(&tao->DE));
+  PetscCall(VecDuplicate(c, &tao->DE));
+  PetscCall(VecSet(tao->DE, 0.0));
+  if (!ip->me) PetscFunctionReturn(0);
+  PetscCheck(tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
+  PetscCall(DuplicateInto(c, PETSC_STATIC_ARRAY_LENGTH(v), v));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TaoSetUp_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  Vec          *v[] = {&ip->rx, &ip->dx, &ip->xtrial, &ip->xbest, &ip->xwork, &ip->xwork2, &ip->rhs, &ip->hdiag};
+  Vec          *v[] = IP_PRIMAL_VECS(ip);
 
   PetscFunctionBegin;
-  PetscCheck(!tao->eq_constrained, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "TAOIPFILTER does not take equality constraints");
-  PetscCheck(tao->hessian, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "TAOIPFILTER needs second derivatives: call TaoSetHessian() before TaoSolve()");
   if (!tao->gradient) PetscCall(VecDuplicate(tao->solution, &tao->gradient));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(v); k++) {
-    PetscCall(VecDestroy(v[k]));
-    PetscCall(VecDuplicate(tao->solution, v[k]));
-  }
-  if (tao->ineq_constrained) PetscCall(SetUpConstraints(tao));
+  PetscCall(DuplicateInto(tao->solution, PETSC_STATIC_ARRAY_LENGTH(v), v));
+  ip->mi = ip->me = 0;
+  if (tao->ineq_constrained) PetscCall(SetUpInequalities(tao));
+  if (tao->eq_constrained) PetscCall(SetUpEqualities(tao));
+  if (!tao->hessian) PetscCall(IPHessianCreateFD(tao));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 {
-  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  Vec          *v[] = {&ip->rx, &ip->dx, &ip->xtrial, &ip->xbest, &ip->xwork, &ip->xwork2, &ip->rhs, &ip->hdiag, &ip->c, &ip->lambda, &ip->rc, &ip->dlambda, &ip->ctrial, &ip->cwork, &ip->cwork2, &ip->stiffness, &ip->sbest, &ip->zbest, &ip->lambdabest, &ip->slack_mass, &ip->primal_mass, &ip->warm_s, &ip->warm_z};
+  TAO_IPFILTER *ip      = (TAO_IPFILTER *)tao->data;
+  Vec          *vx[]    = IP_PRIMAL_VECS(ip), *vi[] = IP_INEQUALITY_VECS(ip), *ve[] = IP_EQUALITY_VECS(ip);
+  Vec          *given[] = {&ip->slack_mass, &ip->primal_mass, &ip->warm_s, &ip->warm_z};
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(v); k++) PetscCall(VecDestroy(v[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vx); k++) PetscCall(VecDestroy(vx[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vi); k++) PetscCall(VecDestroy(vi[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(ve); k++) PetscCall(VecDestroy(ve[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(given); k++) PetscCall(VecDestroy(given[k]));
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
   PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->ksp_iterations));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
@@ -107,7 +143,7 @@ static const RealOption real_options[] = {
   IP_REAL("mu_init", mu0, 1.0, "cold start: barrier parameter"),
   IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
   IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
-  IP_REAL("predict_mu", mu_start, 0.1, "predicted start: mu as a fraction of mean length x mean pressure"),
+  IP_REAL("predict_mu", mu_start, 0.01, "predicted start: mu as a fraction of mean length x mean pressure"),
   IP_REAL("warm_mu", mu_warm, 1e-4, "warm start: least mu as a fraction of the mean product length x pressure"),
   IP_REAL("predict_forcing", forcing_start, 0.1, "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
   IP_REAL("kappa_epsilon", kappa_epsilon, 10.0, "mu is reduced once the barrier error is below kappa_epsilon mu"),
@@ -126,8 +162,8 @@ static const RealOption real_options[] = {
   IP_REAL("theta_min_fact", theta_min_fact, 1e-4, "violation below which Armijo may decide, as a fraction of the first"),
   IP_REAL("theta_max_fact", theta_max_fact, 1e4, "largest violation accepted, as a multiple of the first"),
   IP_REAL("kappa_soc", kappa_soc, 0.99, "reduction a second-order correction must give to be continued"),
-  IP_REAL("forcing_max", forcing_max, 0.03, "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
-  IP_REAL("forcing_reduce", forcing_reduce, 0.3, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
+  IP_REAL("forcing_max", forcing_max, 0.1, "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
+  IP_REAL("forcing_reduce", forcing_reduce, 0.5, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
   IP_REAL("forcing_last", forcing_last, 0.5, "adaptive forcing: as a fraction of the tolerance, in the step that would finish"),
   IP_REAL("kappa_curvature", kappa_curvature, 1e-11, "curvature d^T W d that a direction must have, as a fraction of d^T d"),
   IP_REAL("delta_first", delta_first, 1e-4, "first regularization"),
@@ -135,6 +171,8 @@ static const RealOption real_options[] = {
   IP_REAL("delta_grow_first", delta_grow_first, 100.0, "growth of the regularization before one has worked"),
   IP_REAL("delta_grow", delta_grow, 8.0, "growth of the regularization"),
   IP_REAL("delta_shrink", delta_shrink, 1.0 / 3.0, "decrease of the regularization from one step to the next"),
+  IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
+  IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
@@ -205,7 +243,8 @@ static PetscErrorCode CreateKSP(Tao tao)
 
   Options Database Keys:
 + -tao_ipfilter_tol <1e-8>                             - KKT error at which the solver has converged
-. -tao_ipfilter_start <predict> (cold,predict,warm)    - starting slacks and multipliers
+. -tao_ipfilter_start <warm> (cold,predict,warm)       - slacks and multipliers to start from: constants, predicted, or
+                                                         those of TaoIPFilterSetWarmStart() where given, else predicted
 . -tao_ipfilter_barrier <monotone> (monotone,mehrotra) - update of the barrier parameter
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)    - Krylov tolerance from the KKT error, or the KSP's own
 . -tao_ipfilter_kkt <relative> (relative,mass)         - dimensionless KKT error, or the absolute mass-weighted one
@@ -251,7 +290,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   tao->ops->setfromoptions = TaoSetFromOptions_IPFilter;
   tao->ops->destroy        = TaoDestroy_IPFilter;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) *(PetscReal *)((char *)ip + real_options[k].offset) = real_options[k].value;
-  ip->start         = IP_START_PREDICT;
+  ip->start         = IP_START_WARM;
   ip->barrier       = IP_BARRIER_MONOTONE;
   ip->max_mu_first  = 10;
   ip->max_mu_later  = 1;

@@ -60,7 +60,8 @@ typedef struct {
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
 typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
-  PetscReal length;   /* values of the constraints */
+  PetscReal length;   /* values of c_I */
+  PetscReal equality; /* values of c_E */
   PetscReal pressure; /* multipliers */
   PetscReal product;  /* length x pressure: complementarity and mu */
 } IPScale;
@@ -97,6 +98,14 @@ typedef struct {
   IS               filter;                   /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
+/* The symmetric system [A J_E^T; J_E -delta_c] that equality constraints lead to, and its factorization */
+typedef struct {
+  KSP ksp;
+  Mat K;
+  Mat shift; /* -delta_c I */
+  Vec rhs, sol, sol2;
+} IPAugmented;
+
 typedef struct {
   /* iterate and direction beside tao->solution and the pairs */
   Vec       c, lambda;          /* c_I and its multipliers (a density: the force is M lambda) */
@@ -104,8 +113,11 @@ typedef struct {
   Vec       rx;                 /* grad f - J^T M lambda - bound multipliers */
   Vec       dx, dlambda;
   PetscReal f;
-  Vec       xtrial, ctrial;
-  Vec       xbest, sbest, zbest, lambdabest; /* iterate of smallest KKT error */
+  Vec       ce, y, dy;          /* c_E, its multipliers and their direction; NULL without equality constraints */
+  PetscInt  me;                 /* equality constraints, all ranks */
+  Vec       xtrial, ctrial, cetrial;
+  Vec       xbest, sbest, zbest, lambdabest, ybest; /* iterate of smallest KKT error */
+  Vec       dxfirst, dyfirst, rcsoc, cesoc;         /* second-order correction: the direction before it, its residuals */
   PetscReal ftrial;
   Vec       xwork, xwork2, cwork, cwork2, rhs;
   Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
@@ -113,10 +125,11 @@ typedef struct {
   Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
   Vec       hdiag;                   /* |diagonal of H| at the start */
   PetscInt  mi;                      /* inequality constraints, all ranks */
-  PetscReal gradient0, length0, xsize0; /* largest gradient norm so far; sizes of c_I, s and of x at the start */
+  PetscReal gradient0, length0, equality0, xsize0; /* largest gradient norm so far; sizes of c_I, s and of x at the start */
 
   IPPair      pair[IP_NPAIRS];
   IPCondensed cond;
+  IPAugmented aug;
   IPFilterSet filter;
   IPScale     scale;
   IPKKT       kkt;
@@ -129,6 +142,7 @@ typedef struct {
 
   /* line search */
   PetscReal theta, phi, theta0, theta_ref, phi_ref;
+  PetscReal equality_weight;         /* brings c_E to the units of theta */
   PetscReal rounding;                /* changes of phi below this mean nothing */
   PetscReal alpha_primal, alpha_dual;
   PetscInt  nls;
@@ -136,6 +150,7 @@ typedef struct {
 
   /* regularization */
   PetscReal delta, delta_last, hscale;
+  PetscReal delta_c;                 /* regularization of dependent equality constraints */
 
   /* record */
   PetscInt  niter_ksp, max_ksp, *ksp_iterations; /* Krylov iterations of every linear solve */
@@ -155,6 +170,7 @@ typedef struct {
   IPForcing    forcing;
   IPScaling    scaling;
   PetscBool    monitor;
+  PetscReal    delta_equality, kappa_progress;
   PetscReal    mu0, s0, z0, mu_start, mu_warm, forcing_start;
   PetscReal    kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
   PetscInt     max_mu_first, max_mu_later;
@@ -192,12 +208,16 @@ PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool);
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 
-/* kkt.c */
+/* evaluate.c */
+PETSC_INTERN PetscErrorCode IPEvaluateConstraints(Tao, Vec, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPEvaluateDerivatives(Tao);
+PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
+PETSC_INTERN PetscErrorCode IPHessianCreateFD(Tao);
+
+/* kkt.c */
 PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
-PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
 /* condense.c */
@@ -210,12 +230,17 @@ PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
 /* linsolve.c */
 PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *);
 
+/* augmented.c */
+PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool, PetscBool *);
+PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
+
 /* regularize.c */
 PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
 
 /* barrier.c */
 PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
-PETSC_INTERN PetscErrorCode IPBarrierPredict(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
 PETSC_INTERN PetscErrorCode IPBarrierAverage(Tao, PetscReal *);
 
 /* filter.c */
@@ -226,7 +251,7 @@ PETSC_INTERN PetscErrorCode IPFilterSetDestroy(IPFilterSet *);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPMerit(Tao, Vec, PetscReal, Vec, PetscReal *, PetscReal *);
+PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscReal, PetscReal *, PetscReal *);
 
 /* monitor.c */
 PETSC_INTERN PetscErrorCode IPMonitor(Tao);

@@ -1,40 +1,7 @@
-/* Derivatives at the iterate, residuals of the optimality conditions, and the scales they are measured by. */
+/* Residuals of the optimality conditions, and the scales they are measured by. */
 #include "ipfilterimpl.h"
 
-/* M_s v, or v where there is no M_s */
-static PetscErrorCode MassMult(Vec mass, Vec v, Vec out)
-{
-  PetscFunctionBegin;
-  if (mass) PetscCall(VecPointwiseMult(out, mass, v));
-  else PetscCall(VecCopy(v, out));
-  PetscFunctionReturn(0);
-}
-
-/* Gradient, constraint Jacobians at tao->solution */
-PetscErrorCode IPEvaluateDerivatives(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->f, tao->gradient));
-  if (ip->mi) {
-    PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
-    PetscCall(IPCondenseJacobian(tao));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* tao->DI = M lambda: the multipliers of c_I in f - DI^T c_I, which the Hessian routine needs */
-PetscErrorCode IPSetMultipliers(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  if (ip->mi) PetscCall(MassMult(ip->slack_mass, ip->lambda, tao->DI));
-  PetscFunctionReturn(0);
-}
-
-/* r = grad f - J^T M multiplier - bound multipliers, for multipliers lambda or z of the slacks */
+/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers, for multipliers lambda or z of the slacks */
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -42,10 +9,11 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionBegin;
   PetscCall(VecCopy(tao->gradient, r));
   if (ip->mi) {
-    PetscCall(MassMult(ip->slack_mass, multiplier, ip->cwork));
+    PetscCall(VecPointwiseMult(ip->cwork, multiplier, ip->pair[IP_SLACK].w));
     PetscCall(VecScale(ip->cwork, -1.0));
     PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, r, r));
   }
+  if (ip->me) PetscCall(MatMultTransposeAdd(tao->jacobian_equality, ip->y, r, r));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecPointwiseMult(ip->xwork2, ip->pair[b].w, ip->pair[b].z));
@@ -127,15 +95,15 @@ PetscErrorCode IPComputeScale(Tao tao)
 
   PetscFunctionBegin;
   if (ip->scaling == IP_SCALING_NONE || ip->measure == IP_KKT_MASS) {
-    *s = (IPScale){1.0, 1.0, 1.0, 1.0};
+    *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
     PetscFunctionReturn(0);
   }
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   ip->gradient0 = PetscMax(ip->gradient0, norm);
-  s->dual = PetscMax(norm, (ip->mi || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
+  s->dual = PetscMax(norm, (ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
   PetscCall(RoundingFloor(tao, &floor));
   s->dual = PetscMax(s->dual, floor / ip->tol);
-  s->length = s->pressure = s->product = 0.0;
+  s->length = s->pressure = s->product = s->equality = 0.0;
   if (ip->mi) {
     PetscReal rho, c, t;
 
@@ -147,6 +115,13 @@ PetscErrorCode IPComputeScale(Tao tao)
     s->pressure = PetscMax(s->pressure, small * rho * s->length);
     s->product  = s->length * s->pressure;
   }
+  if (ip->me) {
+    PetscReal linear;
+
+    PetscCall(MatMult(tao->jacobian_equality, tao->solution, ip->cetrial));
+    PetscCall(VecNorm(ip->cetrial, NORM_INFINITY, &linear));
+    s->equality = PetscMax(ip->equality0, linear);
+  }
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal z;
@@ -157,6 +132,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   }
   if (!(s->dual > 0.0)) s->dual = 1.0;
   if (!(s->length > 0.0)) s->length = 1.0;
+  if (!(s->equality > 0.0)) s->equality = 1.0;
   if (!(s->pressure > 0.0)) s->pressure = 1.0;
   if (!(s->product > 0.0)) s->product = 1.0;
   PetscFunctionReturn(0);
@@ -209,10 +185,18 @@ PetscErrorCode IPComputeKKT(Tao tao)
   PetscCall(IPStationarity(tao, ip->lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
-  k->inf_pr = 0.0;
+  k->inf_pr = k->primal = 0.0;
   if (ip->mi) {
     PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->c));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &k->inf_pr));
+    k->primal = k->inf_pr / ip->scale.length;
+  }
+  if (ip->me) {
+    PetscReal equality;
+
+    PetscCall(VecNorm(ip->ce, NORM_INFINITY, &equality));
+    k->primal = PetscMax(k->primal, equality / ip->scale.equality);
+    k->inf_pr = PetscMax(k->inf_pr, equality);
   }
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
     PetscReal zero, central;
@@ -227,7 +211,6 @@ PetscErrorCode IPComputeKKT(Tao tao)
     PetscCall(SlackStationarity(tao, &k->dual));
     k->dual = PetscMax(k->dual / ip->scale.pressure, k->dual_norm / ip->scale.dual);
   }
-  k->primal          = k->inf_pr / ip->scale.length;
   k->complementarity = products / ip->scale.product;
   k->centrality      = deviation / ip->scale.product;
   k->error           = PetscMax(PetscMax(k->dual, k->primal), k->complementarity);

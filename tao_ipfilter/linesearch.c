@@ -4,23 +4,25 @@
 */
 #include "ipfilterimpl.h"
 
-/* theta = ||c - s|| in the norm of the weights; phi = f - mu sum w log t with the pairs' t given by their trial vectors
-   where trial is set. A constraint or objective that is not finite makes theta infinite. */
-static PetscErrorCode Violation(Tao tao, Vec c, Vec s, PetscReal *theta)
+/* theta: c - s in the norm of the weights and c_E, both per unit of their references */
+static PetscErrorCode Violation(Tao tao, Vec c, Vec s, Vec ce, PetscReal *theta)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   sum;
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  PetscScalar   sum = 0.0;
+  PetscReal     equality = 0.0;
 
   PetscFunctionBegin;
-  *theta = 0.0;
-  if (!ip->mi) PetscFunctionReturn(0);
-  PetscCall(VecWAXPY(ip->cwork, -1.0, s, c));
-  PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork, ip->pair[IP_SLACK].w));
-  PetscCall(VecDot(ip->cwork, ip->cwork2, &sum));
-  *theta = PetscSqrtReal(PetscRealPart(sum));
+  if (ip->mi) {
+    PetscCall(VecWAXPY(ip->cwork, -1.0, s, c));
+    PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork, ip->pair[IP_SLACK].w));
+    PetscCall(VecDot(ip->cwork, ip->cwork2, &sum));
+  }
+  if (ip->me) PetscCall(VecNorm(ce, NORM_2, &equality));
+  *theta = PetscSqrtReal(PetscRealPart(sum) + PetscSqr(equality * ip->equality_weight));
   PetscFunctionReturn(0);
 }
 
+/* phi = f - mu sum w log t, with the pairs' t or their trial values */
 static PetscErrorCode BarrierFunction(Tao tao, PetscReal f, PetscBool trial, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -57,21 +59,22 @@ static PetscErrorCode StartSearch(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(Violation(tao, ip->c, ip->pair[IP_SLACK].t, &ip->theta));
-  PetscCall(BarrierFunction(tao, ip->f, PETSC_FALSE, &ip->phi));
-  PetscCall(ObjectiveRounding(tao));
   if (ip->theta0 < 0.0) {
     PetscReal weight = 0.0;
 
     for (PetscInt b = 0; b < IP_NPAIRS; b++)
       if (ip->pair[b].n) weight += ip->pair[b].weight;
-    ip->theta0    = ip->theta;
-    ip->theta_ref = ip->phi_ref = 1.0;
+    ip->theta_ref = ip->phi_ref = ip->equality_weight = 1.0;
     if (ip->scaling == IP_SCALING_PROBLEM) {
-      ip->theta_ref = ip->mi ? ip->scale.length * PetscSqrtReal(ip->pair[IP_SLACK].weight) : 1.0;
-      ip->phi_ref   = weight > 0.0 ? ip->scale.product * weight : 1.0;
+      ip->theta_ref       = ip->mi ? ip->scale.length * PetscSqrtReal(ip->pair[IP_SLACK].weight) : ip->scale.equality;
+      ip->equality_weight = ip->theta_ref / ip->scale.equality;
+      if (weight > 0.0) ip->phi_ref = ip->scale.product * weight;
     }
+    PetscCall(Violation(tao, ip->c, ip->pair[IP_SLACK].t, ip->ce, &ip->theta0));
   }
+  PetscCall(Violation(tao, ip->c, ip->pair[IP_SLACK].t, ip->ce, &ip->theta));
+  PetscCall(BarrierFunction(tao, ip->f, PETSC_FALSE, &ip->phi));
+  PetscCall(ObjectiveRounding(tao));
   PetscFunctionReturn(0);
 }
 
@@ -94,10 +97,9 @@ static PetscErrorCode BarrierSlope(Tao tao, PetscReal *slope)
 }
 
 /* Largest steps that keep a fraction 1 - tau of every t and z */
-static PetscErrorCode FractionToBoundary(Tao tao, PetscReal *primal, PetscReal *dual)
+PetscErrorCode IPFractionToBoundary(Tao tao, PetscReal tau, PetscReal *primal, PetscReal *dual)
 {
-  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
-  const PetscReal tau = PetscMax(ip->tau_min, 1.0 - ip->mu / ip->scale.product);
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   *primal = *dual = 1.0;
@@ -121,11 +123,8 @@ static PetscErrorCode TrialPoint(Tao tao, PetscReal alpha, PetscReal *theta, Pet
   PetscCall(IPPairMoveTrial(&ip->pair[IP_SLACK], alpha));
   PetscCall(IPBoundsDistance(tao, ip->xtrial, PETSC_TRUE));
   PetscCall(TaoComputeObjective(tao, ip->xtrial, &ip->ftrial));
-  *theta = 0.0;
-  if (ip->mi) {
-    PetscCall(TaoComputeInequalityConstraints(tao, ip->xtrial, ip->ctrial));
-    PetscCall(Violation(tao, ip->ctrial, ip->pair[IP_SLACK].trial, theta));
-  }
+  PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
+  PetscCall(Violation(tao, ip->ctrial, ip->pair[IP_SLACK].trial, ip->cetrial, theta));
   PetscCall(BarrierFunction(tao, ip->ftrial, PETSC_TRUE, phi));
   *finite = (PetscBool)(!PetscIsInfOrNanReal(*theta) && !PetscIsInfOrNanReal(*phi));
   PetscFunctionReturn(0);
@@ -186,39 +185,92 @@ static PetscErrorCode TakeStep(Tao tao, PetscReal alpha, PetscReal dual)
     PetscCall(VecCopy(ip->ctrial, ip->c));
     PetscCall(VecAXPY(ip->lambda, alpha, ip->dlambda));
   }
+  if (ip->me) {
+    PetscCall(VecCopy(ip->cetrial, ip->ce));
+    PetscCall(VecAXPY(ip->y, alpha, ip->dy));
+  }
   ip->f            = ip->ftrial;
   ip->alpha_primal = alpha;
   ip->alpha_dual   = dual;
   PetscFunctionReturn(0);
 }
 
+/* Puts the iterate left behind into the filter, unless Armijo decided, and takes the step */
+static PetscErrorCode Accept(Tao tao, PetscReal alpha, PetscReal dual, PetscBool objective, PetscBool corrected)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!objective) PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->gamma_theta) * ip->theta, ip->phi - ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta));
+  ip->step_tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
+  PetscCall(TakeStep(tao, alpha, dual));
+  PetscFunctionReturn(0);
+}
+
+/* Second-order correction (section 2.4 there): where the first trial point violates the constraints more than the
+   iterate, the residuals at both points together give another direction with the same matrix */
+static PetscErrorCode SecondOrderCorrection(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau, PetscBool *ok)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     step = alpha, last = theta;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  if (theta < ip->theta || !ip->max_soc) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ip->dx, ip->dxfirst));
+  if (ip->mi) PetscCall(VecCopy(ip->rc, ip->rcsoc));
+  if (ip->me) PetscCall(VecCopy(ip->ce, ip->cesoc));
+  for (PetscInt k = 0; k < ip->max_soc && !*ok; k++) {
+    PetscReal phi = 0.0, dual = 1.0;
+    PetscBool usable = PETSC_FALSE, finite = PETSC_FALSE, objective = PETSC_FALSE;
+
+    if (ip->mi) {
+      PetscCall(VecScale(ip->rcsoc, step));
+      PetscCall(VecAXPY(ip->rcsoc, 1.0, ip->ctrial));
+      PetscCall(VecAXPY(ip->rcsoc, -1.0, ip->pair[IP_SLACK].trial));
+    }
+    if (ip->me) PetscCall(VecAYPX(ip->cesoc, step, ip->cetrial));
+    PetscCall(IPCorrectDirection(tao, ip->rcsoc, ip->cesoc, &usable));
+    if (!usable) break;
+    PetscCall(IPFractionToBoundary(tao, tau, &step, &dual));
+    PetscCall(TrialPoint(tao, step, &theta, &phi, &finite));
+    ip->nls++;
+    if (finite) PetscCall(Acceptable(tao, alpha, slope, theta, phi, ok, &objective));
+    if (*ok) PetscCall(Accept(tao, step, dual, objective, PETSC_TRUE));
+    else if (!finite || theta > ip->kappa_soc * last) break;
+    last = theta;
+  }
+  if (*ok) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ip->dxfirst, ip->dx));
+  if (ip->me) PetscCall(VecCopy(ip->dyfirst, ip->dy));
+  PetscCall(IPBackSubstitute(tao, ip->rc));
+  PetscFunctionReturn(0);
+}
+
 /* Backtracks along the direction until the filter accepts; *ok is false where no step is acceptable */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     alpha = 1.0, dual = 1.0, slope = 0.0, least;
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal tau   = PetscMax(ip->tau_min, 1.0 - ip->mu / ip->scale.product);
+  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
 
   PetscFunctionBegin;
   PetscCall(StartSearch(tao));
   PetscCall(BarrierSlope(tao, &slope));
-  PetscCall(FractionToBoundary(tao, &alpha, &dual));
+  PetscCall(IPFractionToBoundary(tao, tau, &alpha, &dual));
   PetscCall(VecNorm(ip->dx, NORM_INFINITY, &ip->dx_norm));
   least   = SmallestStep(ip, slope);
   ip->nls = 0;
   *ok     = PETSC_FALSE;
-  for (; alpha >= least; alpha *= 0.5) {
+  for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
-    PetscBool finite = PETSC_FALSE, accepted = PETSC_FALSE, objective = PETSC_FALSE;
+    PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
 
     ip->nls++;
     PetscCall(TrialPoint(tao, alpha, &theta, &phi, &finite));
-    if (finite) PetscCall(Acceptable(tao, alpha, slope, theta, phi, &accepted, &objective));
-    if (!accepted) continue;
-    if (!objective) PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->gamma_theta) * ip->theta, ip->phi - ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta));
-    ip->step_tag = objective ? 'f' : 'h';
-    PetscCall(TakeStep(tao, alpha, dual));
-    *ok = PETSC_TRUE;
-    break;
+    if (finite) PetscCall(Acceptable(tao, alpha, slope, theta, phi, ok, &objective));
+    if (*ok) PetscCall(Accept(tao, alpha, dual, objective, PETSC_FALSE));
+    else if (finite && ip->nls == 1) PetscCall(SecondOrderCorrection(tao, alpha, slope, theta, tau, ok));
   }
   PetscFunctionReturn(0);
 }

@@ -62,38 +62,73 @@ static PetscErrorCode WouldFinish(Tao tao, PetscBool *finish)
   PetscFunctionReturn(0);
 }
 
-/* Solves the condensed system for the present targets. While mu falls the forces need balance only to a few percent,
-   so that the multipliers are right to a few percent; the step that would finish is continued to what convergence asks. */
-static PetscErrorCode SolveDirection(Tao tao, PetscBool *usable)
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was */
+static PetscReal ForcingTarget(const TAO_IPFILTER *ip)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     target = PetscMin(ip->forcing_max * ip->scale.dual, ip->forcing_reduce * ip->kkt.dual_norm);
+  const PetscReal loose = PetscMin(ip->forcing_max * ip->scale.dual, ip->forcing_reduce * ip->kkt.dual_norm);
+
+  return PetscMax(loose, ip->forcing_last * ip->tol * ip->scale.dual);
+}
+
+/* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
+   balance only to a few percent, so that the multipliers are right to a few percent; a step that would finish is
+   continued to what convergence asks for. matrix tells that A is new. */
+static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscBool     finish = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, PetscMax(target, ip->forcing_last * ip->tol * ip->scale.dual), usable));
+  PetscCall(IPCondenseRHS(tao, rc, ip->rhs));
+  if (ip->me) PetscCall(IPAugmentedSolve(tao, ip->rhs, ce, ip->dx, matrix, usable));
+  else PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ForcingTarget(ip), usable));
   if (!*usable) PetscFunctionReturn(0);
-  PetscCall(IPBackSubstitute(tao, ip->rc));
-  if (ip->forcing == IP_FORCING_FIXED) PetscFunctionReturn(0);
+  PetscCall(IPBackSubstitute(tao, rc));
+  if (ip->me || ip->forcing == IP_FORCING_FIXED) PetscFunctionReturn(0);
   PetscCall(WouldFinish(tao, &finish));
   if (!finish) PetscFunctionReturn(0);
   PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ip->forcing_last * ip->tol * ip->scale.dual, usable));
-  if (*usable) PetscCall(IPBackSubstitute(tao, ip->rc));
+  if (*usable) PetscCall(IPBackSubstitute(tao, rc));
   PetscFunctionReturn(0);
 }
 
-/* Assembles the system with the present delta and solves it */
-static PetscErrorCode SolveOnce(Tao tao, PetscBool *usable)
+static PetscErrorCode SetTargets(Tao tao, PetscReal mu, PetscBool second_order)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], mu, second_order));
+  PetscFunctionReturn(0);
+}
+
+/* Assembles the system with the present delta and solves it; in Mehrotra's method first for mu = 0, whose step chooses
+   mu and gives the second-order term and the guess of the direction proper */
+static PetscErrorCode SolveOnce(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscBool     matrix = PETSC_TRUE;
 
   PetscFunctionBegin;
   if (ip->mi) PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], ip->cwork));
   PetscCall(IPCondenseMatrix(tao, ip->cwork));
-  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], ip->mu, PETSC_FALSE));
-  PetscCall(IPCondenseRHS(tao, ip->rc, ip->rhs));
   PetscCall(VecSet(ip->dx, 0.0));
-  PetscCall(SolveDirection(tao, usable));
+  if (ip->free_mu) {
+    PetscCall(SetTargets(tao, 0.0, PETSC_FALSE));
+    PetscCall(SolveDirection(tao, ip->rc, ip->ce, PETSC_TRUE, usable));
+    if (!*usable) PetscFunctionReturn(0);
+    PetscCall(IPBarrierFromAffine(tao));
+    matrix = PETSC_FALSE;
+  }
+  PetscCall(SetTargets(tao, ip->mu, ip->free_mu));
+  PetscCall(SolveDirection(tao, ip->rc, ip->ce, matrix, usable));
+  PetscFunctionReturn(0);
+}
+
+/* Another direction with the matrix of the last one, for the residuals of a second-order correction */
+PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(SolveDirection(tao, rc, ce, PETSC_FALSE, usable));
   PetscFunctionReturn(0);
 }
 
@@ -104,35 +139,43 @@ static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
   return (ip->delta_last > 0.0 ? ip->delta_grow : ip->delta_grow_first) * ip->delta;
 }
 
-PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+/* The unit of delta: typical diagonal entry of H over typical mass */
+static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     unit = 1.0, mass = 1.0;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     mass = 1.0;
+  PetscInt      n;
 
   PetscFunctionBegin;
-  if (ip->scaling == IP_SCALING_PROBLEM) {
-    PetscInt n;
-
-    if (ip->primal_mass) {
-      PetscCall(VecSum(ip->primal_mass, &mass));
-      PetscCall(VecGetSize(ip->primal_mass, &n));
-      mass /= n;
-    }
-    unit = ip->hscale / mass;
+  *unit = 1.0;
+  if (ip->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  if (ip->primal_mass) {
+    PetscCall(VecSum(ip->primal_mass, &mass));
+    PetscCall(VecGetSize(ip->primal_mass, &n));
+    mass /= n;
   }
-  ip->delta = 0.0;
-  while (ip->delta <= ip->delta_max * unit) {
-    PetscBool usable, passes = PETSC_FALSE;
+  *unit = ip->hscale / mass;
+  PetscFunctionReturn(0);
+}
+
+/* The direction, with delta raised until the linear solve and the curvature (or the inertia) are in order */
+PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     unit = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(DeltaUnit(tao, &unit));
+  *ok       = PETSC_FALSE;
+  ip->delta = ip->delta_c = 0.0;
+  while (ip->delta <= ip->delta_max * unit && !*ok) {
+    PetscBool usable = PETSC_FALSE;
 
     PetscCall(SolveOnce(tao, &usable));
-    if (usable) PetscCall(CurvatureTest(tao, &passes));
-    if (passes) {
-      if (ip->delta > 0.0) ip->delta_last = ip->delta;
-      *ok = PETSC_TRUE;
-      PetscFunctionReturn(0);
-    }
-    ip->delta = NextDelta(ip, unit);
+    if (usable && ip->me) *ok = PETSC_TRUE;
+    else if (usable) PetscCall(CurvatureTest(tao, ok));
+    if (!*ok) ip->delta = NextDelta(ip, unit);
   }
-  *ok = PETSC_FALSE;
+  if (*ok && ip->delta > 0.0) ip->delta_last = ip->delta;
   PetscFunctionReturn(0);
 }

@@ -144,28 +144,29 @@ static PetscErrorCode PenaltyStep(Tao tao)
   }
   PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
   PetscCall(TaoComputeObjective(tao, ip->xtrial, &f));
-  PetscCall(TaoComputeInequalityConstraints(tao, ip->xtrial, ip->ctrial));
+  PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
   PetscCall(VecNorm(ip->ctrial, NORM_2, &size));
   if (PetscIsInfOrNanReal(f) || PetscIsInfOrNanReal(size)) PetscFunctionReturn(0);
   PetscCall(VecCopy(ip->xtrial, tao->solution));
   PetscCall(VecCopy(ip->ctrial, ip->c));
+  if (ip->me) PetscCall(VecCopy(ip->cetrial, ip->ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
 }
 
-/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
+/* s and z from the constraints' values after the penalty step (where no equality constraint stands against it), centred, with mu a fraction of length x pressure there */
 static PetscErrorCode Predict(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     length, pressure, mean;
 
   PetscFunctionBegin;
-  PetscCall(PenaltyStep(tao));
+  if (!ip->me) PetscCall(PenaltyStep(tao));
   PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
   PetscCall(MeanMagnitudes(tao, ip->c, ip->cwork, &length, &pressure));
   PetscCall(MeanProduct(tao, ip->c, &mean));
-  ip->mu = ip->mu_start * PetscMax(length * pressure, 1e-3 * mean);
+  ip->mu = ip->me ? 0.1 * mean : ip->mu_start * PetscMax(length * pressure, 1e-3 * mean);
   if (!(ip->mu > 0.0)) ip->mu = ip->mu0;
   PetscCall(CentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
   PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->lambda));

@@ -1,5 +1,6 @@
 static char help[] = "Linearized mortar gap of meshes: exact gaps, translations, forces and moments, derivative, any number of ranks.\n\
-  -cells <n> : cells of the slab along x at level 0\n";
+  -cells <n>  : cells of the slab along x at level 0\n\
+  -idle_ranks : some rank must own no row, or the test is not what it says\n";
 
 #include <mesh.h>
 #include <gap.h>
@@ -387,6 +388,50 @@ static PetscErrorCode Sums(MPI_Comm comm, PetscInt cells, PetscReal amplitude, P
   PetscFunctionReturn(0);
 }
 
+/* Whether a rank owns no row of the deformed bodies */
+static PetscErrorCode CheckIdleRanks(DM dm)
+{
+  Contact              contact;
+  ContactLinearization lin;
+  Vec                  u;
+  PetscInt             fewest;
+  PetscBool            idle = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-idle_ranks", &idle, NULL));
+  if (!idle) PetscFunctionReturn(0);
+  PetscCall(ContactCreate(dm, 2, pairs, &contact));
+  PetscCall(DMCreateGlobalVector(dm, &u));
+  PetscCall(ContactLinearize(contact, u, &lin));
+  PetscCallMPI(MPI_Allreduce(&lin->nlocal, &fewest, 1, MPIU_INT, MPI_MIN, PETSC_COMM_WORLD));
+  PetscCheck(fewest == 0, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Every rank owns a contact row, at least %" PetscInt_FMT, fewest);
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscCall(ContactDestroy(&contact));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(0);
+}
+
+/* Contact without any pair has no rows */
+static PetscErrorCode TestNoPairs(DM dm)
+{
+  Contact              contact;
+  ContactLinearization lin;
+  Vec                  u;
+  PetscInt             m, n, N;
+
+  PetscFunctionBeginUser;
+  PetscCall(ContactCreate(dm, 0, NULL, &contact));
+  PetscCall(DMCreateGlobalVector(dm, &u));
+  PetscCall(VecGetSize(u, &N));
+  PetscCall(ContactLinearize(contact, u, &lin));
+  PetscCall(MatGetSize(lin->J, &m, &n));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no pairs: %" PetscInt_FMT " rows, %s\n", m, n == N ? "a column an unknown" : "wrong number of columns"));
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscCall(ContactDestroy(&contact));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TestRanks(PetscInt cells)
 {
   PetscReal here[NSUMS], alone[NSUMS], error = 0.0;
@@ -418,6 +463,8 @@ int main(int argc, char **argv)
   PetscCall(CountRows(dm, "slab.xmin", "plate.xmax"));
   PetscCall(TestDerivative(dm));
   PetscCall(TestForces(dm));
+  PetscCall(TestNoPairs(dm));
+  PetscCall(CheckIdleRanks(dm));
   PetscCall(DMDestroy(&dm));
   PetscCall(CreateMesh(PETSC_COMM_WORLD, 1e-6, cells, &dm));
   PetscCall(TestPlanes(dm, 1e-6, 0.2, "a millionth of the length"));
@@ -436,6 +483,6 @@ int main(int argc, char **argv)
    test:
       suffix: long
       nsize: 5
-      args: -cells 41
+      args: -cells 41 -idle_ranks
 
 TEST*/

@@ -82,7 +82,7 @@ static PetscErrorCode KeepRows(Contact contact, Mat coupling, PetscInt *nkept, P
     largest = PetscMax(largest, norm[i]);
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
   *nkept = 0;
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
     if (norm[i] > 0.0 && norm[i] >= contact->row_drop * largest) kept[(*nkept)++] = i;

@@ -228,7 +228,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_INFINITY, &norm));
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* the maximum norm of BLAS passes over NaN */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP, "The displacement at which contact is linearized is not finite");
   contact->noverlaps = 0;
   PetscCall(ContactDeform(contact, u));

@@ -131,10 +131,9 @@ PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscRea
 
 /* integrate.c */
 typedef struct {
-  PetscReal gap[4];      /* int phi_A (x2 - x1).n_A [length^3] */
-  PetscReal weight[4];   /* int phi_A over the overlap [length^2] */
-  PetscReal D[4][4];     /* int phi_A N1_B */
-  PetscReal M[4][4];     /* int phi_A N2_B */
+  PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
+  PetscReal D[4][4]; /* int phi_A N1_B [length^2]; its rows sum to int phi_A */
+  PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
 PETSC_INTERN void           ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
 PETSC_INTERN PetscErrorCode ContactGap_Mortar(Contact, const ContactPairData *, const ContactCandidates *, const ContactNear *, ContactAssembly *);

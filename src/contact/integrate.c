@@ -16,7 +16,6 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
     for (PetscInt a = 0; a < 4; ++a) {
       const PetscReal w = o->weight[q] * phi1[a];
 
-      m->weight[a] += w;
       for (PetscInt c = 0; c < 3; ++c) m->gap[a] += w * d[c] * normals[3 * a + c];
       for (PetscInt b = 0; b < 4; ++b) {
         m->D[a][b] += w * phi1[b];

@@ -74,8 +74,8 @@ static PetscErrorCode BodySizes(DM dm, PetscInt nbodies, PetscReal volume[], Pet
   }
   PetscCall(VecRestoreArrayRead(coordinates, &a));
   PetscCall(PetscFree(boundary));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, comm));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, area, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 

@@ -261,7 +261,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
     finecells *= 8;
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "The mesh has %" PetscInt64_FMT " cells, fewer than the %d ranks", finecells, size);
+  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
 
   PetscCall(MeshCreateLevel0(comm, nbodies, bodies, (PetscInt)ncells, (PetscInt)nvertices, dm));
   if (size > 1) {

@@ -63,6 +63,7 @@ static void WriteStep(FILE *stream, const StepReport *step)
   WriteReal(stream, "complementarity", (double)step->complementarity, next);
   WriteVector(stream, "contact_force", step->contact_force, next);
   WriteVector(stream, "reaction", step->reaction, next);
+  WriteReal(stream, "solve_time", (double)step->solve_time, next);
   fprintf(stream, "\"converged\": %s%s", step->converged ? "true" : "false", next);
   WriteString(stream, "reason", step->reason, "\n    }");
 }
@@ -93,6 +94,11 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   WriteReal(stream, "filter_setup", report->time.filter_setup, ",\n    ");
   WriteReal(stream, "filter_apply", report->time.filter_apply, ",\n    ");
   WriteReal(stream, "other", report->time.other, "\n  },\n  ");
+  fputs("\"contact_free\": {\n    ", stream);
+  WriteInt(stream, "iterations", report->contact_free.iterations, ",\n    ");
+  WriteReal(stream, "condition", (double)report->contact_free.condition, ",\n    ");
+  WriteReal(stream, "bound", (double)report->contact_free.bound, ",\n    ");
+  WriteReal(stream, "solve_time", report->contact_free.solve_time, "\n  },\n  ");
   WriteReal(stream, "peak_memory_bytes", report->peak_memory_bytes, "\n}\n");
   PetscFunctionReturn(0);
 }

@@ -19,7 +19,7 @@ static PetscErrorCode ViewSteps(const RunReport *report, PetscViewer viewer)
 static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s  %-41s  %-41s\n", "step", "contact force on the nonmortar side", "reaction, sum of all prescribed rows"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s  %-41s  %-41s\n", "step", "contact force on the nonmortar side", "reaction on the driven faces"));
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const PetscReal *f = report->steps[s].contact_force, *r = report->steps[s].reaction;
 
@@ -53,6 +53,23 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* The yardstick beside the largest count of any Newton system */
+static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt  most = 0;
+  PetscReal mean = 0.0;
+
+  PetscFunctionBegin;
+  if (!report->contact_free.iterations) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    for (PetscInt i = 0; i < report->steps[s].nksp; ++i) most = PetscMax(most, report->steps[s].ksp_iterations[i]);
+    mean += report->steps[s].solve_time / report->nsteps;
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nWithout contact: %" PetscInt_FMT " PCG iterations to 1e-10, condition number %.4g, %.3f s\n", report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "With contact: at most %" PetscInt_FMT " PCG iterations a Newton system, bound %.0f; a load step costs %.2f solves without contact\n", most, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    ReportView - Prints the report of a run: steps, forces, times, memory
 
@@ -75,6 +92,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
+  PetscCall(ViewContactFree(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown\n", report->peak_memory_bytes / 1e6, report->dofs ? report->peak_memory_bytes / 1e3 / (double)report->dofs : 0.0));
   PetscFunctionReturn(0);
 }

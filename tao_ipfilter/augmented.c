@@ -1,0 +1,166 @@
+/*
+   Equality constraints. Their multipliers are not eliminated: the symmetric indefinite system
+
+     [ A    J_E^T    ] [ dx     ]   [  b   ]
+     [ J_E  -delta_c ] [ y + dy ] = [ -c_E ]
+
+   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta_c is switched on
+   where the system is singular (dependent constraints).
+*/
+#include "ipfilterimpl.h"
+
+PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPDestroy(&aug->ksp));
+  PetscCall(MatDestroy(&aug->K));
+  PetscCall(MatDestroy(&aug->shift));
+  PetscCall(VecDestroy(&aug->rhs));
+  PetscCall(VecDestroy(&aug->sol));
+  PetscCall(VecDestroy(&aug->sol2));
+  PetscFunctionReturn(0);
+}
+
+/* The factorization's KSP, prefix -tao_ipfilter_augmented_, and the diagonal block of delta_c */
+static PetscErrorCode CreateAugmented(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug  = &ip->aug;
+  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
+  PC            pc;
+  PetscInt      m;
+
+  PetscFunctionBegin;
+  if (aug->ksp) PetscFunctionReturn(0);
+  PetscCall(KSPCreate(comm, &aug->ksp));
+  PetscCall(PetscObjectIncrementTabLevel((PetscObject)aug->ksp, (PetscObject)tao, 1));
+  PetscCall(KSPSetOptionsPrefix(aug->ksp, ((PetscObject)tao)->prefix));
+  PetscCall(KSPAppendOptionsPrefix(aug->ksp, "tao_ipfilter_augmented_"));
+  PetscCall(KSPSetType(aug->ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(KSPSetFromOptions(aug->ksp));
+  PetscCall(VecGetLocalSize(ip->ce, &m));
+  PetscCall(MatCreateAIJ(comm, m, m, ip->me, ip->me, 1, NULL, 0, NULL, &aug->shift));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AssembleAugmented(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug = &ip->aug;
+  Mat           blocks[4], nest;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->cetrial, -ip->delta_c));
+  PetscCall(MatDiagonalSet(aug->shift, ip->cetrial, INSERT_VALUES));
+  PetscCall(MatConvert(ip->cond.A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
+  PetscCall(MatTranspose(tao->jacobian_equality, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = tao->jacobian_equality;
+  blocks[3] = aug->shift;
+  PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
+  PetscCall(MatDestroy(&aug->K));
+  PetscCall(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, &aug->K));
+  PetscCall(MatSetOption(aug->K, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatDestroy(&nest));
+  PetscCall(MatDestroy(&blocks[0]));
+  PetscCall(MatDestroy(&blocks[1]));
+  if (!aug->rhs) {
+    PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
+    PetscCall(VecDuplicate(aug->rhs, &aug->sol2));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular */
+static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
+{
+  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented   *aug = &ip->aug;
+  PC             pc;
+  PCFailedReason failed;
+  Mat            F;
+  PetscInt       negative, zero, positive, n;
+
+  PetscFunctionBegin;
+  PetscCall(KSPReset(aug->ksp));
+  PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCFactorSetUpMatSolverType(pc));
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
+  PetscCall(KSPSetUp(aug->ksp));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  *singular = (PetscBool)(failed != PC_NOERROR);
+  *inertia  = PETSC_FALSE;
+  if (*singular) PetscFunctionReturn(0);
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatGetInertia(F, &negative, &zero, &positive));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *singular = (PetscBool)(zero > 0 || negative + positive < n + ip->me);
+  *inertia  = (PetscBool)(!*singular && negative == ip->me);
+  PetscFunctionReturn(0);
+}
+
+/* Copies the local parts of (top, bottom) into v, or back */
+static PetscErrorCode Join(Vec v, Vec top, Vec bottom, PetscBool back)
+{
+  Vec          part[2] = {top, bottom};
+  PetscScalar *a, *p;
+  PetscInt     offset = 0, n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(VecGetLocalSize(part[k], &n));
+    PetscCall(VecGetArray(part[k], &p));
+    PetscCall(back ? PetscArraycpy(p, a + offset, n) : PetscArraycpy(a + offset, p, n));
+    PetscCall(VecRestoreArray(part[k], &p));
+    offset += n;
+  }
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Solves for dx and the new multipliers with the matrix cond.A; ce is the residual of the equality constraints.
+   matrix tells whether A is new since the last call. *usable is false where the inertia is wrong. */
+PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
+{
+  TAO_IPFILTER      *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented       *aug = &ip->aug;
+  PetscBool          inertia = PETSC_TRUE, singular = PETSC_FALSE;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
+  PetscCall(CreateAugmented(tao));
+  if (matrix) {
+    PetscCall(AssembleAugmented(tao));
+    PetscCall(Factor(tao, &inertia, &singular));
+    if (singular && ip->delta_c == 0.0) {
+      ip->delta_c = ip->delta_equality;
+      PetscCall(AssembleAugmented(tao));
+      PetscCall(Factor(tao, &inertia, &singular));
+    }
+  }
+  *usable = inertia;
+  if (!inertia) {
+    PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecCopy(ce, ip->cetrial));
+  PetscCall(VecScale(ip->cetrial, -1.0));
+  PetscCall(Join(aug->rhs, b, ip->cetrial, PETSC_FALSE));
+  PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
+  PetscCall(KSPGetConvergedReason(aug->ksp, &reason));
+  ip->ksp_reason = reason;
+  *usable        = (PetscBool)(reason > 0);
+  PetscCall(Join(aug->sol, dx, ip->dy, PETSC_TRUE));
+  PetscCall(VecAXPY(ip->dy, -1.0, ip->y));
+  PetscCall(MatMult(aug->K, aug->sol, aug->sol2));
+  PetscCall(VecAXPY(aug->sol2, -1.0, aug->rhs));
+  PetscCall(VecNorm(aug->sol2, NORM_2, &ip->linear_residual));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
+  PetscFunctionReturn(0);
+}

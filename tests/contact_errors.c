@@ -1,0 +1,90 @@
+static char help[] = "Contact: what is wrong with pairs, options and displacements is one sentence on every rank.\n";
+
+#include <mesh.h>
+#include <gap.h>
+
+/* Keeps the first message instead of printing the whole trace */
+static char message[512];
+
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType p, const char *mess, void *ctx)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  (void)ctx;
+  if (p == PETSC_ERROR_INITIAL && mess) snprintf(message, sizeof(message), "%s", mess);
+  return n;
+}
+
+static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[], const char option[], const char value[], PetscBool finite)
+{
+  Contact              contact;
+  ContactLinearization lin;
+  Vec                  u;
+  PetscErrorCode       ierr;
+  PetscMPIInt          failed, least;
+
+  PetscFunctionBeginUser;
+  message[0] = 0;
+  if (option) PetscCall(PetscOptionsSetValue(NULL, option, value));
+  PetscCall(DMCreateGlobalVector(dm, &u));
+  if (!finite) { /* on the last rank that has a value */
+    PetscInt N;
+
+    PetscCall(VecGetSize(u, &N));
+    PetscCall(VecSetValue(u, N - 1, NAN, INSERT_VALUES));
+    PetscCall(VecAssemblyBegin(u));
+    PetscCall(VecAssemblyEnd(u));
+  }
+  PetscCall(PetscPushErrorHandler(KeepMessage, NULL));
+  ierr = ContactCreate(dm, npairs, pairs, &contact);
+  if (!ierr) ierr = ContactSetFromOptions(contact);
+  if (!ierr) ierr = ContactLinearize(contact, u, &lin);
+  PetscCall(PetscPopErrorHandler());
+  failed = ierr ? 1 : 0;
+  PetscCallMPI(MPI_Allreduce(&failed, &least, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", least ? "error on every rank" : "no error on some rank", message));
+  if (option) PetscCall(PetscOptionsClearValue(NULL, option));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  static char       name[2][8] = {"lower", "upper"};
+  const ContactPair good       = {"lower.zmax", "upper.zmin"};
+  const ContactPair mortar     = {"lower.top", "upper.zmin"};
+  const ContactPair nonmortar  = {"lower.zmax", "middle.zmin"};
+  const ContactPair twice      = {"lower.zmax", "lower.zmax"};
+  const ContactPair same[2]    = {good, good};
+  SceneBody         body[2];
+  DM                dm;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscMemzero(body, sizeof(body)));
+  for (PetscInt b = 0; b < 2; ++b) body[b] = (SceneBody){.name = name[b], .shape = SHAPE_BOX, .lower = {0, 0, (PetscReal)b}, .upper = {1, 1, 1.0 + (PetscReal)b}, .cells = {2 + b, 2, 2}};
+  PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, body, 0, &dm));
+  PetscCall(Attempt(dm, 1, &mortar, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &nonmortar, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &twice, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 2, same, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &good, NULL, NULL, PETSC_FALSE));
+  PetscCall(Attempt(dm, 1, &good, "-contact_search_distance", "-1", PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &good, "-contact_search_depth", "-1", PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &good, "-contact_normal_cosine", "0.5", PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &good, "-contact_overlap_drop", "2", PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &good, "-contact_row_drop", "-2", PETSC_TRUE));
+  PetscCall(DMDestroy(&dm));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      nsize: {{1 3}}
+      output_file: output/contact_errors_1.out
+
+TEST*/

@@ -1,0 +1,173 @@
+static char help[] = "Constitutive laws: stress and tangent against differences, small and rigid motions, bad parameters.\n\n";
+
+#include <material.h>
+
+/* A smooth rough sequence in [-1, 1] */
+static PetscReal Rough(PetscInt i)
+{
+  return PetscSinReal(12.9898 * (PetscReal)(i + 1) + 1.3 * (PetscReal)(i * i));
+}
+
+static PetscErrorCode Report(const char name[], PetscReal value, PetscReal tolerance)
+{
+  PetscFunctionBeginUser;
+  if (value <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: below %g\n", name, (double)tolerance));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: %g, NOT below %g\n", name, (double)value, (double)tolerance));
+  PetscFunctionReturn(0);
+}
+
+/* Largest errors of P against differences of W, of A against differences of P, and of A's symmetry */
+static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const PetscReal h = 1e-5;
+  PetscReal       errors[3] = {0, 0, 0};
+
+  PetscFunctionBeginUser;
+  for (PetscInt sample = 0; sample < 10; ++sample) {
+    PetscReal H[9], P[9], A[81];
+
+    for (PetscInt i = 0; i < 9; ++i) H[i] = 0.25 * Rough(9 * sample + i);
+    law->stress(lambda, mu, H, P);
+    law->tangent(lambda, mu, H, A);
+    for (PetscInt j = 0; j < 9; ++j) {
+      const PetscReal keep = H[j];
+      PetscReal       forward, backward, Pf[9], Pb[9];
+
+      H[j]     = keep + h;
+      forward  = law->energy(lambda, mu, H);
+      law->stress(lambda, mu, H, Pf);
+      H[j]     = keep - h;
+      backward = law->energy(lambda, mu, H);
+      law->stress(lambda, mu, H, Pb);
+      H[j]      = keep;
+      errors[0] = PetscMax(errors[0], PetscAbsReal((forward - backward) / (2 * h) - P[j]));
+      for (PetscInt i = 0; i < 9; ++i) {
+        errors[1] = PetscMax(errors[1], PetscAbsReal((Pf[i] - Pb[i]) / (2 * h) - A[9 * i + j]));
+        errors[2] = PetscMax(errors[2], PetscAbsReal(A[9 * i + j] - A[9 * j + i]));
+      }
+    }
+  }
+  PetscCall(Report("stress against differences of the energy", errors[0], 1e-8));
+  PetscCall(Report("tangent against differences of the stress", errors[1], 1e-8));
+  PetscCall(Report("asymmetry of the tangent", errors[2], 1e-13));
+  PetscFunctionReturn(0);
+}
+
+/* At rest a law is without energy and stress, and its tangent is Hooke's; uniaxial strain e stresses it by (lambda + 2 mu) e and lambda e */
+static PetscErrorCode CheckRest(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const PetscReal small = 1e-7, H[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, strain[9] = {small, 0, 0, 0, 0, 0, 0, 0, 0};
+  PetscReal       P[9], A[81], sigma[6], stress = 0, difference = 0;
+
+  PetscFunctionBeginUser;
+  law->stress(lambda, mu, H, P);
+  law->tangent(lambda, mu, H, A);
+  for (PetscInt p = 0; p < 9; ++p) {
+    const PetscInt i = p / 3, j = p % 3;
+
+    stress = PetscMax(stress, PetscAbsReal(P[p]));
+    for (PetscInt q = 0; q < 9; ++q) {
+      const PetscInt  k = q / 3, l = q % 3;
+      const PetscReal hooke = lambda * (i == j) * (k == l) + mu * ((i == k) * (j == l) + (i == l) * (j == k));
+
+      difference = PetscMax(difference, PetscAbsReal(A[9 * p + q] - hooke));
+    }
+  }
+  law->cauchy(lambda, mu, strain, sigma);
+  PetscCall(Report("energy at rest", PetscAbsReal(law->energy(lambda, mu, H)), 1e-14));
+  PetscCall(Report("stress at rest", stress, 1e-14));
+  PetscCall(Report("tangent at rest less Hooke's", difference, 1e-13));
+  PetscCall(Report("axial stress of a small strain", PetscAbsReal(sigma[0] / small - (lambda + 2 * mu)), 1e-5));
+  PetscCall(Report("lateral stress of a small strain", PetscMax(PetscAbsReal(sigma[1] / small - lambda), PetscAbsReal(sigma[2] / small - lambda)), 1e-5));
+  PetscFunctionReturn(0);
+}
+
+/* F -> R F changes no energy, and turns the Cauchy stress with it; only for finite strain */
+static PetscErrorCode CheckRotation(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const PetscReal c = PetscCosReal(0.8), s = PetscSinReal(0.8), R[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  PetscReal       H[9], RH[9], sigma[6], turned[6];
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < 9; ++i) H[i] = 0.2 * Rough(100 + i);
+  for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt j = 0; j < 3; ++j) {
+      RH[3 * i + j] = -(i == j);
+      for (PetscInt k = 0; k < 3; ++k) RH[3 * i + j] += R[i][k] * (H[3 * k + j] + (k == j));
+    }
+  }
+  law->cauchy(lambda, mu, H, sigma);
+  law->cauchy(lambda, mu, RH, turned);
+  PetscCall(Report("energy changed by a rotation", PetscAbsReal(law->energy(lambda, mu, H) - law->energy(lambda, mu, RH)), 1e-14));
+  PetscCall(Report("turned normal stress", PetscAbsReal(turned[0] - (c * c * sigma[0] + s * s * sigma[1] - 2 * s * c * sigma[3])), 1e-13));
+  PetscCall(Report("turned shear stress", PetscAbsReal(turned[5] - (c * sigma[5] - s * sigma[4])), 1e-13));
+  PetscFunctionReturn(0);
+}
+
+/* Uniform dilation F = a I: the neo-Hookean pressure is kappa (J - 1) */
+static PetscErrorCode CheckDilation(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const PetscReal a = 1.3, kappa = lambda + 2 * mu / 3, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
+  PetscReal       sigma[6], error = 0;
+
+  PetscFunctionBeginUser;
+  law->cauchy(lambda, mu, H, sigma);
+  for (PetscInt k = 0; k < 6; ++k) error = PetscMax(error, PetscAbsReal(sigma[k] - (k < 3 ? kappa * (a * a * a - 1) : 0)));
+  PetscCall(Report("pressure of a dilation", error, 1e-13));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", law->energy(lambda, mu, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckParameters(PetscReal young, PetscReal poisson)
+{
+  const Material material = {MATERIAL_LINEAR, young, poisson};
+  PetscReal      lambda, mu;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  ierr = MaterialGetLame(&material, &lambda, &mu);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "E %g, nu %g: %s\n", (double)young, (double)poisson, ierr ? "refused" : "accepted"));
+  if (!ierr) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  lambda %g, mu %g\n", (double)lambda, (double)mu));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  for (PetscInt t = MATERIAL_LINEAR; t <= MATERIAL_NEOHOOKEAN; ++t) {
+    const Material     material = {(MaterialType)t, 2.6, 0.3};
+    const MaterialLaw *law;
+    PetscReal          lambda, mu;
+
+    PetscCall(MaterialGetLame(&material, &lambda, &mu));
+    PetscCall(MaterialGetLaw(&material, &law));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[t], law->constant ? ", constant tangent" : ""));
+    PetscCall(CheckDerivatives(law, lambda, mu));
+    PetscCall(CheckRest(law, lambda, mu));
+    if (t != MATERIAL_LINEAR) {
+      PetscCall(CheckRotation(law, lambda, mu));
+      PetscCall(CheckDilation(law, lambda, mu));
+    }
+  }
+  PetscCall(CheckParameters(2.6, 0.3));
+  PetscCall(CheckParameters(1, 0));
+  PetscCall(CheckParameters(1, 0.499));
+  PetscCall(CheckParameters(1, 0.5));
+  PetscCall(CheckParameters(1, -1));
+  PetscCall(CheckParameters(0, 0.3));
+  PetscCall(CheckParameters(-1, 0.3));
+  PetscCall(CheckParameters((PetscReal)NAN, 0.3));
+  PetscCall(CheckParameters(1, (PetscReal)NAN));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      suffix: 1
+
+TEST*/
