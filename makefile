@@ -57,7 +57,8 @@ dependencies:
 # A second make sees what the first one installed
 demo: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
-	bin/contact share/scenes/two_block.yaml
+	@mkdir -p build/demo
+	bin/contact share/scenes/two_block.yaml -output build/demo/two_block
 
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check

@@ -1,7 +1,7 @@
 static char help[] = "Quasi-static frictionless contact of elastic bodies: contact SCENE.yaml [options].\n\
   -refine N            uniform refinements of the scene's level 0\n\
   -load_steps N        load steps of equal size\n\
-  -output BASE         write BASE.h5 and BASE.xmf, one time value a load step\n\
+  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
   -quiet               no line a Newton step and no table\n\
@@ -105,6 +105,7 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
 
   PetscFunctionBeginUser;
   *converged = PETSC_TRUE;
+  if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->free) PetscCall(SimulationContactFree(sim));

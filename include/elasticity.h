@@ -16,7 +16,7 @@ typedef struct _n_Elasticity *Elasticity;
 PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], Elasticity *);
 /* Global rows (owned by this rank) whose displacement is prescribed */
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
-/* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, SPD/symmetric set */
+/* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, marked symmetric */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
 /* Energy stored at u [force length] */

@@ -2,7 +2,7 @@
    Meshes: one DMPlex of hexahedra for all bodies (disjoint components), distributed and refined.
 
    Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets (box: xmin xmax ymin ymax zmin zmax). Local section: 3 displacement components per vertex, interleaved,
+   facets and their edges and vertices (box: xmin xmax ymin ymax zmin zmax). Local section: 3 displacement components per vertex, interleaved,
    block size 3, no constrained dofs. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
@@ -13,8 +13,9 @@
 
 #define MESH_BODY_LABEL "body"
 
-/* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
+/* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
+/* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);

@@ -22,6 +22,7 @@ typedef struct _n_Output *Output;
 PETSC_EXTERN PetscErrorCode OutputCreate(DM, PetscInt nbodies, const char *const bodynames[], const char basename[], Output *);
 PETSC_EXTERN PetscErrorCode OutputWrite(Output, const OutputState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
+PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);

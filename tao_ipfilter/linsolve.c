@@ -63,6 +63,8 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
     *usable = (PetscBool)((reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) && ip->linear_residual <= ip->forcing_max * bnorm);
   }
   if (PetscIsInfOrNanReal(ip->linear_residual)) *usable = PETSC_FALSE;
+  /* a factorization that failed is not to be reused */
+  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KSPReset(tao->ksp));
   ip->ksp_reason = reason;
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, d, NULL));
   PetscFunctionReturn(0);

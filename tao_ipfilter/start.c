@@ -124,14 +124,34 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Moves x by the solution of the penalized problem, as far as its bounds allow, if f and c_I are numbers there */
-static PetscErrorCode PenaltyStep(Tao tao)
+/* The penalized objective f + 1/2 sum m rho min(c, 0)^2 at x, whose constraint values go into c */
+static PetscErrorCode PenaltyObjective(Tao tao, Vec x, Vec c, PetscReal *value)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     f, size, alpha = 1.0;
+  PetscReal     f;
+  PetscScalar   penalty;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeObjective(tao, x, &f));
+  PetscCall(IPEvaluateConstraints(tao, x, c, ip->cetrial));
+  PetscCall(PenaltyPressure(tao, c, ip->cwork));
+  PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
+  PetscCall(VecDot(ip->cwork, c, &penalty));
+  *value = f - 0.5 * PetscRealPart(penalty);
+  PetscFunctionReturn(0);
+}
+
+/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the penalized
+   objective; *moved is false where it does not, or where equality constraints stand against it */
+static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     before, after, alpha = 1.0;
   PetscBool     usable = PETSC_FALSE;
 
   PetscFunctionBegin;
+  *moved = PETSC_FALSE;
+  if (ip->me) PetscFunctionReturn(0);
   PetscCall(PenaltySolve(tao, &usable));
   if (!usable) PetscFunctionReturn(0);
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
@@ -142,31 +162,33 @@ static PetscErrorCode PenaltyStep(Tao tao)
     if (b == IP_UPPER) PetscCall(VecScale(p->dt, -1.0));
     PetscCall(IPPairMaxStep(p->t, p->dt, 0.9, &alpha));
   }
-  PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
-  PetscCall(TaoComputeObjective(tao, ip->xtrial, &f));
-  PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
-  PetscCall(VecNorm(ip->ctrial, NORM_2, &size));
-  if (PetscIsInfOrNanReal(f) || PetscIsInfOrNanReal(size)) PetscFunctionReturn(0);
+  PetscCall(PenaltyObjective(tao, tao->solution, ip->ctrial, &before));
+  for (PetscInt k = 0; k < 4 && !*moved; k++, alpha *= 0.5) {
+    PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
+    PetscCall(PenaltyObjective(tao, ip->xtrial, ip->ctrial, &after));
+    *moved = (PetscBool)(!PetscIsInfOrNanReal(after) && after <= before);
+  }
+  if (!*moved) PetscFunctionReturn(0);
   PetscCall(VecCopy(ip->xtrial, tao->solution));
   PetscCall(VecCopy(ip->ctrial, ip->c));
-  if (ip->me) PetscCall(VecCopy(ip->cetrial, ip->ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
 }
 
-/* s and z from the constraints' values after the penalty step (where no equality constraint stands against it), centred, with mu a fraction of length x pressure there */
+/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
 static PetscErrorCode Predict(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     length, pressure, mean;
+  PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->me) PetscCall(PenaltyStep(tao));
+  PetscCall(PenaltyStep(tao, &moved));
   PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
   PetscCall(MeanMagnitudes(tao, ip->c, ip->cwork, &length, &pressure));
   PetscCall(MeanProduct(tao, ip->c, &mean));
-  ip->mu = ip->me ? 0.1 * mean : ip->mu_start * PetscMax(length * pressure, 1e-3 * mean);
+  ip->mu = moved ? ip->mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
   if (!(ip->mu > 0.0)) ip->mu = ip->mu0;
   PetscCall(CentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
   PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->lambda));

@@ -174,11 +174,10 @@ static PetscErrorCode SurfaceRows(DM dm, IS *rows)
 /* Solves with the exact displacement prescribed on the surface; u is new */
 static PetscErrorCode Solve(DM dm, Elasticity e, Vec *u)
 {
-  IS        surface;
-  Mat       K;
-  Vec       load, force, free, exact;
-  KSP       ksp;
-  PetscBool spd;
+  IS  surface;
+  Mat K;
+  Vec load, force, free, exact;
+  KSP ksp;
 
   PetscFunctionBeginUser;
   PetscCall(SurfaceRows(dm, &surface));
@@ -207,8 +206,6 @@ static PetscErrorCode Solve(DM dm, Elasticity e, Vec *u)
   PetscCall(KSPSetFromOptions(ksp));
   PetscCall(KSPSolve(ksp, load, force));
   PetscCall(VecAXPY(*u, 1, force));
-  PetscCall(MatIsSymmetric(K, 1e-12, &spd));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "matrix: %s\n", spd ? "symmetric" : "NOT SYMMETRIC"));
   PetscCall(KSPDestroy(&ksp));
   PetscCall(VecDestroy(&exact));
   PetscCall(VecDestroy(&free));

@@ -33,7 +33,7 @@ static inline PetscErrorCode ProblemMoveVertices(DM dm, PetscReal distance)
   for (PetscInt i = 0; i < n; i += 3) {
     const PetscReal phase = 37.1 * PetscRealPart(x[i]) + 91.7 * PetscRealPart(x[i + 1]) + 53.3 * PetscRealPart(x[i + 2]);
 
-    for (PetscInt d = 0; d < 3; ++d) x[i + d] += distance * PetscSinReal(phase + 2 * d);
+    for (PetscInt d = 0; d < 3; ++d) x[i + d] += distance * PetscSinReal((1 + 0.3 * d) * phase + 2 * d);
   }
   PetscCall(VecRestoreArray(coordinates, &x));
   PetscFunctionReturn(0);

@@ -174,6 +174,27 @@ static PetscErrorCode CheckInterface(DM dm, const SceneBody bodies[], PetscInt r
   PetscFunctionReturn(0);
 }
 
+/* A facet whose vertices DMPlex stores the other way round is still seen from outside */
+static PetscErrorCode CheckTurnedFacets(DM dm)
+{
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        n;
+  PetscInt64      count;
+
+  PetscFunctionBeginUser;
+  PetscCall(MeshGetFacets(dm, "slab.zmax", &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(DMPlexOrientPoint(dm, f[i], -1));
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "turned facets"));
+  PetscCall(CheckFacets(dm, "slab.zmax", 2, 1, &count));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   DM        dm;
@@ -193,6 +214,7 @@ int main(int argc, char **argv)
   PetscCall(CheckCells(dm, 2));
   for (PetscInt b = 0; b < 2; ++b) PetscCall(CheckFaces(dm, &bodies[b]));
   PetscCall(CheckInterface(dm, bodies, refine));
+  PetscCall(CheckTurnedFacets(dm));
   PetscCall(VecDestroy(&u));
   PetscCall(DMDestroy(&dm));
   PetscCall(PetscFinalize());

@@ -102,7 +102,7 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{2 3}}
       args: -malloc_dump 0
-      filter: sed -e 's/cells: [0-9]* ranks/cells: N ranks/'
+      filter: sed -e "s/cells. . ranks/cells: N ranks/"
       output_file: output/mesh_errors_1.out
 
 TEST*/

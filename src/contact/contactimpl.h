@@ -33,7 +33,7 @@ typedef struct {
   PetscReal *x;    /* [12 n] */
 } ContactCandidates;
 
-/* Of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] whose boxes it meets */
+/* Of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] along its normal */
 typedef struct {
   PetscInt *offset, *facet;
 } ContactNear;
@@ -89,7 +89,8 @@ PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, Pe
 PETSC_INTERN PetscErrorCode ContactBodyThickness(DM, PetscInt *nbodies, PetscReal *thickness[]);
 
 /* search.c */
-PETSC_INTERN void           ContactFacetBox(const PetscReal x[12], PetscReal inflate, PetscReal box[6]);
+PETSC_INTERN void           ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
+PETSC_INTERN void           ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
 PETSC_INTERN PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
 PETSC_INTERN PetscErrorCode ContactSearch(const ContactPairData *, const ContactCandidates *, ContactNear *);
 PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
@@ -113,6 +114,14 @@ PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+
+/* frame.c */
+typedef struct {
+  PetscReal origin[3], axis[3][3];
+} ContactFrame;
+PETSC_INTERN PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3]);
+PETSC_INTERN PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *);
+PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4]);
 
 /* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
    frozen, the weighted gap is linear in the coordinates. */

@@ -10,18 +10,17 @@ typedef struct {
   PetscReal   *x;
 } Outgoing;
 
-/* Every rank's box about its nonmortar facets, inflated by the search distance; empty where it has none */
+/* Every rank's box about what its nonmortar facets sweep along their normals; empty where it has none */
 static PetscErrorCode GatherBoxes(MPI_Comm comm, const ContactPairData *pair, PetscReal boxes[])
 {
-  const ContactSurface *s       = &pair->nonmortar;
-  const PetscReal       inflate = PetscMax(pair->distance, pair->depth);
+  const ContactSurface *s = &pair->nonmortar;
   PetscReal             mine[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < s->nfacets; ++f) {
     PetscReal box[6];
 
-    ContactFacetBox(&s->x[12 * f], inflate, box);
+    ContactSweptBox(&s->x[12 * f], pair->distance, pair->depth, box);
     for (PetscInt c = 0; c < 3; ++c) {
       mine[c]     = PetscMin(mine[c], box[c]);
       mine[3 + c] = PetscMax(mine[3 + c], box[3 + c]);
@@ -43,7 +42,7 @@ static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, cons
     for (PetscInt f = 0; f < s->nfacets; ++f) {
       PetscReal box[6];
 
-      ContactFacetBox(&s->x[12 * f], 0.0, box);
+      ContactFacetBox(&s->x[12 * f], box);
       if (!ContactBoxesMeet(box, &boxes[6 * r])) continue;
       if (out->x) {
         PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
@@ -105,7 +104,7 @@ static PetscErrorCode Broadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit
   PetscFunctionReturn(0);
 }
 
-/* Collective. The mortar facets of all ranks whose boxes meet the box about this rank's nonmortar facets */
+/* Collective. The mortar facets of all ranks whose boxes meet the box about what this rank's nonmortar facets sweep */
 PetscErrorCode ContactExchange(MPI_Comm comm, const ContactPairData *pair, ContactCandidates *in)
 {
   PetscMPIInt size;

@@ -1,57 +1,6 @@
 /* Where two facets face each other: projection, clipping, quadrature points on both */
 #include "contactimpl.h"
 
-/* Orthonormal frame of the plane through a facet's centre along its mean normal */
-typedef struct {
-  PetscReal origin[3], t1[3], t2[3], normal[3];
-} Frame;
-
-static PetscReal Dot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static PetscBool FrameCreate(const PetscReal x[12], const PetscReal normal[3], Frame *f)
-{
-  PetscReal length;
-
-  for (PetscInt c = 0; c < 3; ++c) {
-    f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
-    f->normal[c] = normal[c];
-    f->t1[c]     = x[6 + c] - x[c]; /* a diagonal: in the plane, for the normal is the diagonals' cross product */
-  }
-  length = PetscSqrtReal(Dot(f->t1, f->t1));
-  if (!(length > 0.0)) return PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; ++c) f->t1[c] /= length;
-  f->t2[0] = normal[1] * f->t1[2] - normal[2] * f->t1[1];
-  f->t2[1] = normal[2] * f->t1[0] - normal[0] * f->t1[2];
-  f->t2[2] = normal[0] * f->t1[1] - normal[1] * f->t1[0];
-  return PETSC_TRUE;
-}
-
-/* Plane coordinates of a facet's vertices, and their heights above the plane */
-static void Project(const Frame *f, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4])
-{
-  for (PetscInt a = 0; a < 4; ++a) {
-    const PetscReal d[3] = {x[3 * a] - f->origin[0], x[3 * a + 1] - f->origin[1], x[3 * a + 2] - f->origin[2]};
-
-    p[a][0]   = Dot(d, f->t1);
-    p[a][1]   = Dot(d, f->t2);
-    height[a] = Dot(d, f->normal);
-  }
-}
-
-static PetscBool UnitNormal(const PetscReal x[12], PetscReal n[3])
-{
-  PetscReal area;
-
-  ContactFacetAreaVector(x, n);
-  area = PetscSqrtReal(Dot(n, n));
-  if (!(area > 0.0)) return PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; ++c) n[c] /= area;
-  return PETSC_TRUE;
-}
-
 /* Convex parts of a quadrilateral: itself, or two triangles where a corner is reflex */
 static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2])
 {
@@ -126,16 +75,16 @@ static PetscReal MeanGap(const ContactOverlap *o, const PetscReal h1[4], const P
 */
 PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, ContactOverlap *o)
 {
-  PetscReal n1[3], n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], smaller, gap;
-  PetscInt  size[2], nparts;
-  Frame     frame;
+  PetscReal    n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], smaller, gap;
+  PetscInt     size[2], nparts;
+  ContactFrame frame;
 
   o->n    = 0;
   o->area = 0.0;
-  if (!UnitNormal(x1, n1) || !UnitNormal(x2, n2)) return PETSC_FALSE;
-  if (Dot(n1, n2) > limits->cosine || !FrameCreate(x1, n1, &frame)) return PETSC_FALSE;
-  Project(&frame, x1, p1, h1);
-  Project(&frame, x2, p2, h2);
+  if (!ContactFrameCreate(x1, &frame) || !ContactFacetNormal(x2, n2)) return PETSC_FALSE;
+  if (n2[0] * frame.axis[2][0] + n2[1] * frame.axis[2][1] + n2[2] * frame.axis[2][2] > limits->cosine) return PETSC_FALSE;
+  ContactFrameProject(&frame, x1, p1, h1);
+  ContactFrameProject(&frame, x2, p2, h2);
   for (PetscInt a = 0; a < 4; ++a) { /* the mortar facet is seen from inside its body: clockwise */
     reversed[a][0] = p2[3 - a][0];
     reversed[a][1] = p2[3 - a][1];

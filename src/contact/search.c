@@ -18,11 +18,34 @@ typedef struct {
   PetscReal *box; /* [6 n] of the facets */
 } Tree;
 
-void ContactFacetBox(const PetscReal x[12], PetscReal inflate, PetscReal box[6])
+/*
+  What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the normal:
+  a ball of that radius would hold more and more facets as the mesh is refined.
+*/
+typedef struct {
+  ContactFrame frame;
+  PetscReal    low[3], high[3]; /* in the frame */
+  PetscReal    box[6];
+} Prism;
+
+void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
 {
   for (PetscInt c = 0; c < 3; ++c) {
-    box[c]     = PetscMin(PetscMin(x[c], x[3 + c]), PetscMin(x[6 + c], x[9 + c])) - inflate;
-    box[3 + c] = PetscMax(PetscMax(x[c], x[3 + c]), PetscMax(x[6 + c], x[9 + c])) + inflate;
+    box[c]     = PetscMin(PetscMin(x[c], x[3 + c]), PetscMin(x[6 + c], x[9 + c]));
+    box[3 + c] = PetscMax(PetscMax(x[c], x[3 + c]), PetscMax(x[6 + c], x[9 + c]));
+  }
+}
+
+/* Box about what a facet sweeps along its normal; its own box where it has no normal */
+void ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6])
+{
+  PetscReal n[3];
+
+  ContactFacetBox(x, box);
+  if (!ContactFacetNormal(x, n)) return;
+  for (PetscInt c = 0; c < 3; ++c) {
+    box[c] += PetscMin(n[c] * distance, -n[c] * depth);
+    box[3 + c] += PetscMax(n[c] * distance, -n[c] * depth);
   }
 }
 
@@ -30,6 +53,39 @@ PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6])
 {
   for (PetscInt c = 0; c < 3; ++c) {
     if (a[c] > b[3 + c] || b[c] > a[3 + c]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscReal depth, Prism *p)
+{
+  PetscReal y[4][2], h[4];
+
+  if (!ContactFrameCreate(x, &p->frame)) return PETSC_FALSE;
+  ContactSweptBox(x, distance, depth, p->box);
+  ContactFrameProject(&p->frame, x, y, h);
+  for (PetscInt d = 0; d < 2; ++d) {
+    p->low[d]  = PetscMin(PetscMin(y[0][d], y[1][d]), PetscMin(y[2][d], y[3][d]));
+    p->high[d] = PetscMax(PetscMax(y[0][d], y[1][d]), PetscMax(y[2][d], y[3][d]));
+  }
+  p->low[2]  = PetscMin(PetscMin(h[0], h[1]), PetscMin(h[2], h[3])) - depth;
+  p->high[2] = PetscMax(PetscMax(h[0], h[1]), PetscMax(h[2], h[3])) + distance;
+  return PETSC_TRUE;
+}
+
+/* False where one of the coordinate axes or the prism's axes separates the two */
+static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
+{
+  if (!ContactBoxesMeet(p->box, box)) return PETSC_FALSE;
+  for (PetscInt a = 0; a < 3; ++a) {
+    const PetscReal *axis   = p->frame.axis[a];
+    PetscReal        centre = 0.0, radius = 0.0;
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      centre += axis[c] * (0.5 * (box[c] + box[3 + c]) - p->frame.origin[c]);
+      radius += PetscAbsReal(axis[c]) * 0.5 * (box[3 + c] - box[c]);
+    }
+    if (centre + radius < p->low[a] || centre - radius > p->high[a]) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }
@@ -102,14 +158,14 @@ static PetscErrorCode TreeCreate(const ContactCandidates *facets, Tree *t)
   PetscCall(PetscMalloc3(2 * facets->n, &t->node, facets->n, &t->order, 6 * facets->n, &t->box));
   for (PetscInt f = 0; f < facets->n; ++f) {
     t->order[f] = f;
-    ContactFacetBox(&facets->x[12 * f], 0.0, &t->box[6 * f]);
+    ContactFacetBox(&facets->x[12 * f], &t->box[6 * f]);
   }
   if (facets->n) TreeBuild(t, 0, facets->n);
   PetscFunctionReturn(0);
 }
 
-/* Number of facets whose boxes meet the given one; those are put into found unless it is NULL */
-static PetscInt TreeQuery(const Tree *t, const PetscReal box[6], PetscInt found[])
+/* Number of facets whose boxes meet the prism; those are put into found unless it is NULL */
+static PetscInt TreeQuery(const Tree *t, const Prism *prism, PetscInt found[])
 {
   PetscInt stack[MAX_DEPTH], depth = 0, n = 0;
 
@@ -118,14 +174,14 @@ static PetscInt TreeQuery(const Tree *t, const PetscReal box[6], PetscInt found[
     const PetscInt  self = stack[--depth];
     const TreeNode *node = &t->node[self];
 
-    if (!ContactBoxesMeet(node->box, box)) continue;
+    if (!PrismMeetsBox(prism, node->box)) continue;
     if (node->second) {
       stack[depth++] = node->second;
       stack[depth++] = self + 1;
       continue;
     }
     for (PetscInt i = node->first; i < node->last; ++i) {
-      if (!ContactBoxesMeet(&t->box[6 * t->order[i]], box)) continue;
+      if (!PrismMeetsBox(prism, &t->box[6 * t->order[i]])) continue;
       if (found) found[n] = t->order[i];
       ++n;
     }
@@ -133,26 +189,26 @@ static PetscInt TreeQuery(const Tree *t, const PetscReal box[6], PetscInt found[
   return n;
 }
 
-/* For each of this rank's nonmortar facets, the candidates whose boxes meet its own, inflated by the search distance */
+/* For each of this rank's nonmortar facets, the candidates that may lie along its normal within the search distances */
 PetscErrorCode ContactSearch(const ContactPairData *pair, const ContactCandidates *mortar, ContactNear *near)
 {
-  const ContactSurface *s       = &pair->nonmortar;
-  const PetscReal       inflate = PetscMax(pair->distance, pair->depth);
-  PetscReal             box[6];
+  const ContactSurface *s = &pair->nonmortar;
   Tree                  tree;
+  Prism                 prism;
 
   PetscFunctionBegin;
   PetscCall(TreeCreate(mortar, &tree));
   PetscCall(PetscMalloc1(s->nfacets + 1, &near->offset));
   near->offset[0] = 0;
-  for (PetscInt f = 0; f < s->nfacets; ++f) {
-    ContactFacetBox(&s->x[12 * f], inflate, box);
-    near->offset[f + 1] = near->offset[f] + TreeQuery(&tree, box, NULL);
-  }
-  PetscCall(PetscMalloc1(near->offset[s->nfacets], &near->facet));
-  for (PetscInt f = 0; f < s->nfacets; ++f) {
-    ContactFacetBox(&s->x[12 * f], inflate, box);
-    (void)TreeQuery(&tree, box, near->facet + near->offset[f]);
+  near->facet     = NULL;
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt f = 0; f < s->nfacets; ++f) {
+      const PetscBool has = PrismCreate(&s->x[12 * f], pair->distance, pair->depth, &prism);
+      const PetscInt  n   = has ? TreeQuery(&tree, &prism, pass ? near->facet + near->offset[f] : NULL) : 0;
+
+      near->offset[f + 1] = near->offset[f] + n;
+    }
+    if (!pass) PetscCall(PetscMalloc1(near->offset[s->nfacets], &near->facet));
   }
   PetscCall(PetscFree3(tree.node, tree.order, tree.box));
   PetscFunctionReturn(0);

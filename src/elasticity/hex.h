@@ -19,7 +19,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode HexBasisCreate(PetscInt gausspoints, HexBasis *);
 
 /* Gradients G[j][a] = dN_a/dX_j at point q of the cell with vertices X[d][a]; returns weight times det dX/dxi */
-static inline PetscReal HexGradients(const HexBasis *basis, PetscInt q, const PetscReal X[3][8], PetscReal G[3][8])
+static inline PetscReal HexGradients(const HexBasis *basis, PetscInt q, PetscReal X[3][8], PetscReal G[3][8])
 {
   const PetscReal(*dN)[8] = basis->dN[q];
   PetscReal J[3][3], C[3][3], det;
@@ -51,7 +51,7 @@ static inline PetscReal HexGradients(const HexBasis *basis, PetscInt q, const Pe
 }
 
 /* H[3 i + j] = du_i/dX_j */
-static inline void HexDisplacementGradient(const PetscReal U[3][8], const PetscReal G[3][8], PetscReal H[9])
+static inline void HexDisplacementGradient(PetscReal U[3][8], PetscReal G[3][8], PetscReal H[9])
 {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

@@ -67,7 +67,7 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
    A constant isotropic tangent: K_ab = int lambda grad N_a (x) grad N_b + mu grad N_b (x) grad N_a + mu (grad N_a . grad N_b) I,
    from the six integrals S_ij[a][b] = int dN_a/dX_i dN_b/dX_j, i <= j, as S_ji is the transpose of S_ij.
 */
-static void HexStiffnessIsotropic(const HexBasis *basis, const PetscReal X[3][8], PetscReal lambda, PetscReal mu, PetscScalar K[24][24])
+static void HexStiffnessIsotropic(const HexBasis *basis, PetscReal X[3][8], PetscReal lambda, PetscReal mu, PetscScalar K[24][24])
 {
   PetscReal S[3][3][8][8] = {{{{0}}}}, G[3][8];
 
@@ -100,7 +100,7 @@ static void HexStiffnessIsotropic(const HexBasis *basis, const PetscReal X[3][8]
 }
 
 /* Any law: K_ia,kb = int dN_a/dX_j dP_ij/dH_kl dN_b/dX_l */
-static void HexStiffness(const HexBasis *basis, const PetscReal X[3][8], const PetscReal U[3][8], const BodyMaterial *m, PetscScalar K[24][24])
+static void HexStiffness(const HexBasis *basis, PetscReal X[3][8], PetscReal U[3][8], const BodyMaterial *m, PetscScalar K[24][24])
 {
   PetscReal S[3][3][8][8] = {{{{0}}}}, G[3][8], H[9], A[81];
 

@@ -19,8 +19,22 @@ static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], int error)
   PetscFunctionReturn(0);
 }
 
-/* HDF5 has no sentence for a folder that is not there */
-static PetscErrorCode FileCheckWritable(MPI_Comm comm, const char file[])
+/*@C
+   OutputCheckWritable - Finds out before long work whether a file will be writable, and says so in one sentence if not
+
+   Collective
+
+   Input Parameters:
++  comm - the communicator; its first rank writes
+-  file - the file; it is not touched, a neighbour FILE.part is made and removed
+
+   Level: intermediate
+
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks.
+
+.seealso: `OutputCreate()`, `ReportWriteJSON()`
+@*/
+PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
@@ -69,7 +83,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(FileCheckWritable(comm, file));
+  PetscCall(OutputCheckWritable(comm, file));
   PetscCall(FileGetPartName(file, part, sizeof(part)));
   complaint[0] = 0;
   PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
