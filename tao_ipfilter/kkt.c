@@ -112,6 +112,8 @@ PetscErrorCode IPComputeScale(Tao tao)
     s->length = PetscMax(PetscMax(c, t), ip->length0);
     PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
     PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
+    /* where every constraint is active from the start, slacks and values say nothing: what the pressure would press in does */
+    if (rho > 0.0) s->length = PetscMax(s->length, s->pressure / rho);
     s->pressure = PetscMax(s->pressure, small * rho * s->length);
     s->product  = s->length * s->pressure;
   }

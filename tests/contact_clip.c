@@ -119,7 +119,7 @@ static PetscReal Weight(const ContactIntegrals *m, PetscInt a)
 
 static PetscErrorCode TestRandomAreas(PetscRandom r)
 {
-  PetscReal area = 0.0, unity = 0.0, gaperror = 0.0;
+  PetscReal area = 0.0, unity = 0.0, gaperror = 0.0, slip = 0.0;
   PetscInt  noverlap = 0;
 
   PetscFunctionBeginUser;
@@ -150,11 +150,15 @@ static PetscErrorCode TestRandomAreas(PetscRandom r)
     area  = PetscMax(area, PetscAbsReal(o.area - exact) / size);
     unity = PetscMax(unity, PetscAbsReal(sum - exact) / size);
     for (PetscInt a = 0; a < 4; ++a) gaperror = PetscMax(gaperror, PetscAbsReal(m.gap[a] - h * Weight(&m, a)) / size);
+    for (PetscInt i = 0; i < 12; ++i) normals[i] = motion.R[i % 3][0];
+    ContactIntegrate(&o, x1, x2, normals, &m);
+    for (PetscInt a = 0; a < 4; ++a) slip = PetscMax(slip, PetscAbsReal(m.gap[a]) / size);
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "random convex facets: %s\n", noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
   PetscCall(Report("area of the overlap", area, 1e-12));
   PetscCall(Report("sum of the weights of the rows", unity, 1e-12));
   PetscCall(Report("gap of parallel planes", gaperror, 1e-12));
+  PetscCall(Report("mortar point straight above the nonmortar point", slip, 1e-12));
   PetscFunctionReturn(0);
 }
 
@@ -407,7 +411,8 @@ static PetscErrorCode TestLimits(void)
     {-0.3, PETSC_FALSE, PETSC_FALSE},
     {0.0,  PETSC_TRUE,  PETSC_FALSE}
   };
-  PetscInt wrong = 0;
+  static const PetscReal steep[2] = {0.1, 0.3}; /* minus the cosine between the normals */
+  PetscInt               wrong    = 0;
 
   PetscFunctionBeginUser;
   for (size_t c = 0; c < PETSC_STATIC_ARRAY_LENGTH(cases); ++c) {
@@ -417,6 +422,19 @@ static PetscErrorCode TestLimits(void)
     Facet(square, 0.0, PETSC_TRUE, x1);
     Facet(square, cases[c].z, cases[c].up, x2);
     wrong += ContactOverlapFind(x1, x2, &near, &o) != cases[c].pairs;
+  }
+  for (PetscInt k = 0; k < 2; ++k) { /* the mortar facet turned about the line x = 0.5 */
+    const PetscReal c = steep[k], s = PetscSqrtReal(1.0 - c * c);
+    PetscReal       x1[12], x2[12];
+    ContactOverlap  o;
+
+    Facet(square, 0.0, PETSC_TRUE, x1);
+    Facet(square, 0.0, PETSC_FALSE, x2);
+    for (PetscInt a = 0; a < 4; ++a) {
+      x2[3 * a + 2] = s * (x2[3 * a] - 0.5);
+      x2[3 * a]     = 0.5 + c * (x2[3 * a] - 0.5);
+    }
+    wrong += ContactOverlapFind(x1, x2, &near, &o) != (k == 1);
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "search limits: %" PetscInt_FMT " wrong\n", wrong));
   PetscFunctionReturn(0);

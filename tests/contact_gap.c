@@ -206,6 +206,27 @@ static PetscErrorCode CountRows(DM dm, const char mortar[], const char nonmortar
   PetscFunctionReturn(0);
 }
 
+/* On planes along the axes the normals are exactly the axis: J has no entries for other directions, and none that are zero */
+static PetscErrorCode CountEntries(ContactLinearization lin)
+{
+  PetscInt start, end, n[2] = {0, 0};
+
+  PetscFunctionBeginUser;
+  PetscCall(MatGetOwnershipRange(lin->J, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           ncols;
+
+    PetscCall(MatGetRow(lin->J, i, &ncols, &columns, &values));
+    for (PetscInt k = 0; k < ncols; ++k) n[columns[k] % 3 != 2 || values[k] == 0.0] += 1;
+    PetscCall(MatRestoreRow(lin->J, i, &ncols, &columns, &values));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "entries along the normal %" PetscInt_FMT ", others %" PetscInt_FMT "\n", n[0], n[1]));
+  PetscFunctionReturn(0);
+}
+
 /* Where the faces touch, the frozen geometry multiplies a gap of zero: J is the derivative of the true gap */
 static PetscErrorCode TestDerivative(DM dm)
 {
@@ -220,6 +241,8 @@ static PetscErrorCode TestDerivative(DM dm)
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(VecDuplicate(u, &v));
   PetscCall(ContactLinearize(contact, u, &lin));
+  PetscCall(ContactView(contact, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(CountEntries(lin));
   PetscCall(SetField(dm, WavyField, &one, v));
   PetscCall(VecDuplicate(lin->g, &Jv));
   PetscCall(VecDuplicate(lin->g, &difference));
