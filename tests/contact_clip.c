@@ -461,5 +461,6 @@ int main(int argc, char **argv)
 /*TEST
 
    test:
+      suffix: 1
 
 TEST*/

@@ -19,7 +19,7 @@ static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function,
 
 static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[], const char option[], const char value[], PetscBool finite)
 {
-  Contact              contact;
+  Contact              contact = NULL;
   ContactLinearization lin;
   Vec                  u;
   PetscErrorCode       ierr;
@@ -42,6 +42,7 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
   if (!ierr) ierr = ContactSetFromOptions(contact);
   if (!ierr) ierr = ContactLinearize(contact, u, &lin);
   PetscCall(PetscPopErrorHandler());
+  if (contact) PetscCall(ContactDestroy(&contact));
   failed = ierr ? 1 : 0;
   PetscCallMPI(MPI_Allreduce(&failed, &least, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", least ? "error on every rank" : "no error on some rank", message));

@@ -23,8 +23,7 @@ struct _n_Elasticity {
 
 PETSC_INTERN PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force;
 
-/* Number of distinct nodes around each local node's cells, and those nodes; free with PetscFree2() */
-PETSC_INTERN PetscErrorCode ElasticityNodeAdjacency(Elasticity, PetscInt **offsets, PetscInt **neighbours);
+/* Allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
 
 /* Values of a local vector (3 a node) at a cell's nodes, component by component */

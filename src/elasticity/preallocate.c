@@ -21,7 +21,8 @@ static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, Pets
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, PetscInt **neighbours)
+/* Distinct nodes around each local node's cells, itself included, in compressed rows */
+static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, PetscInt **neighbours)
 {
   PetscInt *first = NULL, *cells = NULL, *start, *list = NULL, *seen, n = 0;
 
@@ -124,7 +125,7 @@ PetscErrorCode ElasticityPreallocate(Elasticity e, Mat A)
   ISLocalToGlobalMapping map;
   PetscLayout            layout;
   const PetscInt        *global;
-  PetscInt               nowned, *start, *neighbours, *counts[4];
+  PetscInt               nowned, *start = NULL, *neighbours = NULL, *counts[4];
   PetscBool              triangular;
 
   PetscFunctionBegin;
