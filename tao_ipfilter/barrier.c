@@ -49,26 +49,30 @@ static PetscErrorCode Monotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it */
+/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it.
+   The second-order term counts for no more than the mean product. */
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, sigma;
+  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, step, sigma;
 
   PetscFunctionBegin;
   PetscCall(IPFractionToBoundary(tao, 1.0, &primal, &dual));
+  step = PetscMin(primal, dual); /* a long step of one kind must not hide that the other is blocked */
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
     PetscReal now, next;
 
     PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &now));
-    PetscCall(IPPairStepProducts(&ip->pair[b], primal, dual, NULL, &next));
+    PetscCall(IPPairStepProducts(&ip->pair[b], step, step, NULL, &next));
     before += now;
     after += next;
   }
+  ip->corrector_max = 0.0;
   if (!(before > 0.0)) PetscFunctionReturn(0);
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
-  ip->mu = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
+  ip->corrector_max = before;
+  ip->mu            = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }

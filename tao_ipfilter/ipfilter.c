@@ -143,8 +143,8 @@ static const RealOption real_options[] = {
   IP_REAL("mu_init", mu0, 1.0, "cold start: barrier parameter"),
   IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
   IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
-  IP_REAL("predict_mu", mu_start, 0.01, "predicted start: mu as a fraction of mean length x mean pressure"),
-  IP_REAL("warm_mu", mu_warm, 1e-4, "warm start: least mu as a fraction of the mean product length x pressure"),
+  IP_REAL("predict_mu", mu_start, 0.3, "predicted start: mu as a fraction of mean length x mean pressure"),
+  IP_REAL("warm_mu", mu_warm, 1e-2, "warm start: least mu as a fraction of the mean product length x pressure"),
   IP_REAL("predict_forcing", forcing_start, 0.1, "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
   IP_REAL("kappa_epsilon", kappa_epsilon, 10.0, "mu is reduced once the barrier error is below kappa_epsilon mu"),
   IP_REAL("kappa_dual", kappa_dual, 0.1, "relative measure: imbalance of forces at which mu may be reduced"),
@@ -245,7 +245,7 @@ static PetscErrorCode CreateKSP(Tao tao)
 + -tao_ipfilter_tol <1e-8>                             - KKT error at which the solver has converged
 . -tao_ipfilter_start <warm> (cold,predict,warm)       - slacks and multipliers to start from: constants, predicted, or
                                                          those of TaoIPFilterSetWarmStart() where given, else predicted
-. -tao_ipfilter_barrier <monotone> (monotone,mehrotra) - update of the barrier parameter
+. -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra) - update of the barrier parameter
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)    - Krylov tolerance from the KKT error, or the KSP's own
 . -tao_ipfilter_kkt <relative> (relative,mass)         - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,none)       - constants that follow the units, or stand as they are
@@ -291,7 +291,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   tao->ops->destroy        = TaoDestroy_IPFilter;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) *(PetscReal *)((char *)ip + real_options[k].offset) = real_options[k].value;
   ip->start         = IP_START_WARM;
-  ip->barrier       = IP_BARRIER_MONOTONE;
+  ip->barrier       = IP_BARRIER_MEHROTRA;
   ip->max_mu_first  = 10;
   ip->max_mu_later  = 1;
   ip->max_soc       = 4;

@@ -125,7 +125,7 @@ typedef struct {
   Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
   Vec       hdiag;                   /* |diagonal of H| at the start */
   PetscInt  mi;                      /* inequality constraints, all ranks */
-  PetscReal gradient0, length0, equality0, xsize0; /* largest gradient norm so far; sizes of c_I, s and of x at the start */
+  PetscReal gradient0, length0, equality0, xsize0; /* norm of the gradient and sizes of c_I, c_E and x at the start */
 
   IPPair      pair[IP_NPAIRS];
   IPCondensed cond;
@@ -136,6 +136,7 @@ typedef struct {
 
   /* barrier */
   PetscReal mu;
+  PetscReal corrector_max;           /* mehrotra: bound of the second-order term */
   PetscBool free_mu;                 /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
   PetscReal error_history[4];        /* KKT errors that the free mode must improve on */
   PetscInt  nerror;
@@ -188,7 +189,7 @@ PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilter
 /* pairs.c */
 PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, IPPair *);
 PETSC_INTERN PetscErrorCode IPPairDestroy(IPPair *);
-PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal, PetscBool);
+PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairGetSigma(const IPPair *, Vec);
 PETSC_INTERN PetscErrorCode IPPairGetForce(const IPPair *, Vec);
 PETSC_INTERN PetscErrorCode IPPairDualDirection(IPPair *);

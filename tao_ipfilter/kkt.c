@@ -82,14 +82,21 @@ static PetscErrorCode RoundingFloor(Tao tao, PetscReal *floor)
   PetscFunctionReturn(0);
 }
 
+/* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
+   residuals look small */
+static PetscReal Within(PetscReal size, PetscReal limit)
+{
+  return limit > 0.0 ? PetscMin(size, limit) : size;
+}
+
 /* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
-   forces against the forces that cancel, constraints against the largest constraint value seen at the start or now,
-   products t z against length times pressure. Where multipliers vanish, a small fraction of the stiffness's pressure
-   and of the first gradient takes their place. */
+   forces against the forces that cancel, constraints against their largest value, products t z against length times
+   pressure. Where these vanish, small fractions of the first gradient, of the first constraint values and of the
+   stiffness's pressure take their place. */
 PetscErrorCode IPComputeScale(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal small = 1e-3;
+  const PetscReal small = 1e-3, most = 100.0;
   PetscReal     norm, floor, xsize;
   IPScale      *s = &ip->scale;
 
@@ -99,17 +106,16 @@ PetscErrorCode IPComputeScale(Tao tao)
     PetscFunctionReturn(0);
   }
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
-  ip->gradient0 = PetscMax(ip->gradient0, norm);
   s->dual = PetscMax(norm, (ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
   PetscCall(RoundingFloor(tao, &floor));
-  s->dual = PetscMax(s->dual, floor / ip->tol);
+  s->dual = PetscMax(s->dual, Within(floor / ip->tol, ip->gradient0));
   s->length = s->pressure = s->product = s->equality = 0.0;
   if (ip->mi) {
     PetscReal rho, c, t;
 
     PetscCall(VecNorm(ip->c, NORM_INFINITY, &c));
     PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
-    s->length = PetscMax(PetscMax(c, t), ip->length0);
+    s->length = PetscMax(Within(PetscMax(c, t), most * ip->length0), 10.0 * small * ip->length0);
     PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
     PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
     /* where every constraint is active from the start, slacks and values say nothing: what the pressure would press in does */
@@ -125,12 +131,13 @@ PetscErrorCode IPComputeScale(Tao tao)
     s->equality = PetscMax(ip->equality0, linear);
   }
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  xsize = PetscMax(Within(xsize, most * ip->xsize0), ip->xsize0);
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal z;
 
     if (!ip->pair[b].n) continue;
     PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
-    s->product = PetscMax(s->product, PetscMax(xsize, ip->xsize0) * PetscMax(z, small * ip->hscale * xsize));
+    s->product = PetscMax(s->product, xsize * PetscMax(z, small * ip->hscale * xsize));
   }
   if (!(s->dual > 0.0)) s->dual = 1.0;
   if (!(s->length > 0.0)) s->length = 1.0;

@@ -55,16 +55,22 @@ static inline PetscBool Present(PetscScalar t)
   return (PetscBool)(PetscRealPart(t) < PETSC_INFINITY);
 }
 
-/* target = mu, or mu - dt dz (Mehrotra's second-order term of the last direction) */
-PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscBool second_order)
+/* target = mu - dt dz, the second-order term of the last direction kept within +-most; most = 0 leaves it out */
+PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal most)
 {
+  const Vec          v[2] = {p->dt, p->dz};
+  const PetscScalar *a[2];
+  PetscScalar       *target;
+  PetscInt           n;
+
   PetscFunctionBegin;
   if (!p->n) PetscFunctionReturn(0);
-  if (second_order) {
-    PetscCall(VecPointwiseMult(p->target, p->dt, p->dz));
-    PetscCall(VecScale(p->target, -1.0));
-    PetscCall(VecShift(p->target, mu));
-  } else PetscCall(VecSet(p->target, mu));
+  PetscCall(VecGetLocalSize(p->target, &n));
+  PetscCall(PairRead(2, v, a));
+  PetscCall(VecGetArrayWrite(p->target, &target));
+  for (PetscInt i = 0; i < n; i++) target[i] = mu - (most > 0.0 ? PetscMax(-most, PetscMin(most, PetscRealPart(a[0][i] * a[1][i]))) : 0.0);
+  PetscCall(VecRestoreArrayWrite(p->target, &target));
+  PetscCall(PairRestore(2, v, a));
   PetscFunctionReturn(0);
 }
 

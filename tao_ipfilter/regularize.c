@@ -92,12 +92,12 @@ static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetTargets(Tao tao, PetscReal mu, PetscBool second_order)
+static PetscErrorCode SetTargets(Tao tao, PetscReal mu, PetscReal most)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], mu, second_order));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], mu, most));
   PetscFunctionReturn(0);
 }
 
@@ -113,13 +113,13 @@ static PetscErrorCode SolveOnce(Tao tao, PetscBool *usable)
   PetscCall(IPCondenseMatrix(tao, ip->cwork));
   PetscCall(VecSet(ip->dx, 0.0));
   if (ip->free_mu) {
-    PetscCall(SetTargets(tao, 0.0, PETSC_FALSE));
+    PetscCall(SetTargets(tao, 0.0, 0.0));
     PetscCall(SolveDirection(tao, ip->rc, ip->ce, PETSC_TRUE, usable));
     if (!*usable) PetscFunctionReturn(0);
     PetscCall(IPBarrierFromAffine(tao));
     matrix = PETSC_FALSE;
   }
-  PetscCall(SetTargets(tao, ip->mu, ip->free_mu));
+  PetscCall(SetTargets(tao, ip->mu, ip->free_mu ? ip->corrector_max : 0.0));
   PetscCall(SolveDirection(tao, ip->rc, ip->ce, matrix, usable));
   PetscFunctionReturn(0);
 }

@@ -176,6 +176,21 @@ static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
   PetscFunctionReturn(0);
 }
 
+/* Without a penalty step the stiffness is that of multipliers which balance the gradient, over the constraints' mean value */
+static PetscErrorCode GradientStiffness(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     gradient, transmitted, length, unused;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
+  PetscCall(MatMultTranspose(ip->cond.J, ip->pair[IP_SLACK].w, ip->xwork));
+  PetscCall(VecNorm(ip->xwork, NORM_2, &transmitted));
+  PetscCall(MeanMagnitudes(tao, ip->c, ip->c, &length, &unused));
+  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0) PetscCall(VecSet(ip->stiffness, gradient / transmitted / length));
+  PetscFunctionReturn(0);
+}
+
 /* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
 static PetscErrorCode Predict(Tao tao)
 {
@@ -185,6 +200,7 @@ static PetscErrorCode Predict(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(PenaltyStep(tao, &moved));
+  if (!moved) PetscCall(GradientStiffness(tao));
   PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
   PetscCall(MeanMagnitudes(tao, ip->c, ip->cwork, &length, &pressure));
   PetscCall(MeanProduct(tao, ip->c, &mean));
@@ -238,7 +254,7 @@ PetscErrorCode IPStartPoint(Tao tao)
     IPPair *p = &ip->pair[b];
 
     if (!p->n) continue;
-    PetscCall(IPPairSetTarget(p, ip->mu, PETSC_FALSE));
+    PetscCall(IPPairSetTarget(p, ip->mu, 0.0));
     PetscCall(IPPairDualDirection(p));
     PetscCall(VecCopy(p->dz, p->z));
   }
