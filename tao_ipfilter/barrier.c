@@ -54,16 +54,15 @@ static PetscErrorCode Monotone(Tao tao)
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, step, sigma;
+  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, sigma;
 
   PetscFunctionBegin;
   PetscCall(IPFractionToBoundary(tao, 1.0, &primal, &dual));
-  step = PetscMin(primal, dual); /* a long step of one kind must not hide that the other is blocked */
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
     PetscReal now, next;
 
     PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &now));
-    PetscCall(IPPairStepProducts(&ip->pair[b], step, step, NULL, &next));
+    PetscCall(IPPairStepProducts(&ip->pair[b], primal, dual, NULL, &next));
     before += now;
     after += next;
   }

@@ -1,20 +1,6 @@
 /* The life of an output: a mesh file, one file a load step, and an XDMF file that ties them together */
 #include "outputimpl.h"
 
-PetscErrorCode OutputGetMeshFile(Output output, char file[], size_t length)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(file, length, "%s.h5", output->base));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode OutputGetStepFile(Output output, PetscInt step, char file[], size_t length)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(file, length, "%s_%04" PetscInt_FMT ".h5", output->base, step));
-  PetscFunctionReturn(0);
-}
-
 /* Vertices are numbered as the DM's global vectors are */
 static PetscErrorCode OutputCount(Output output)
 {
