@@ -70,7 +70,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   if (!(before > 0.0)) PetscFunctionReturn(0);
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
-  ip->corrector_max = before;
+  ip->corrector_max = 100.0 * before;
   ip->mu            = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);

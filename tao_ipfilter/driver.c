@@ -22,8 +22,10 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
     PetscCall(VecNorm(ip->ce, NORM_INFINITY, &ip->equality0));
   }
   PetscCall(IPEvaluateDerivatives(tao));
+  if (ip->mi) PetscCall(MatNorm(ip->cond.J, NORM_INFINITY, &ip->jnorm));
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   ip->gradient0 = norm;
+  ip->f0        = ip->f;
   ip->length0   = size;
   *finite       = (PetscBool)(!PetscIsInfOrNanReal(ip->f) && !PetscIsInfOrNanReal(norm) && !PetscIsInfOrNanReal(size) && !PetscIsInfOrNanReal(ip->equality0));
   PetscFunctionReturn(0);
@@ -92,6 +94,15 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Whether the objective has fallen so far below its first value, against that value and against what a Newton step from
+   the start would gain, that it can only be unbounded */
+static PetscBool Unbounded(const TAO_IPFILTER *ip)
+{
+  const PetscReal size = PetscMax(PetscMax(PetscAbsReal(ip->f0), ip->gradient0 * ip->xsize0), PetscSqr(ip->gradient0) / ip->hscale);
+
+  return (PetscBool)(size > 0.0 && ip->f < ip->f0 - ip->unbounded_factor * size);
+}
+
 /* Ends the iteration where the KKT error, a limit or the values themselves say so */
 static PetscErrorCode TestConvergence(Tao tao)
 {
@@ -106,6 +117,8 @@ static PetscErrorCode TestConvergence(Tao tao)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)k->error, (double)ip->tol));
   } else if (ip->f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->f, (double)tao->fmin));
+  } else if (Unbounded(ip)) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->f0, (double)ip->f));
   } else if (ip->nacceptable >= ip->acceptable_it) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
   } else if (tao->niter >= tao->max_it) {

@@ -144,7 +144,7 @@ static const RealOption real_options[] = {
   IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
   IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
   IP_REAL("predict_mu", mu_start, 0.3, "predicted start: mu as a fraction of mean length x mean pressure"),
-  IP_REAL("warm_mu", mu_warm, 1e-2, "warm start: least mu as a fraction of the mean product length x pressure"),
+  IP_REAL("warm_mu", mu_warm, 3e-2, "warm start: least mu as a fraction of the mean product length x pressure"),
   IP_REAL("predict_forcing", forcing_start, 0.1, "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
   IP_REAL("kappa_epsilon", kappa_epsilon, 10.0, "mu is reduced once the barrier error is below kappa_epsilon mu"),
   IP_REAL("kappa_dual", kappa_dual, 0.1, "relative measure: imbalance of forces at which mu may be reduced"),
@@ -174,6 +174,7 @@ static const RealOption real_options[] = {
   IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
   IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
+  IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
 

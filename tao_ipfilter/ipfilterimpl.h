@@ -123,9 +123,10 @@ typedef struct {
   Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
   Vec       warm_s, warm_z;          /* the caller's starting values */
   Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
+  PetscReal jnorm;                   /* largest row sum of |J| at the start */
   Vec       hdiag;                   /* |diagonal of H| at the start */
   PetscInt  mi;                      /* inequality constraints, all ranks */
-  PetscReal gradient0, length0, equality0, xsize0; /* norm of the gradient and sizes of c_I, c_E and x at the start */
+  PetscReal f0, gradient0, length0, equality0, xsize0; /* objective, norm of its gradient and sizes of c_I, c_E and x at the start */
 
   IPPair      pair[IP_NPAIRS];
   IPCondensed cond;
@@ -181,7 +182,7 @@ typedef struct {
   PetscReal    forcing_max, forcing_reduce, forcing_last;
   PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
   PetscReal    filter_threshold;
-  PetscReal    bound_push;
+  PetscReal    bound_push, unbounded_factor;
 } TAO_IPFILTER;
 
 PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;

@@ -109,6 +109,8 @@ PetscErrorCode IPComputeScale(Tao tao)
   s->dual = PetscMax(norm, (ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
   PetscCall(RoundingFloor(tao, &floor));
   s->dual = PetscMax(s->dual, Within(floor / ip->tol, ip->gradient0));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  xsize = PetscMax(Within(xsize, most * ip->xsize0), ip->xsize0);
   s->length = s->pressure = s->product = s->equality = 0.0;
   if (ip->mi) {
     PetscReal rho, c, t;
@@ -118,8 +120,9 @@ PetscErrorCode IPComputeScale(Tao tao)
     s->length = PetscMax(Within(PetscMax(c, t), most * ip->length0), 10.0 * small * ip->length0);
     PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
     PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
-    /* where every constraint is active from the start, slacks and values say nothing: what the pressure would press in does */
-    if (rho > 0.0) s->length = PetscMax(s->length, s->pressure / rho);
+    /* where every constraint is active from the start, slacks and values say nothing: displacements do. Pressures do
+       not: those of infeasible constraints grow without limit. */
+    s->length   = PetscMax(s->length, 10.0 * small * ip->jnorm * xsize);
     s->pressure = PetscMax(s->pressure, small * rho * s->length);
     s->product  = s->length * s->pressure;
   }
@@ -130,8 +133,6 @@ PetscErrorCode IPComputeScale(Tao tao)
     PetscCall(VecNorm(ip->cetrial, NORM_INFINITY, &linear));
     s->equality = PetscMax(ip->equality0, linear);
   }
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  xsize = PetscMax(Within(xsize, most * ip->xsize0), ip->xsize0);
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal z;
 

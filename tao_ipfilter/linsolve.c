@@ -60,7 +60,9 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   if (reason < 0) {
     PetscCall(VecNorm(b, NORM_2, &bnorm));
     PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)bnorm));
-    *usable = (PetscBool)((reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) && ip->linear_residual <= ip->forcing_max * bnorm);
+    /* rounding, too, makes CG meet a negative product; a residual this small settles that the direction solves the system */
+    if (reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) *usable = (PetscBool)(ip->linear_residual <= PetscMax(target, ip->forcing_max * bnorm));
+    else *usable = (PetscBool)(reason != KSP_DIVERGED_PC_FAILED && ip->linear_residual <= 10.0 * target);
   }
   if (PetscIsInfOrNanReal(ip->linear_residual)) *usable = PETSC_FALSE;
   /* a factorization that failed is not to be reused */

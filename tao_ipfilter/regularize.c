@@ -4,48 +4,50 @@
 */
 #include "ipfilterimpl.h"
 
-/* d^T W d + max(lambda+^T M (c - s), 0) >= kappa d^T d, with W = H + Sigma over unknowns and slacks */
+/* d^T W d + max(lambda+^T M (c - s), 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
+   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   dAd, dd, sd;
+  PetscScalar   dHd, dd, dSd = 0.0;
   PetscReal     curvature, kappa;
 
   PetscFunctionBegin;
-  PetscCall(MatMult(ip->cond.A, ip->dx, ip->xwork2));
-  PetscCall(VecDot(ip->dx, ip->xwork2, &dAd));
+  PetscCall(MatMult(tao->hessian, ip->dx, ip->xwork2));
+  PetscCall(VecDot(ip->dx, ip->xwork2, &dHd));
   PetscCall(VecDot(ip->dx, ip->dx, &dd));
-  curvature = PetscRealPart(dAd);
+  if (ip->cond.shifted) {
+    PetscCall(VecPointwiseMult(ip->xwork2, ip->cond.shift, ip->dx));
+    PetscCall(VecDot(ip->dx, ip->xwork2, &dSd));
+  }
+  curvature = PetscRealPart(dHd) + PetscRealPart(dSd);
   kappa     = ip->kappa_curvature * (ip->scaling == IP_SCALING_NONE ? 1.0 : ip->hscale);
   if (ip->mi) {
     IPPair     *slack = &ip->pair[IP_SLACK];
-    PetscScalar jdj, sds, force;
+    PetscScalar sDs, ss, force;
 
-    /* A holds J^T D J; W holds D on the slacks instead */
     PetscCall(IPPairGetSigma(slack, ip->cwork));
-    PetscCall(MatMult(ip->cond.J, ip->dx, ip->cwork2));
-    PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork2, ip->cwork2));
-    PetscCall(VecDot(ip->cwork, ip->cwork2, &jdj));
     PetscCall(VecPointwiseMult(ip->cwork2, slack->dt, slack->dt));
-    PetscCall(VecDot(ip->cwork, ip->cwork2, &sds));
+    PetscCall(VecDot(ip->cwork, ip->cwork2, &sDs));
+    PetscCall(VecSum(ip->cwork2, &ss));
     PetscCall(VecWAXPY(ip->cwork, 1.0, ip->lambda, ip->dlambda));
     PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, slack->w));
     PetscCall(VecDot(ip->cwork, ip->rc, &force));
-    PetscCall(VecDot(slack->dt, slack->dt, &sd));
-    curvature += PetscRealPart(sds) - PetscRealPart(jdj) + PetscMax(PetscRealPart(force), 0.0);
-    if (ip->scaling == IP_SCALING_NONE) dd += sd;
+    curvature += PetscRealPart(sDs) + PetscMax(PetscRealPart(force), 0.0);
+    if (ip->scaling == IP_SCALING_NONE) dd += ss;
   }
   *passes = (PetscBool)(curvature >= kappa * PetscRealPart(dd));
   if (!*passes) PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature, (double)(kappa * PetscRealPart(dd))));
   PetscFunctionReturn(0);
 }
 
-/* Whether the whole step would end the solve but for the forces left out of balance: steps of one, and all products
-   (t + dt)(z + dz) within the tolerance */
+/* Whether the whole step would end the solve but for the forces left out of balance: steps of one, well away from the
+   boundary, and all products (t + dt)(z + dz) within the tolerance */
 static PetscErrorCode WouldFinish(Tao tao, PetscBool *finish)
 {
-  TAO_IPFILTER *ip      = (TAO_IPFILTER *)tao->data;
-  PetscReal     largest = 0.0, alpha = 1.0;
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal margin  = 0.9;
+  PetscReal       largest = 0.0, alpha = 1.0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
@@ -53,8 +55,8 @@ static PetscErrorCode WouldFinish(Tao tao, PetscBool *finish)
     PetscReal product;
 
     if (!p->n) continue;
-    PetscCall(IPPairMaxStep(p->t, p->dt, ip->tau_min, &alpha));
-    PetscCall(IPPairMaxStep(p->z, p->dz, ip->tau_min, &alpha));
+    PetscCall(IPPairMaxStep(p->t, p->dt, margin, &alpha));
+    PetscCall(IPPairMaxStep(p->z, p->dz, margin, &alpha));
     PetscCall(IPPairStepProducts(p, 1.0, 1.0, &product, NULL));
     largest = PetscMax(largest, product);
   }

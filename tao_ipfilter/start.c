@@ -211,22 +211,43 @@ static PetscErrorCode Predict(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred */
+/* How far the caller's s and z are from belonging to x: the larger of the forces out of balance, relative, and of
+   |c - s| against |c|, but no more than 1 */
+static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  PetscReal     force, imbalance, length, difference, unused;
+
+  PetscFunctionBegin;
+  PetscCall(IPStationarity(tao, slack->z, ip->rx));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &force));
+  PetscCall(VecNorm(ip->rx, NORM_2, &imbalance));
+  PetscCall(VecWAXPY(ip->rc, -1.0, slack->t, ip->c));
+  PetscCall(MeanMagnitudes(tao, ip->rc, ip->rc, &difference, &unused));
+  PetscCall(MeanMagnitudes(tao, ip->c, ip->c, &length, &unused));
+  *mismatch = PetscMin(1.0, PetscMax(force > 0.0 ? imbalance / force : 1.0, length > 0.0 ? difference / length : 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred, farther from the boundary
+   the less they belong to x */
 static PetscErrorCode Warm(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
-  PetscReal     mean, average;
+  PetscReal     mean, average, mismatch = 1.0;
 
   PetscFunctionBegin;
   PetscCall(VecCopy(ip->warm_s, slack->t));
   PetscCall(VecCopy(ip->warm_z, slack->z));
+  PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
   PetscCall(VecPointwiseDivide(ip->ctrial, slack->z, ip->stiffness));
   PetscCall(VecAYPX(ip->ctrial, -1.0, slack->t));
   PetscCall(MeanProduct(tao, ip->ctrial, &mean));
-  ip->mu = PetscMax(average, ip->mu_warm * (mean > 0.0 ? mean : 1.0));
+  ip->mu = PetscMax(average, mismatch * ip->mu_warm * (mean > 0.0 ? mean : 1.0));
   PetscCall(CentralPair(ip->ctrial, ip->stiffness, ip->mu, slack->t, slack->z));
   PetscCall(VecCopy(slack->z, ip->lambda));
   PetscFunctionReturn(0);

@@ -368,6 +368,7 @@ int main(int argc, char **argv)
 
       test:
          suffix: monotone
+         args: -tao_ipfilter_barrier monotone
 
       test:
          suffix: mehrotra

@@ -1,0 +1,401 @@
+static char help[] = "A membrane over an obstacle: min 1/2 u^T K u - b^T u, u - psi >= 0 where the obstacle is.\n\n";
+
+#include <petscdmda.h>
+#include <petscamgf.h>
+
+/* Constraints on part of the unknowns: J picks them. length and energy are the units the problem is stated in. */
+typedef struct {
+  Mat       K, J;
+  Vec       b, psi, Ku;
+  PetscReal length, energy;
+} Obstacle;
+
+/* f and its gradient: with x = length u, f = energy (1/2 u^T K u - b^T u) */
+static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
+{
+  Obstacle   *o = (Obstacle *)user;
+  PetscScalar xKx, xb;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  PetscCall(MatMult(o->K, x, g));
+  PetscCall(VecDot(x, g, &xKx));
+  PetscCall(VecDot(x, o->b, &xb));
+  PetscCall(VecAXPY(g, -1.0, o->b));
+  *f = 0.5 * PetscRealPart(xKx) - PetscRealPart(xb);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Constant(Tao tao, Vec x, Mat A, Mat B, void *user)
+{
+  PetscFunctionBeginUser;
+  (void)tao;
+  (void)x;
+  (void)A;
+  (void)B;
+  (void)user;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Gap(Tao tao, Vec x, Vec c, void *user)
+{
+  Obstacle *o = (Obstacle *)user;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  PetscCall(MatMult(o->J, x, c));
+  PetscCall(VecAXPY(c, -1.0, o->psi));
+  PetscFunctionReturn(0);
+}
+
+/* Five-point Laplacian on the unit square with fixed edge, stated in the given units */
+static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
+{
+  DMDALocalInfo info;
+  PetscReal     h, k = o->energy / PetscSqr(o->length);
+
+  PetscFunctionBeginUser;
+  PetscCall(DMDAGetLocalInfo(da, &info));
+  h = 1.0 / (info.mx - 1);
+  PetscCall(DMCreateMatrix(da, &o->K));
+  PetscCall(DMCreateGlobalVector(da, &o->b));
+  PetscCall(VecDuplicate(o->b, &o->Ku));
+  for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
+      MatStencil  row = {.i = i, .j = j}, col[5];
+      PetscScalar v[5];
+      PetscInt    n   = 0;
+      const PetscInt di[4] = {-1, 1, 0, 0}, dj[4] = {0, 0, -1, 1};
+
+      col[n] = row;
+      v[n++] = 4.0 * k;
+      if (i > 0 && j > 0 && i < info.mx - 1 && j < info.my - 1) {
+        for (PetscInt d = 0; d < 4; d++) {
+          const PetscInt ni = i + di[d], nj = j + dj[d];
+
+          if (ni == 0 || nj == 0 || ni == info.mx - 1 || nj == info.my - 1) continue;
+          col[n]   = (MatStencil){.i = ni, .j = nj};
+          v[n++] = -k;
+        }
+      }
+      PetscCall(MatSetValuesStencil(o->K, 1, &row, n, col, v, INSERT_VALUES));
+    }
+  }
+  PetscCall(MatAssemblyBegin(o->K, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(o->K, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecSet(o->b, -2.0 * h * h * o->energy / o->length));
+  PetscFunctionReturn(0);
+}
+
+/* The obstacle is a cap over the middle of the square, raised by lift: ranks at the edge have no constraint */
+static PetscErrorCode CreateObstacle(DM da, PetscReal lift, Obstacle *o)
+{
+  DMDALocalInfo info;
+  AO            ao;
+  PetscInt      count = 0, rstart, n, *cols;
+  PetscReal    *values;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMDAGetLocalInfo(da, &info));
+  PetscCall(DMDAGetAO(da, &ao));
+  PetscCall(PetscMalloc2(info.xm * info.ym, &cols, info.xm * info.ym, &values));
+  for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
+      const PetscReal x = (PetscReal)i / (info.mx - 1) - 0.5, y = (PetscReal)j / (info.my - 1) - 0.5, r2 = x * x + y * y;
+
+      if (r2 > PetscSqr(0.3)) continue;
+      cols[count]     = i + info.mx * j;
+      values[count++] = o->length * (lift - 0.1 + 0.08 * (1.0 - r2 / 0.09));
+    }
+  }
+  PetscCall(AOApplicationToPetsc(ao, count, cols));
+  PetscCall(VecGetLocalSize(o->b, &n));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &o->J));
+  PetscCall(MatCreateVecs(o->J, NULL, &o->psi));
+  PetscCall(MatGetOwnershipRange(o->J, &rstart, NULL));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCall(MatSetValue(o->J, rstart + k, cols[k], 1.0, INSERT_VALUES));
+    PetscCall(VecSetValue(o->psi, rstart + k, values[k], INSERT_VALUES));
+  }
+  PetscCall(PetscFree2(cols, values));
+  PetscCall(MatAssemblyBegin(o->J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(o->J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(o->psi));
+  PetscCall(VecAssemblyEnd(o->psi));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateProblem(PetscInt n, PetscReal lift, PetscReal length, PetscReal energy, DM *da, Obstacle *o)
+{
+  PetscFunctionBeginUser;
+  o->length = length;
+  o->energy = energy;
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, da));
+  PetscCall(DMSetFromOptions(*da));
+  PetscCall(DMSetUp(*da));
+  PetscCall(AssembleMembrane(*da, o));
+  PetscCall(CreateObstacle(*da, lift, o));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DestroyProblem(DM *da, Obstacle *o)
+{
+  PetscFunctionBeginUser;
+  PetscCall(MatDestroy(&o->K));
+  PetscCall(MatDestroy(&o->J));
+  PetscCall(VecDestroy(&o->b));
+  PetscCall(VecDestroy(&o->psi));
+  PetscCall(VecDestroy(&o->Ku));
+  PetscCall(DMDestroy(da));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateSolver(Obstacle *o, Vec x, Tao *tao)
+{
+  Vec c;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
+  PetscCall(TaoSetType(*tao, TAOIPFILTER));
+  PetscCall(TaoSetSolution(*tao, x));
+  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, ObjectiveAndGradient, o));
+  PetscCall(TaoSetHessian(*tao, o->K, o->K, Constant, o));
+  PetscCall(VecDuplicate(o->psi, &c));
+  PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, Gap, o));
+  PetscCall(TaoSetJacobianInequalityRoutine(*tao, o->J, o->J, Constant, o));
+  PetscCall(VecDestroy(&c));
+  PetscCall(TaoSetFromOptions(*tao));
+  PetscFunctionReturn(0);
+}
+
+/* The same obstacle as a bound, solved by PETSc's own TAOTRON */
+static PetscErrorCode SolveByTRON(Obstacle *o, Vec x)
+{
+  Tao tao;
+  Vec lower, upper, one;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(x, &lower));
+  PetscCall(VecDuplicate(x, &upper));
+  PetscCall(VecSet(upper, PETSC_INFINITY));
+  PetscCall(VecSet(lower, -1e3 * o->length));
+  PetscCall(VecDuplicate(o->psi, &one));
+  PetscCall(VecCopy(o->psi, one));
+  PetscCall(VecShift(one, 1e3 * o->length));
+  PetscCall(MatMultTransposeAdd(o->J, one, lower, lower));
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+  PetscCall(TaoSetType(tao, TAOTRON));
+  PetscCall(TaoSetSolution(tao, x));
+  PetscCall(TaoSetVariableBounds(tao, lower, upper));
+  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, o));
+  PetscCall(TaoSetHessian(tao, o->K, o->K, Constant, o));
+  PetscCall(TaoSetTolerances(tao, 1e-12, 0.0, 0.0));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&lower));
+  PetscCall(VecDestroy(&upper));
+  PetscCall(VecDestroy(&one));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Verdict(const char what[], PetscReal value, PetscReal limit)
+{
+  PetscFunctionBeginUser;
+  if (value <= limit) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: below %g\n", what, (double)limit));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %g is above %g\n", what, (double)value, (double)limit));
+  PetscFunctionReturn(0);
+}
+
+/* Solution against TRON, multipliers against the reaction K u - b, feasibility, complementarity */
+static PetscErrorCode Check(Tao tao, Obstacle *o, Vec x)
+{
+  Vec                reference, reaction, DI, gap;
+  PetscReal          f, error, size, force;
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, objective %.9e\n", TaoConvergedReasons[reason], (double)f));
+  PetscCall(VecDuplicate(x, &reference));
+  PetscCall(VecSet(reference, 0.0));
+  PetscCall(SolveByTRON(o, reference));
+  PetscCall(VecNorm(reference, NORM_INFINITY, &size));
+  PetscCall(VecAXPY(reference, -1.0, x));
+  PetscCall(VecNorm(reference, NORM_INFINITY, &error));
+  PetscCall(Verdict("difference from TRON's solution, relative", error / size, 1e-6));
+  PetscCall(VecDuplicate(x, &reaction));
+  PetscCall(MatMult(o->K, x, reaction));
+  PetscCall(VecAXPY(reaction, -1.0, o->b));
+  PetscCall(VecNorm(reaction, NORM_INFINITY, &force));
+  PetscCall(TaoGetDualVariables(tao, NULL, &DI));
+  PetscCall(MatMultTranspose(o->J, DI, reference));
+  PetscCall(VecAXPY(reference, -1.0, reaction));
+  PetscCall(VecNorm(reference, NORM_INFINITY, &error));
+  PetscCall(Verdict("multipliers against the reaction, relative", error / force, 1e-6));
+  PetscCall(VecDuplicate(o->psi, &gap));
+  PetscCall(Gap(tao, x, gap, o));
+  PetscCall(VecMin(gap, NULL, &error));
+  PetscCall(Verdict("penetration, relative", -error / size, 1e-9));
+  PetscCall(VecPointwiseMult(gap, gap, DI));
+  PetscCall(VecNorm(gap, NORM_INFINITY, &error));
+  PetscCall(Verdict("gap times multiplier, relative", error / force / size, 1e-6));
+  PetscCall(VecDestroy(&reference));
+  PetscCall(VecDestroy(&reaction));
+  PetscCall(VecDestroy(&gap));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CountIterations(Tao tao, PetscInt *newton, PetscInt *krylov)
+{
+  const PetscInt *its;
+  PetscInt        n;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetIterationNumber(tao, newton));
+  PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
+  *krylov = 0;
+  for (PetscInt k = 0; k < n; k++) *krylov += its[k];
+  PetscFunctionReturn(0);
+}
+
+/* A new solve of a slightly raised obstacle, from the old slacks and multipliers and predicted afresh */
+static PetscErrorCode CompareWarmStart(PetscInt n)
+{
+  DM       da;
+  Obstacle o;
+  Tao      tao;
+  Vec      x, s, z, ws, wz;
+  PetscInt newton[2], krylov[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateProblem(n, 0.0, 1.0, 1.0, &da, &o));
+  PetscCall(VecDuplicate(o.b, &x));
+  PetscCall(CreateSolver(&o, x, &tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoIPFilterGetSlack(tao, &s));
+  PetscCall(TaoIPFilterGetMultiplier(tao, &z));
+  PetscCall(VecDuplicate(s, &ws));
+  PetscCall(VecDuplicate(z, &wz));
+  PetscCall(VecCopy(s, ws));
+  PetscCall(VecCopy(z, wz));
+  PetscCall(VecShift(o.psi, 1e-4));
+  PetscCall(TaoIPFilterSetWarmStart(tao, ws, wz));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CountIterations(tao, &newton[0], &krylov[0]));
+  PetscCall(TaoIPFilterSetWarmStart(tao, NULL, NULL));
+  PetscCall(VecSet(x, 0.0));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CountIterations(tao, &newton[1], &krylov[1]));
+  if (newton[0] < newton[1] && krylov[0] < krylov[1]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: fewer Newton and Krylov iterations\n"));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations; predicted start: %" PetscInt_FMT ", %" PetscInt_FMT "\n", newton[0], krylov[0], newton[1], krylov[1]));
+  PetscCall(VecDestroy(&ws));
+  PetscCall(VecDestroy(&wz));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyProblem(&da, &o));
+  PetscFunctionReturn(0);
+}
+
+/* The same problem in other units must take the same iterations, give or take one */
+static PetscErrorCode CompareUnits(PetscInt n)
+{
+  const PetscReal length[3] = {1.0, 1e3, 1e-3}, energy[3] = {1.0, 1e-6, 1e9};
+  PetscInt        newton[3], krylov[3];
+  PetscReal       f[3];
+  PetscBool       same = PETSC_TRUE;
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3; k++) {
+    DM       da;
+    Obstacle o;
+    Tao      tao;
+    Vec      x;
+
+    PetscCall(CreateProblem(n, 0.0, length[k], energy[k], &da, &o));
+    PetscCall(VecDuplicate(o.b, &x));
+    PetscCall(CreateSolver(&o, x, &tao));
+    PetscCall(TaoSolve(tao));
+    PetscCall(CountIterations(tao, &newton[k], &krylov[k]));
+    PetscCall(TaoGetSolutionStatus(tao, NULL, &f[k], NULL, NULL, NULL, NULL));
+    if (PetscAbsInt(newton[k] - newton[0]) > 1 || PetscAbsReal(f[k] / energy[k] - f[0]) > 1e-8 * PetscAbsReal(f[0])) same = PETSC_FALSE;
+    PetscCall(VecDestroy(&x));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(DestroyProblem(&da, &o));
+  }
+  if (same) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units: the same iterations and objective\n"));
+  else for (PetscInt k = 0; k < 3; k++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units %g, %g: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations, objective %.10e\n", (double)length[k], (double)energy[k], newton[k], krylov[k], (double)(f[k] / energy[k])));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscInt  n = 41;
+  PetscBool compare = PETSC_FALSE;
+  DM        da;
+  Obstacle  o;
+  Tao       tao;
+  Vec       x;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &n, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-compare", &compare, NULL));
+  if (compare) {
+    PetscCall(CompareWarmStart(n));
+    PetscCall(CompareUnits(n));
+  } else {
+    PetscCall(CreateProblem(n, 0.0, 1.0, 1.0, &da, &o));
+    PetscCall(VecDuplicate(o.b, &x));
+    PetscCall(CreateSolver(&o, x, &tao));
+    PetscCall(TaoSolve(tao));
+    PetscCall(Check(tao, &o, x));
+    PetscCall(VecDestroy(&x));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(DestroyProblem(&da, &o));
+  }
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   testset:
+      output_file: output/ipfilter_obstacle_1.out
+      args: -tao_ipfilter_tol 1e-10
+
+      test:
+         suffix: ranks
+         nsize: {{1 2 3}}
+
+      test:
+         suffix: monotone
+         nsize: 2
+         args: -tao_ipfilter_barrier monotone
+
+      test:
+         suffix: baij
+         nsize: {{1 3}}
+         args: -dm_mat_type baij
+
+      test:
+         suffix: sbaij
+         nsize: {{1 2}}
+         args: -dm_mat_type sbaij -tao_ipfilter_pc_type jacobi
+
+      test:
+         suffix: direct
+         nsize: 2
+         args: -tao_ipfilter_pc_type cholesky -tao_ipfilter_pc_factor_mat_solver_type mumps
+
+      test:
+         suffix: hypre
+         nsize: 2
+         args: -tao_ipfilter_pc_type hypre
+
+   test:
+      suffix: compare
+      nsize: {{1 2}}
+      args: -compare
+
+TEST*/
