@@ -22,4 +22,12 @@ typedef PetscOptionItems AMGFOptionItems;
   #define MPI_PETSCBOOL MPI_C_BOOL
 #endif
 
+/* Defaults of a type that do not overrule the user's values */
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define PetscObjectParameterSetDefault(object, name, value) \
+    do { \
+      if (!(object)->name##_changed) (object)->name = (value); \
+    } while (0)
+#endif
+
 #endif

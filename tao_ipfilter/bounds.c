@@ -43,7 +43,7 @@ static PetscErrorCode BoundCount(Vec bound, PetscInt *count)
   PetscCall(VecGetArrayRead(bound, &b));
   for (PetscInt i = 0; i < n; i++) local += PetscAbsScalar(b[i]) < PETSC_INFINITY;
   PetscCall(VecRestoreArrayRead(bound, &b));
-  PetscCall(MPIU_Allreduce(&local, count, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)bound)));
+  PetscCallMPI(MPI_Allreduce(&local, count, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)bound)));
   PetscFunctionReturn(0);
 }
 
@@ -103,7 +103,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
   PetscCall(VecRestoreArray(tao->solution, &x));
   for (PetscInt k = 0; k < 2; k++)
     if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
-  PetscCall(MPIU_Allreduce(&bad, &worst, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscCallMPI(MPI_Allreduce(&bad, &worst, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
   PetscCheck(worst == 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "TAOIPFILTER needs lower bounds below upper bounds, strictly, for every variable");
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscFunctionReturn(0);

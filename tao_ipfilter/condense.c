@@ -38,7 +38,7 @@ static PetscErrorCode FilterIS(Tao tao, IS *is)
   PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
   for (PetscInt pass = 0; pass < 2; pass++) {
     if (pass) {
-      PetscCall(MPIU_Allreduce(&local, &largest, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
+      PetscCallMPI(MPI_Allreduce(&local, &largest, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
       PetscCall(MatCreateVecs(J, &mark, NULL));
     }
     for (PetscInt i = rstart; i < rend; i++) {

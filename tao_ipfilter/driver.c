@@ -108,8 +108,10 @@ static PetscErrorCode TestConvergence(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = &ip->kkt;
+  PetscInt      nfuncs;
 
   PetscFunctionBegin;
+  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
   ip->nacceptable = k->error <= ip->acceptable_tol ? ip->nacceptable + 1 : 0;
   if (PetscIsInfOrNanReal(k->error) || PetscIsInfOrNanReal(ip->f)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
@@ -123,7 +125,7 @@ static PetscErrorCode TestConvergence(Tao tao)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
   } else if (tao->niter >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
-  } else if (tao->max_funcs >= 0 && PetscMax(tao->nfuncs, tao->nfuncgrads) > tao->max_funcs) {
+  } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)k->error));
   }
   PetscFunctionReturn(0);

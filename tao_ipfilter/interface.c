@@ -225,7 +225,7 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscValidPointer(s, 2);
+  PetscAssertPointer(s, 2);
   PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, s, NULL));
   PetscFunctionReturn(0);
 }
@@ -253,7 +253,7 @@ PetscErrorCode TaoIPFilterGetMultiplier(Tao tao, Vec *z)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscValidPointer(z, 2);
+  PetscAssertPointer(z, 2);
   PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, NULL, z));
   PetscFunctionReturn(0);
 }
@@ -325,7 +325,7 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscValidPointer(reason, 2);
+  PetscAssertPointer(reason, 2);
   PetscUseMethod(tao, "TaoIPFilterGetReason_C", (Tao, const char *[]), (tao, reason));
   PetscFunctionReturn(0);
 }

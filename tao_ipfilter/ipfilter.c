@@ -178,7 +178,7 @@ static const RealOption real_options[] = {
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
 
-static PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, PetscOptionItems *PetscOptionsObject)
+static PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -297,7 +297,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   ip->max_mu_later  = 1;
   ip->max_soc       = 4;
   ip->acceptable_it = 15;
-  if (!tao->max_it_changed) tao->max_it = 500;
+  PetscObjectParameterSetDefault(tao, max_it, 500);
   PetscCall(CreateKSP(tao));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
   PetscFunctionReturn(0);

@@ -14,6 +14,7 @@
 #define IPFILTERIMPL_H
 
 #include <petsc/private/taoimpl.h>
+#include "../pc_amgf/petsccompat.h"
 #include <petscamgf.h>
 
 typedef enum {

@@ -89,56 +89,59 @@ static PetscReal Within(PetscReal size, PetscReal limit)
   return limit > 0.0 ? PetscMin(size, limit) : size;
 }
 
-/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
-   forces against the forces that cancel, constraints against their largest value, products t z against length times
-   pressure. Where these vanish, small fractions of the first gradient, of the first constraint values and of the
-   stiffness's pressure take their place. */
-PetscErrorCode IPComputeScale(Tao tao)
+/* Fractions of first values that stand in for scales which vanish, and the most an iterate may exceed its first size by */
+#define IP_SMALL 1e-3
+#define IP_MOST  100.0
+
+/* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
+   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. */
+static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
-  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal small = 1e-3, most = 100.0;
-  PetscReal     norm, floor, xsize;
-  IPScale      *s = &ip->scale;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPScale      *s  = &ip->scale;
+  PetscReal     rho, c, t;
 
   PetscFunctionBegin;
-  if (ip->scaling == IP_SCALING_NONE || ip->measure == IP_KKT_MASS) {
-    *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
-    PetscFunctionReturn(0);
-  }
+  PetscCall(VecNorm(ip->c, NORM_INFINITY, &c));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
+  PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
+  s->length   = PetscMax(Within(PetscMax(c, t), IP_MOST * ip->length0), 10.0 * IP_SMALL * PetscMax(ip->length0, ip->jnorm * xsize));
+  s->pressure = PetscMax(s->pressure, IP_SMALL * rho * s->length);
+  s->product  = s->length * s->pressure;
+  PetscFunctionReturn(0);
+}
+
+/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
+   forces against the forces that cancel, constraints against their largest value, products t z against length times
+   pressure. Where these vanish, small fractions of first values, and of the stiffness's pressure, take their place. */
+PetscErrorCode IPComputeScale(Tao tao)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscBool limited = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+  PetscReal       norm, floor, xsize, z;
+  IPScale        *s = &ip->scale;
+
+  PetscFunctionBegin;
+  *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
+  if (ip->scaling == IP_SCALING_NONE || ip->measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  *s = (IPScale){0.0, 0.0, 0.0, 0.0, 0.0};
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
-  s->dual = PetscMax(norm, (ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n ? small : 1.0) * ip->gradient0);
   PetscCall(RoundingFloor(tao, &floor));
+  s->dual = PetscMax(norm, (limited ? IP_SMALL : 1.0) * ip->gradient0);
   s->dual = PetscMax(s->dual, Within(floor / ip->tol, ip->gradient0));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  xsize = PetscMax(Within(xsize, most * ip->xsize0), ip->xsize0);
-  s->length = s->pressure = s->product = s->equality = 0.0;
-  if (ip->mi) {
-    PetscReal rho, c, t;
-
-    PetscCall(VecNorm(ip->c, NORM_INFINITY, &c));
-    PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
-    s->length = PetscMax(Within(PetscMax(c, t), most * ip->length0), 10.0 * small * ip->length0);
-    PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
-    PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
-    /* where every constraint is active from the start, slacks and values say nothing: displacements do. Pressures do
-       not: those of infeasible constraints grow without limit. */
-    s->length   = PetscMax(s->length, 10.0 * small * ip->jnorm * xsize);
-    s->pressure = PetscMax(s->pressure, small * rho * s->length);
-    s->product  = s->length * s->pressure;
-  }
+  xsize = PetscMax(Within(xsize, IP_MOST * ip->xsize0), ip->xsize0);
+  if (ip->mi) PetscCall(InequalityScale(tao, xsize));
   if (ip->me) {
-    PetscReal linear;
-
     PetscCall(MatMult(tao->jacobian_equality, tao->solution, ip->cetrial));
-    PetscCall(VecNorm(ip->cetrial, NORM_INFINITY, &linear));
-    s->equality = PetscMax(ip->equality0, linear);
+    PetscCall(VecNorm(ip->cetrial, NORM_INFINITY, &norm));
+    s->equality = PetscMax(ip->equality0, norm);
   }
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    PetscReal z;
-
     if (!ip->pair[b].n) continue;
     PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
-    s->product = PetscMax(s->product, xsize * PetscMax(z, small * ip->hscale * xsize));
+    s->product = PetscMax(s->product, xsize * PetscMax(z, IP_SMALL * ip->hscale * xsize));
   }
   if (!(s->dual > 0.0)) s->dual = 1.0;
   if (!(s->length > 0.0)) s->length = 1.0;

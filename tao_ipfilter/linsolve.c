@@ -28,9 +28,21 @@ static PetscErrorCode TrueResidual(Tao tao, Vec b, Vec d, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
+/* Whether a direction that the KSP did not call converged may be used all the same. Rounding, too, makes CG meet a
+   negative product; a residual within reach of the target settles that the direction solves the system. */
+static PetscBool Usable(const TAO_IPFILTER *ip, KSPConvergedReason reason, PetscReal target, PetscReal bnorm)
+{
+  if (PetscIsInfOrNanReal(ip->linear_residual)) return PETSC_FALSE;
+  if (reason > 0) return PETSC_TRUE;
+  if (reason == KSP_DIVERGED_PC_FAILED) return PETSC_FALSE;
+  if (reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) return (PetscBool)(ip->linear_residual <= PetscMax(target, ip->forcing_max * bnorm));
+  return (PetscBool)(ip->linear_residual <= 10.0 * target);
+}
+
 /*
-  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold. *usable is false where the direction is not worth having, the
-  matrix is not positive definite, or the preconditioner failed.
+  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold.
+  *usable is false where the direction is not worth having, the matrix is not positive definite, or the preconditioner
+  failed.
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {
@@ -38,15 +50,16 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   KSPConvergedReason reason;
   PetscReal          rtol, abstol, dtol, bnorm;
   PetscInt           maxits, its;
-  PetscBool          guess;
+  PetscBool          guess, direct;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, d, NULL));
   PetscCall(KSPSetOperators(tao->ksp, ip->cond.A, ip->cond.A));
   PetscCall(KSPGetInitialGuessNonzero(tao->ksp, &guess));
   PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct)); /* takes no guess */
   if (ip->forcing == IP_FORCING_ADAPTIVE) {
-    PetscCall(KSPSetInitialGuessNonzero(tao->ksp, PETSC_TRUE));
+    PetscCall(KSPSetInitialGuessNonzero(tao->ksp, direct ? PETSC_FALSE : PETSC_TRUE));
     PetscCall(KSPSetTolerances(tao->ksp, PETSC_MACHINE_EPSILON, target, dtol, maxits));
   }
   PetscCall(KSPSolve(tao->ksp, b, d));
@@ -56,15 +69,9 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   PetscCall(KSPGetIterationNumber(tao->ksp, &its));
   PetscCall(RecordIterations(tao, its));
   PetscCall(TrueResidual(tao, b, d, &ip->linear_residual));
-  *usable = PETSC_TRUE;
-  if (reason < 0) {
-    PetscCall(VecNorm(b, NORM_2, &bnorm));
-    PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)bnorm));
-    /* rounding, too, makes CG meet a negative product; a residual this small settles that the direction solves the system */
-    if (reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) *usable = (PetscBool)(ip->linear_residual <= PetscMax(target, ip->forcing_max * bnorm));
-    else *usable = (PetscBool)(reason != KSP_DIVERGED_PC_FAILED && ip->linear_residual <= 10.0 * target);
-  }
-  if (PetscIsInfOrNanReal(ip->linear_residual)) *usable = PETSC_FALSE;
+  PetscCall(VecNorm(b, NORM_2, &bnorm));
+  *usable = Usable(ip, reason, target, bnorm);
+  if (reason < 0) PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)bnorm));
   /* a factorization that failed is not to be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KSPReset(tao->ksp));
   ip->ksp_reason = reason;

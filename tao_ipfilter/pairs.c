@@ -144,7 +144,7 @@ PetscErrorCode IPPairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha)
     if (PetscRealPart(a[1][i]) < 0.0 && Present(a[0][i])) local = PetscMin(local, -tau * PetscRealPart(a[0][i]) / PetscRealPart(a[1][i]));
   }
   PetscCall(PairRestore(2, vv, a));
-  PetscCall(MPIU_Allreduce(&local, alpha, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(&local, alpha, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)v)));
   PetscFunctionReturn(0);
 }
 
@@ -164,7 +164,7 @@ PetscErrorCode IPPairLogSum(const IPPair *p, Vec t, PetscReal *sum)
   for (PetscInt i = 0; i < n; i++)
     if (Present(a[1][i])) local += PetscRealPart(a[0][i]) * PetscLogReal(PetscRealPart(a[1][i]));
   PetscCall(PairRestore(2, v, a));
-  PetscCall(MPIU_Allreduce(&local, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)t)));
+  PetscCallMPI(MPI_Allreduce(&local, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)t)));
   PetscFunctionReturn(0);
 }
 
@@ -184,7 +184,7 @@ PetscErrorCode IPPairLogSlope(const IPPair *p, PetscReal *slope)
   for (PetscInt i = 0; i < n; i++)
     if (Present(a[2][i])) local += PetscRealPart(a[0][i] * a[1][i] / a[2][i]);
   PetscCall(PairRestore(3, v, a));
-  PetscCall(MPIU_Allreduce(&local, slope, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)p->t)));
+  PetscCallMPI(MPI_Allreduce(&local, slope, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)p->t)));
   PetscFunctionReturn(0);
 }
 
@@ -211,8 +211,8 @@ PetscErrorCode IPPairProducts(const IPPair *p, PetscReal mu, PetscReal *deviatio
   }
   PetscCall(PairRestore(3, v, a));
   PetscCall(PetscObjectGetComm((PetscObject)p->t, &comm));
-  if (deviation) PetscCall(MPIU_Allreduce(&dev, deviation, 1, MPIU_REAL, MPIU_MAX, comm));
-  if (sum) PetscCall(MPIU_Allreduce(&total, sum, 1, MPIU_REAL, MPIU_SUM, comm));
+  if (deviation) PetscCallMPI(MPI_Allreduce(&dev, deviation, 1, MPIU_REAL, MPIU_MAX, comm));
+  if (sum) PetscCallMPI(MPI_Allreduce(&total, sum, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -239,8 +239,8 @@ PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal 
   }
   PetscCall(PairRestore(5, v, a));
   PetscCall(PetscObjectGetComm((PetscObject)p->t, &comm));
-  if (largest) PetscCall(MPIU_Allreduce(&most, largest, 1, MPIU_REAL, MPIU_MAX, comm));
-  if (sum) PetscCall(MPIU_Allreduce(&total, sum, 1, MPIU_REAL, MPIU_SUM, comm));
+  if (largest) PetscCallMPI(MPI_Allreduce(&most, largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  if (sum) PetscCallMPI(MPI_Allreduce(&total, sum, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 

@@ -77,8 +77,9 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip)
    continued to what convergence asks for. matrix tells that A is new. */
 static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
-  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  PetscBool     finish = PETSC_FALSE;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal last   = ip->forcing_last * ip->tol * ip->scale.dual;
+  PetscBool       finish = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPCondenseRHS(tao, rc, ip->rhs));
@@ -86,10 +87,10 @@ static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   else PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ForcingTarget(ip), usable));
   if (!*usable) PetscFunctionReturn(0);
   PetscCall(IPBackSubstitute(tao, rc));
-  if (ip->me || ip->forcing == IP_FORCING_FIXED) PetscFunctionReturn(0);
+  if (ip->me || ip->forcing == IP_FORCING_FIXED || ip->linear_residual <= last) PetscFunctionReturn(0);
   PetscCall(WouldFinish(tao, &finish));
   if (!finish) PetscFunctionReturn(0);
-  PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ip->forcing_last * ip->tol * ip->scale.dual, usable));
+  PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, last, usable));
   if (*usable) PetscCall(IPBackSubstitute(tao, rc));
   PetscFunctionReturn(0);
 }

@@ -258,13 +258,13 @@ static PetscErrorCode CountIterations(Tao tao, PetscInt *newton, PetscInt *krylo
   PetscFunctionReturn(0);
 }
 
-/* A new solve of a slightly raised obstacle, from the old slacks and multipliers and predicted afresh */
+/* A new solve of a slightly raised obstacle from the old solution, with the old slacks and multipliers and with predicted ones */
 static PetscErrorCode CompareWarmStart(PetscInt n)
 {
   DM       da;
   Obstacle o;
   Tao      tao;
-  Vec      x, s, z, ws, wz;
+  Vec      x, x0, s, z, ws, wz;
   PetscInt newton[2], krylov[2];
 
   PetscFunctionBeginUser;
@@ -276,6 +276,8 @@ static PetscErrorCode CompareWarmStart(PetscInt n)
   PetscCall(TaoIPFilterGetMultiplier(tao, &z));
   PetscCall(VecDuplicate(s, &ws));
   PetscCall(VecDuplicate(z, &wz));
+  PetscCall(VecDuplicate(x, &x0));
+  PetscCall(VecCopy(x, x0));
   PetscCall(VecCopy(s, ws));
   PetscCall(VecCopy(z, wz));
   PetscCall(VecShift(o.psi, 1e-4));
@@ -283,11 +285,12 @@ static PetscErrorCode CompareWarmStart(PetscInt n)
   PetscCall(TaoSolve(tao));
   PetscCall(CountIterations(tao, &newton[0], &krylov[0]));
   PetscCall(TaoIPFilterSetWarmStart(tao, NULL, NULL));
-  PetscCall(VecSet(x, 0.0));
+  PetscCall(VecCopy(x0, x));
   PetscCall(TaoSolve(tao));
   PetscCall(CountIterations(tao, &newton[1], &krylov[1]));
   if (newton[0] < newton[1] && krylov[0] < krylov[1]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: fewer Newton and Krylov iterations\n"));
   else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations; predicted start: %" PetscInt_FMT ", %" PetscInt_FMT "\n", newton[0], krylov[0], newton[1], krylov[1]));
+  PetscCall(VecDestroy(&x0));
   PetscCall(VecDestroy(&ws));
   PetscCall(VecDestroy(&wz));
   PetscCall(VecDestroy(&x));

@@ -9,12 +9,14 @@ typedef enum {
   CASE_NAN_START,
   CASE_NAN_AWAY,
   CASE_NAN_HESSIAN,
+  CASE_OVERSHOOT,
   NCASES
 } Case;
 
-static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start", "NaN away from the start", "NaN in the Hessian"};
+static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start", "NaN away from the start", "NaN in the Hessian", "overshooting Newton steps"};
 
-/* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x <= 0 */
+/* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x <= 0;
+   overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
 static void Term(Case c, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 {
   *f = PetscSqr(x - 3.0);
@@ -28,6 +30,10 @@ static void Term(Case c, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
     *f = x > 0.0 ? x - PetscLogReal(x) : NAN;
     *g = 1.0 - 1.0 / x;
     *h = 1.0 / PetscSqr(x);
+  } else if (c == CASE_OVERSHOOT) {
+    *f = PetscSqrtReal(1.0 + PetscSqr(x));
+    *g = x / *f;
+    *h = 1.0 / PetscPowReal(*f, 3.0);
   } else if (c == CASE_NAN_START) *f = NAN;
   else if (c == CASE_NAN_HESSIAN) *h = NAN;
 }
@@ -136,7 +142,7 @@ static PetscErrorCode Run(Case which, PetscInt max_it, PetscInt max_funcs, const
 
   PetscFunctionBeginUser;
   PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, 4, &x));
-  PetscCall(VecSet(x, 0.1));
+  PetscCall(VecSet(x, which == CASE_OVERSHOOT ? 30.0 : 0.1));
   PetscCall(VecGetLocalSize(x, &n));
   PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, n, n, 4, 4, 1, NULL, 0, NULL, &H));
   PetscCall(CreateJacobian(which == CASE_INFEASIBLE ? 2 : 1, x, &J));
