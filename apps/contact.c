@@ -110,10 +110,10 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
-    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->load[step]));
+    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));
     *converged = state.report->converged;
-    if (output && *converged) PetscCall(AppWriteState(output, scene->load[step], &state));
+    if (output && *converged) PetscCall(AppWriteState(output, scene->ramps[0].factor[step], &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
   if (!app->quiet) PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));

@@ -9,20 +9,28 @@
 #include <petscdmplex.h>
 #include <petscmat.h>
 #include <material.h>
+#include <formulation.h>
 
 typedef struct _n_Elasticity *Elasticity;
 
-/* materials[b] belongs to the cells whose "body" label is b */
-PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], Elasticity *);
+/* materials[b] and elements[b] belong to the cells whose "body" label is b; elements NULL: full integration */
+PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], const ElementType elements[], Elasticity *);
 /* Global rows (owned by this rank) whose displacement is prescribed */
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
 /* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, marked symmetric */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
+/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not */
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
-/* Energy stored at u [force length] */
+/* Whether no body's tangent depends on u; how often a body has been assembled into a tangent */
+PETSC_EXTERN PetscErrorCode ElasticityIsLinear(Elasticity, PetscBool *);
+PETSC_EXTERN PetscErrorCode ElasticityGetAssemblies(Elasticity, PetscInt body, PetscInt *);
+/* Energy stored at u [force length]; PETSC_INFINITY on every rank where an element is turned inside out */
 PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
 /* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
 PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
+/* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body */
+PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
+PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
 /* Row-sum lumped mass: integral of each vertex's shape function, for each of its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */

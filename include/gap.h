@@ -6,10 +6,13 @@
 
 #include <petscdmplex.h>
 #include <petscmat.h>
+#include <formulation.h>
 
 typedef struct {
   const char *mortar;    /* face label "<body>.<face>" */
   const char *nonmortar; /* face label; carries the constraints */
+  GapType     gap;
+  PetscReal   distance;  /* facets further apart never pair [length]; 0: chosen from the size of the faces */
 } ContactPair;
 
 typedef struct _n_Contact *Contact;

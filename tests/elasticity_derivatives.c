@@ -245,7 +245,7 @@ int main(int argc, char **argv)
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
   PetscCall(ProblemMoveVertices(dm, 0.02));
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
-  PetscCall(ElasticityCreate(dm, 2, materials, &e));
+  PetscCall(ElasticityCreate(dm, 2, materials, NULL, &e));
   PetscCall(ElasticityCreateTangent(e, &K));
   PetscCall(ProblemInterpolate(dm, Smooth, &u));
   PetscCall(ProblemInterpolate(dm, Direction, &d));

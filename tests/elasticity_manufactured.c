@@ -242,7 +242,7 @@ int main(int argc, char **argv)
     PetscReal  errors[2] = {0, 0};
 
     PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &cube, level + 1, &dm));
-    PetscCall(ElasticityCreate(dm, 1, &material, &e));
+    PetscCall(ElasticityCreate(dm, 1, &material, NULL, &e));
     PetscCall(Solve(dm, e, &u));
     PetscCall(Integrate(dm, NULL, u, errors));
     values[level]    = PetscSqrtReal(errors[0]);

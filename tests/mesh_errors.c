@@ -77,11 +77,11 @@ static PetscErrorCode BadQueries(void)
   EXPECT("unknown face", MeshGetFacets(dm, "slab.top", &is));
   EXPECT("unknown body", MeshGetFaceVertices(dm, "slat.zmax", &is));
   EXPECT("component 3", MeshGetFaceDofs(dm, "slab.zmax", 3, &is));
-  EXPECT("Poisson's ratio 0.5", ElasticityCreate(dm, 2, materials, &e));
+  EXPECT("Poisson's ratio 0.5", ElasticityCreate(dm, 2, materials, NULL, &e));
   materials[1].poisson = 0.3;
   materials[1].young   = 0;
-  EXPECT("Young's modulus 0", ElasticityCreate(dm, 2, materials, &e));
-  EXPECT("fewer materials than bodies", ElasticityCreate(dm, 1, materials, &e));
+  EXPECT("Young's modulus 0", ElasticityCreate(dm, 2, materials, NULL, &e));
+  EXPECT("fewer materials than bodies", ElasticityCreate(dm, 1, materials, NULL, &e));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }

@@ -59,7 +59,7 @@ static PetscErrorCode CompareScenes(Scene a, Scene b)
   PetscCall(PetscStrcmp(a->name, b->name, &same));
   PetscCheck(same && a->refine == b->refine && a->nsteps == b->nsteps, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Problem, refine or load steps changed");
   PetscCheck(a->nbodies == b->nbodies && a->ndisplacements == b->ndisplacements && a->npairs == b->npairs, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "A list changed its length");
-  for (PetscInt i = 0; i < a->nsteps; ++i) PetscCheck(a->load[i] == b->load[i], PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Load factor %" PetscInt_FMT " changed", i);
+  for (PetscInt i = 0; i < a->nsteps; ++i) PetscCheck(a->ramps[0].factor[i] == b->ramps[0].factor[i], PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Load factor %" PetscInt_FMT " changed", i);
   PetscCall(CompareBodies(a, b));
   PetscCall(CompareBoundary(a, b));
   PetscFunctionReturn(0);

@@ -92,11 +92,12 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 
 .seealso: `MeshCreate()`, `ElasticitySetPrescribed()`, `ElasticityCreateTangent()`, `ElasticityForce()`
 @*/
-PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], Elasticity *elasticity)
+PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], const ElementType elements[], Elasticity *elasticity)
 {
   Elasticity e;
 
   PetscFunctionBegin;
+  (void)elements;
   PetscCall(ElasticityInitializePackage());
   PetscCall(PetscNew(&e));
   PetscCall(PetscObjectReference((PetscObject)dm));

@@ -142,7 +142,11 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->bodies));
   PetscCall(PetscFree(s->displacements));
   PetscCall(PetscFree(s->pairs));
-  PetscCall(PetscFree(s->load));
+  for (PetscInt r = 0; r < s->nramps; ++r) {
+    PetscCall(PetscFree(s->ramps[r].name));
+    PetscCall(PetscFree(s->ramps[r].factor));
+  }
+  PetscCall(PetscFree(s->ramps));
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree(*scene));
   PetscFunctionReturn(0);

@@ -102,7 +102,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(ViewReals(viewer, "factors", scene->nsteps, scene->load));
+  PetscCall(ViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "refine: %" PetscInt_FMT "\n", scene->refine));
   PetscFunctionReturn(0);

@@ -72,7 +72,7 @@ PetscErrorCode SimulationContactFree(Simulation sim)
   PetscLogDouble     t0, t1;
 
   PetscFunctionBegin;
-  PetscCall(QuadraticCreate(sim, sim->scene->load[0], &model));
+  PetscCall(QuadraticCreate(sim, sim->scene->ramps[0].factor[0], &model));
   PetscCall(ContactFreeLoad(sim, model.force));
   PetscCall(ContactFreeKSP(sim, &ksp));
   PetscCall(KSPSetComputeSingularValues(ksp, PETSC_TRUE));

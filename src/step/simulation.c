@@ -29,7 +29,7 @@ static PetscErrorCode SimulationCreateElasticity(Simulation sim)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &materials));
   for (PetscInt b = 0; b < scene->nbodies; ++b) materials[b] = scene->bodies[b].material;
-  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, &sim->elasticity));
+  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, NULL, &sim->elasticity));
   PetscCall(PetscFree(materials));
   PetscCall(PrescribedCreate(sim->dm, scene->ndisplacements, scene->displacements, &sim->prescribed));
   PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
@@ -228,7 +228,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 
   PetscFunctionBegin;
   report->step = step + 1;
-  report->load = sim->scene->load[step];
+  report->load = sim->scene->ramps[0].factor[step];
   PetscCall(SimulationLinearizeContact(sim));
   PetscCall(QuadraticCreate(sim, report->load, &model));
   PetscCall(VecDuplicate(sim->path.u, &u));

@@ -1,0 +1,27 @@
+/* The formulations a scene chooses between: element of a body, gap of a contact pair, model of a load step. */
+#ifndef FORMULATION_H
+#define FORMULATION_H
+
+#include <petscsys.h>
+
+/* Trilinear hexahedra, all of them */
+typedef enum {
+  ELEMENT_FULL, /* full integration; locks as Poisson's ratio nears 1/2 */
+  ELEMENT_BBAR  /* mean dilatation: the volume change is constant in an element (B-bar, F-bar at finite strain) */
+} ElementType;
+PETSC_EXTERN const char *const ElementTypes[];
+
+typedef enum {
+  GAP_MORTAR, /* segment to segment: integrated over the overlap of the faces */
+  GAP_NODE    /* node to segment: nonmortar vertex to the closest point of the mortar face */
+} GapType;
+PETSC_EXTERN const char *const GapTypes[];
+
+/* How the energy of a load step is minimized; the two are the same where every body is linear */
+typedef enum {
+  MODEL_ENERGY,   /* the true energy, equilibrium on exit */
+  MODEL_QUADRATIC /* its quadratic model about the last state: one tangent a load step */
+} StepModel;
+PETSC_EXTERN const char *const StepModels[];
+
+#endif
