@@ -4,17 +4,20 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
+  -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
+  -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
   -quiet               no line a Newton step and no table\n\
   -traceback           PETSc's own error traceback instead of one sentence\n";
 
 #include <petscamgf.h>
 #include <scene.h>
+#include <mesh.h>
 #include <step.h>
 #include <output.h>
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, summarize, free, quiet;
+  PetscBool write, summarize, free, effects, check, quiet;
 } AppOptions;
 
 /* A collective error unwinds on every rank and is said once; an error of one rank alone must end the others */
@@ -46,6 +49,8 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->free, &app->free, NULL));
+  PetscCall(PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
+  PetscCall(PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
   PetscOptionsEnd();
   PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: contact SCENE.yaml [options], see contact -help");
@@ -53,14 +58,18 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* One line a Newton step unless the user has decided */
+/* One line a Newton step, and one where a load step changes its plan, unless the user has decided */
 static PetscErrorCode AppShowProgress(void)
 {
-  PetscBool set;
+  static const char *const monitors[] = {"-tao_ipfilter_monitor", "-load_monitor"};
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_ipfilter_monitor", &set));
-  if (!set) PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_monitor", NULL));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(monitors); ++i) {
+    PetscBool set;
+
+    PetscCall(PetscOptionsHasName(NULL, NULL, monitors[i], &set));
+    if (!set) PetscCall(PetscOptionsSetValue(NULL, monitors[i], NULL));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -117,10 +126,23 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
   }
   PetscCall(SimulationGetReport(sim, &report));
   if (!app->quiet) PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->effects) PetscCall(ReportViewEffects(&report, PETSC_VIEWER_STDOUT_WORLD));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, app->summary));
   if (!*converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report.nsteps, report.reason));
   PetscCall(OutputDestroy(&output));
   PetscCall(SimulationDestroy(&sim));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppCheckScene(Scene scene)
+{
+  DM dm;
+
+  PetscFunctionBeginUser;
+  PetscCall(MeshCreate(PETSC_COMM_WORLD, scene->nbodies, scene->bodies, scene->refine, &dm));
+  PetscCall(MeshCheckScene(dm, scene));
+  PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
 
@@ -136,7 +158,13 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
   PetscCall(AppGetOptions(argc, argv, &app));
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
-  PetscCall(AppSolve(&app, scene, converged));
+  if (app.check) {
+    PetscCall(AppCheckScene(scene));
+    *converged = PETSC_TRUE;
+  } else {
+    PetscCall(AppSolve(&app, scene, converged));
+    PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
+  }
   PetscCall(SceneDestroy(&scene));
   PetscFunctionReturn(0);
 }

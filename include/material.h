@@ -18,18 +18,28 @@ typedef struct {
 
 /*
    A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j: small strains
-   then keep all their digits. A law may return NaN or infinity where the material is turned inside out (det F <= 0).
+   then keep all their digits.
+
+   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa = lambda + 2 mu/3 and the dilatation
+   theta, so lambda = -2 mu/3 leaves the isochoric part alone.
+
+   Where the material is turned inside out (det F <= 0; linear laws do not know it) the energy is PETSC_INFINITY, and stress,
+   tangent and Cauchy stress return PETSC_FALSE and write nothing.
 */
 typedef struct {
   PetscBool constant; /* the tangent does not depend on H */
   /* Energy density W(H) [force/length^2] */
   PetscReal (*energy)(PetscReal lambda, PetscReal mu, const PetscReal H[9]);
   /* First Piola-Kirchhoff stress P = dW/dH [force/length^2] */
-  void (*stress)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9]);
+  PetscBool (*stress)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9]);
   /* Tangent A[9 (3 i + j) + 3 k + l] = dP_ij/dH_kl [force/length^2] */
-  void (*tangent)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81]);
+  PetscBool (*tangent)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81]);
   /* Cauchy stress xx yy zz xy yz zx [force/length^2] */
-  void (*cauchy)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6]);
+  PetscBool (*cauchy)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6]);
+  /* Dilatation theta(H) and its derivative C = dtheta/dH */
+  PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
+  /* Adds pressure times the second derivative of theta to a tangent */
+  void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
 } MaterialLaw;
 
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */

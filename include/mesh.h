@@ -2,7 +2,7 @@
    Meshes: one DMPlex of hexahedra for all bodies (disjoint components), distributed and refined.
 
    Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets and their edges and vertices (box: xmin xmax ymin ymax zmin zmax). Local section: 3 displacement components per vertex, interleaved,
+   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components per vertex, interleaved,
    block size 3, no constrained dofs. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
@@ -15,6 +15,13 @@
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
+/* Are the shape's parameters sound, or does the mesh file have the volume? */
+PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
+/* Names of a body's faces, without the body's. For a Gmsh body, the physical surfaces of its file */
+PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
+PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
+/* Do the faces that a scene refers to have facets, and is every body held by displacements or contact? */
+PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 /* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */

@@ -49,6 +49,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFGetCycle(PC, PCAMGFCycle *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterIS(PC, IS);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterActive(PC, PetscBool);
 PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
@@ -61,6 +62,8 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetSlack(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetMultiplier(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetKSPIterations(Tao, PetscInt *, const PetscInt *[]);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetKKTError(Tao, PetscReal *, PetscReal *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetFilterUse(Tao, PetscInt *, PetscInt *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetRegularizations(Tao, PetscInt *, PetscInt *, PetscReal *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
 
 #endif

@@ -13,10 +13,18 @@ typedef struct {
   PetscInt   *ksp_iterations; /* one a Newton system, nksp values */
   PetscInt    nksp;
   PetscInt    amg_applications, amg_setups;
-  PetscReal   energy;                 /* [force length] */
+  PetscInt    substeps, cuts;         /* solves of equilibrium in this load step; how often it was cut */
+  PetscInt    contact_updates;        /* linearizations of the gap in the last solve */
+  PetscInt    regularizations;        /* Newton systems whose matrix was not positive definite */
+  PetscInt    systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
+  PetscReal   energy;                 /* elastic, from the elements [force length] */
+  PetscReal   potential;              /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
+  PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
   PetscReal   kkt_error;              /* scaled, dimensionless */
   PetscReal   kkt_error_unscaled;
   PetscReal   gap_min;                /* smallest linearized gap [length]; negative is penetration */
+  PetscReal   gap_true;               /* smallest gap of the deformed bodies [length] */
+  PetscReal   gap_change;             /* largest difference of the two where there is pressure, or penetration [length] */
   PetscReal   complementarity;        /* max s z [force/length] */
   PetscReal   contact_force[3];       /* on the nonmortar side [force] */
   PetscReal   reaction[3];            /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
@@ -24,6 +32,14 @@ typedef struct {
   PetscBool   converged;
   const char *reason;
 } StepReport;
+
+/* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */
+typedef struct {
+  const char    *name;
+  PetscBool      on;
+  char           why[160];
+  PetscLogDouble time; /* [s]; negative: part of another phase, not measured apart */
+} RunEffect;
 
 typedef struct {
   const char *problem;
@@ -33,6 +49,11 @@ typedef struct {
   const char *reason;
   PetscInt    nsteps;
   StepReport *steps;
+  PetscInt    nbodies;
+  const char **bodies;
+  PetscInt   *assemblies; /* of each body's tangent */
+  PetscInt    neffects;
+  RunEffect  *effects;
   struct {
     PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, other; /* [s], max over ranks */
   } time;

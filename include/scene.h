@@ -5,22 +5,86 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include <petscsys.h>
+#include <petscdm.h>
 #include <material.h>
 #include <formulation.h>
 
 typedef enum {
-  SHAPE_BOX
+  SHAPE_BOX,
+  SHAPE_TUBE_ARC,
+  SHAPE_HALF_ELLIPSE,
+  SHAPE_SPHERE_SHELL,
+  SHAPE_SPHEROID_SHELL,
+  SHAPE_BALL,
+  SHAPE_GMSH
 } BodyShape;
 PETSC_EXTERN const char *const BodyShapes[];
 
+/* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to x) */
 typedef struct {
-  char       *name;
-  BodyShape   shape;
-  PetscReal   lower[3], upper[3]; /* box corners [length] */
-  PetscInt    cells[3];           /* hexahedra along each axis at refinement level 0 */
-  Material    material;
-  ElementType element;
+  PetscInt  axis;      /* 0, 1, 2: along x, y, z */
+  PetscReal center[3]; /* a point on the axis [length] */
+  PetscReal radii[2];  /* inner, outer [length] */
+  PetscReal angles[2]; /* from, to [degrees] */
+  PetscReal extent[2]; /* from, to along the axis [length] */
+} SceneTubeArc;
+
+/* Prism over half an ellipse, or over the half of that on one side of its plane of symmetry */
+typedef struct {
+  PetscInt  axis;         /* of the prism: 0, 1, 2 */
+  PetscInt  depth;        /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
+  PetscInt  half;         /* direction from the plane of symmetry to the half that is meant; PETSC_DECIDE: both halves */
+  PetscReal center[3];    /* a point on the line where the flat side meets the plane of symmetry [length] */
+  PetscReal semi_axes[2]; /* along depth, and across [length] */
+  PetscReal extent[2];    /* from, to along the axis [length] */
+} SceneHalfEllipse;
+
+typedef struct {
+  PetscReal radius, center[3]; /* [length] */
+} SceneSphere;
+
+/* The octants of shells and balls: cut out by the three coordinate planes through a corner */
+typedef struct {
+  PetscReal   corner[3];             /* [length] */
+  PetscInt    signs[3];              /* +-1: the side of each plane; 0 stands for 1 */
+  SceneSphere inner, outer;          /* sphere_shell; outer also ball */
+  SceneSphere cap;                   /* sphere_shell: cuts the outer sphere; radius 0: none */
+  PetscReal   inner_axes[3];         /* spheroid_shell: semi-axes [length] */
+  PetscReal   outer_axes[3];
+  PetscReal   layer_grading;         /* thickness of the outermost layer over the innermost; 0 stands for 1 */
+} SceneOctant;
+
+/* One volume of a Gmsh file */
+typedef struct {
+  char *file;   /* with its folder */
+  char *volume; /* physical name */
+} SceneGmsh;
+
+/* Facets of a face that lie in a box at refinement level 0, as a face of its own */
+typedef struct {
+  char     *name;               /* "<body>.<name>" is a face */
+  char     *of;                 /* the face, without its body */
+  PetscReal lower[3], upper[3]; /* bounds of the facets' centroids, may be infinite [length] */
+} SceneSubface;
+
+/* Refinement level 0 and the shape. An octant's patches are its cells along x, y and z; a half ellipse's are those of its
+   core along depth and across half of it, and those of the ring around the core. */
+typedef struct {
+  char            *name;
+  BodyShape        shape;
+  PetscReal        lower[3], upper[3]; /* box: corners [length] */
+  PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
+  Material         material;
+  ElementType      element;
+  PetscReal        grading[3];         /* box, octants: size of the last cell over the first along each axis; 0 stands for 1 */
+  PetscInt         layers;             /* half_ellipse: cells along the axis; octants: cells across the shell */
+  PetscBool        curved;             /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  SceneTubeArc     tube;
+  SceneHalfEllipse ellipse;
+  SceneOctant      octant;
+  SceneGmsh        gmsh;
+  PetscInt         nsubfaces;
+  SceneSubface    *subfaces;
 } SceneBody;
 
 /* A load program: the factor at the end of each load step, linear in between, 0 before the first */
@@ -60,6 +124,12 @@ typedef struct {
   PetscReal distance;  /* facets further apart never pair [length]; 0: chosen from the size of the faces */
 } SceneContactPair;
 
+/* A PETSc option, without its dash */
+typedef struct {
+  char     *name, *value;
+  PetscBool set; /* by the scene: neither the command line nor an options file has it */
+} SceneOption;
+
 typedef struct {
   char              *name;
   PetscInt           nbodies;
@@ -79,12 +149,17 @@ typedef struct {
   StepModel          model;
   PetscInt           contact_updates;     /* linearizations of the gap a load step, at least 1 */
   PetscInt           displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
+  PetscInt           noptions;            /* of the solver */
+  SceneOption       *options;
 } *Scene;
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 /* Factor of a ramp at a time: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
+/* What will be simulated, in words; dm: the scene's mesh */
+PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
+PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode SceneDestroy(Scene *);
 
 #endif

@@ -18,6 +18,7 @@ static PetscErrorCode SetUpFilter(PC pc)
   PC        inner;
 
   PetscFunctionBegin;
+  if (!amgf->active) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(PC_AMGF_FltSetUp, pc, 0, 0, 0));
   PetscCall(PCAMGFUpdateSubspace_Private(pc, &same));
   if (amgf->sub.n) {
@@ -182,7 +183,8 @@ static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: not yet set up\n"));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source], amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
+  if (!amgf->active) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: switched off, the AMG alone; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source], amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
   if (amgf->sub.source == AMGF_SOURCE_FILE) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
   if (amgf->sub.source == AMGF_SOURCE_DETECT) PetscCall(PetscViewerASCIIPrintf(viewer, "  detection: diagonal entries above %g times the median\n", (double)amgf->detect));
   PetscFunctionReturn(0);
@@ -205,7 +207,7 @@ static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PCView(amgf->amg, viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
-  if (amgf->sub.n) {
+  if (amgf->active && amgf->sub.n) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter solver:\n"));
     PetscCall(PetscViewerASCIIPushTab(viewer));
     PetscCall(KSPView(amgf->filter, viewer));
@@ -257,7 +259,7 @@ static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
 .  * - S. Petrides, T. Hartland, Tz. Kolev, C. S. Lee, M. Puso, J. Solberg, E. B. Chin, J. Wang, C. Petra, AMG with filtering: an efficient preconditioner for
    interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
-.seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
+.seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
@@ -268,6 +270,7 @@ PetscErrorCode PCCreate_AMGF(PC pc)
   PetscCall(PetscNew(&amgf));
   pc->data        = amgf;
   amgf->cycle     = PC_AMGF_FBF;
+  amgf->active    = PETSC_TRUE;
   amgf->lag.every = AMGF_LAG_UNSET;
   amgf->lag.ratio = 1.5;
   PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amgf->amg));

@@ -56,6 +56,7 @@ typedef struct {
   PC           amg;
   KSP          filter;
   PetscBool    configured; /* inner solvers have read their options */
+  PetscBool    active;     /* the subspace is looked for, set up and solved; else the AMG alone */
   PCAMGFCounts counts;
 
   /* how the subspace is named */

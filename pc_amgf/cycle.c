@@ -130,7 +130,7 @@ static PetscErrorCode ApplyCycle(PC pc, PetscBool transpose, Vec r, Vec z)
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  if (!amgf->sub.n) PetscCall(ApplyAMG(pc, transpose, r, z));
+  if (!amgf->active || !amgf->sub.n) PetscCall(ApplyAMG(pc, transpose, r, z));
   else if (amgf->cycle == PC_AMGF_BFB) PetscCall(ApplyBFB(pc, transpose, r, z));
   else if (amgf->cycle == PC_AMGF_FBF) PetscCall(ApplyFBF(pc, transpose, r, z));
   else PetscCall(ApplyAdditive(pc, transpose, r, z));

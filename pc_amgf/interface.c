@@ -57,6 +57,16 @@ static PetscErrorCode PCAMGFGetFilterSize_AMGF(PC pc, PetscInt *n)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PCAMGFSetFilterActive_AMGF(PC pc, PetscBool active)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (active != amgf->active) PCAMGFRequestSetUp_Private(pc);
+  amgf->active = active;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
 {
   PetscFunctionBegin;
@@ -94,6 +104,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterIS_C", PCAMGFSetFilterIS_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterActive_C", PCAMGFSetFilterActive_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetAMGLag_C", PCAMGFSetAMGLag_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
@@ -103,8 +114,8 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
 
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
-  static const char *const names[] = {"PCAMGFSetCycle_C",  "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C",  "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetAMGLag_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
+  static const char *const names[] = {"PCAMGFSetCycle_C",        "PCAMGFGetCycle_C",  "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
+                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGPC_C",    "PCAMGFGetFilterKSP_C",           "PCAMGFGetCounts_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
@@ -229,7 +240,7 @@ PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
 . pc - the preconditioner, of type `PCAMGF`
 
   Output Parameter:
-. n - its dimension at the last `PCSetUp()`; 0 before, and if there is no subspace
+. n - its dimension at the last `PCSetUp()` with the filter on; 0 before, and if there is no subspace
 
   Level: intermediate
 
@@ -241,6 +252,34 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(n, 2);
   PetscUseMethod(pc, "PCAMGFGetFilterSize_C", (PC, PetscInt *), (pc, n));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetFilterActive - switches the subspace solve off, so that the AMG works alone, or on again
+
+  Logically Collective
+
+  Input Parameters:
++ pc     - the preconditioner
+- active - `PETSC_FALSE`: the preconditioner is B; `PETSC_TRUE` (the default): as `PCAMGFSetCycle()` says
+
+  Level: intermediate
+
+  Notes:
+  For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor solved. What was set up before is kept: when the
+  filter is switched on again, and subspace and nonzero pattern have stayed, the symbolic factorization is reused.
+
+  `PCAMGFGetFilterSize()` gives the dimension of the last set-up with the filter on.
+
+.seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`, `PCAMGFGetCounts()`
+@*/
+PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveBool(pc, active, 2);
+  PetscTryMethod(pc, "PCAMGFSetFilterActive_C", (PC, PetscBool), (pc, active));
   PetscFunctionReturn(0);
 }
 

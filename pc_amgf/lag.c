@@ -11,7 +11,7 @@ PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
   return amgf->cycle == PC_AMGF_BFB ? 1 : AMGF_LAG_AUTO;
 }
 
-/* Largest ratio, on this rank, by which a diagonal entry outside the subspace has grown or shrunk since the AMG was built */
+/* Largest ratio, on this rank, by which a diagonal entry outside the active subspace has grown or shrunk since the AMG was built */
 static PetscErrorCode DiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
 {
   PetscInt           n, start, nrows = 0, k = 0;
@@ -22,7 +22,7 @@ static PetscErrorCode DiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drif
   *drift = 1.0;
   PetscCall(VecGetLocalSize(diagonal, &n));
   PetscCall(VecGetOwnershipRange(diagonal, &start, NULL));
-  if (amgf->sub.rows) {
+  if (amgf->active && amgf->sub.rows) {
     PetscCall(ISGetLocalSize(amgf->sub.rows, &nrows));
     PetscCall(ISGetIndices(amgf->sub.rows, &rows));
   }
@@ -192,7 +192,8 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(GetDigits(ksp, lag->history, &digits));
-  if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0);
+  /* an AMG of the very operator may be to blame, too: one that is not definite; the next operator may be. Not for a failed subspace. */
+  if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0 || reason != KSP_DIVERGED_PC_FAILED);
   else if (its > 0 && lag->its == 0) SetReference(lag, its, digits);
   else if (its > 0 && lag->age > 0) lag->overdue = TooMany(lag, its, digits);
   PetscFunctionReturn(0);

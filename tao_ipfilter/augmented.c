@@ -50,14 +50,15 @@ static PetscErrorCode AssembleAugmented(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug = &ip->aug;
-  Mat           blocks[4], nest;
+  Mat           blocks[4], nest, JE;
 
   PetscFunctionBegin;
   PetscCall(VecSet(ip->cetrial, -ip->delta_c));
   PetscCall(MatDiagonalSet(aug->shift, ip->cetrial, INSERT_VALUES));
   PetscCall(MatConvert(ip->cond.A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
-  PetscCall(MatTranspose(tao->jacobian_equality, MAT_INITIAL_MATRIX, &blocks[1]));
-  blocks[2] = tao->jacobian_equality;
+  PetscCall(IPFixedJacobian(tao, tao->jacobian_equality, &JE));
+  PetscCall(MatTranspose(JE, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = JE;
   blocks[3] = aug->shift;
   PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
   PetscCall(MatDestroy(&aug->K));
@@ -66,6 +67,7 @@ static PetscErrorCode AssembleAugmented(Tao tao)
   PetscCall(MatDestroy(&nest));
   PetscCall(MatDestroy(&blocks[0]));
   PetscCall(MatDestroy(&blocks[1]));
+  PetscCall(MatDestroy(&JE));
   if (!aug->rhs) {
     PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
     PetscCall(VecDuplicate(aug->rhs, &aug->sol2));

@@ -1,10 +1,16 @@
 /* Variable bounds x_l <= x <= x_u as complementarity pairs. */
 #include "ipfilterimpl.h"
 
-/* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
-static PetscErrorCode BoundDistance(Vec x, Vec bound, PetscReal sign, Vec t)
+/* Whether an entry of a bound makes a pair: finite, and not of a fixed variable; other: its counterpart, or NULL */
+static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
 {
-  const PetscScalar *xa, *ba;
+  return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
+}
+
+/* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
+static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, Vec t)
+{
+  const PetscScalar *xa, *ba, *oa = NULL;
   PetscScalar       *ta;
   PetscInt           n;
 
@@ -12,9 +18,11 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, PetscReal sign, Vec t)
   PetscCall(VecGetLocalSize(x, &n));
   PetscCall(VecGetArrayRead(x, &xa));
   PetscCall(VecGetArrayRead(bound, &ba));
+  if (other) PetscCall(VecGetArrayRead(other, &oa));
   PetscCall(VecGetArrayWrite(t, &ta));
-  for (PetscInt i = 0; i < n; i++) ta[i] = PetscAbsScalar(ba[i]) < PETSC_INFINITY ? sign * (xa[i] - ba[i]) : PETSC_INFINITY;
+  for (PetscInt i = 0; i < n; i++) ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? sign * (xa[i] - ba[i]) : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(t, &ta));
+  if (other) PetscCall(VecRestoreArrayRead(other, &oa));
   PetscCall(VecRestoreArrayRead(bound, &ba));
   PetscCall(VecRestoreArrayRead(x, &xa));
   PetscFunctionReturn(0);
@@ -27,21 +35,23 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
   IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
 
   PetscFunctionBegin;
-  if (lower->n) PetscCall(BoundDistance(x, tao->XL, 1.0, trial ? lower->trial : lower->t));
-  if (upper->n) PetscCall(BoundDistance(x, tao->XU, -1.0, trial ? upper->trial : upper->t));
+  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, 1.0, trial ? lower->trial : lower->t));
+  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, -1.0, trial ? upper->trial : upper->t));
   PetscFunctionReturn(0);
 }
 
-/* Finite entries of a bound vector, over all ranks */
-static PetscErrorCode BoundCount(Vec bound, PetscInt *count)
+/* Entries of a bound vector that make pairs, over all ranks */
+static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
 {
-  const PetscScalar *b;
+  const PetscScalar *b, *o = NULL;
   PetscInt           n, local = 0;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(bound, &n));
   PetscCall(VecGetArrayRead(bound, &b));
-  for (PetscInt i = 0; i < n; i++) local += PetscAbsScalar(b[i]) < PETSC_INFINITY;
+  if (other) PetscCall(VecGetArrayRead(other, &o));
+  for (PetscInt i = 0; i < n; i++) local += Bounds(b[i], o ? &o[i] : NULL);
+  if (other) PetscCall(VecRestoreArrayRead(other, &o));
   PetscCall(VecRestoreArrayRead(bound, &b));
   PetscCallMPI(MPI_Allreduce(&local, count, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)bound)));
   PetscFunctionReturn(0);
@@ -59,7 +69,7 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
     Vec      bound = b == IP_LOWER ? tao->XL : tao->XU;
     PetscInt count = 0;
 
-    if (bound) PetscCall(BoundCount(bound, &count));
+    if (bound) PetscCall(BoundCount(bound, b == IP_LOWER ? tao->XU : tao->XL, &count));
     if (count && !p->t) PetscCall(IPPairCreate(tao->solution, NULL, p));
     if (!count) PetscCall(IPPairDestroy(p));
     p->n      = count;
@@ -77,7 +87,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
   Vec                v[2] = {tao->XL, tao->XU};
   const PetscScalar *b[2] = {NULL, NULL};
   PetscScalar       *x;
-  PetscReal          size, bad = 0.0, worst;
+  PetscReal          size;
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -92,8 +102,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
     const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
     PetscReal       gap;
 
-    if (!(l < u)) bad = 1.0;
-    if (!hasl && !hasu) continue;
+    if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
     gap = hasl && hasu ? u - l : PetscMax(PetscAbsReal(hasl ? l : u), size);
     if (gap == 0.0) gap = 1.0;
     gap *= ip->bound_push;
@@ -103,8 +112,6 @@ PetscErrorCode IPBoundsPush(Tao tao)
   PetscCall(VecRestoreArray(tao->solution, &x));
   for (PetscInt k = 0; k < 2; k++)
     if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
-  PetscCallMPI(MPI_Allreduce(&bad, &worst, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  PetscCheck(worst == 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "TAOIPFILTER needs lower bounds below upper bounds, strictly, for every variable");
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscFunctionReturn(0);
 }

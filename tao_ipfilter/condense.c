@@ -24,53 +24,7 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscFunctionReturn(0);
 }
 
-/* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
-static PetscErrorCode FilterIS(Tao tao, IS *is)
-{
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  Mat                J  = ip->cond.J;
-  Vec                mark;
-  const PetscScalar *a;
-  PetscReal          local = 0.0, largest;
-  PetscInt           rstart, rend, cstart, n, count = 0, *idx;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
-  for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) {
-      PetscCallMPI(MPI_Allreduce(&local, &largest, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
-      PetscCall(MatCreateVecs(J, &mark, NULL));
-    }
-    for (PetscInt i = rstart; i < rend; i++) {
-      const PetscInt    *cols;
-      const PetscScalar *v;
-      PetscInt           nc;
-
-      PetscCall(MatGetRow(J, i, &nc, &cols, &v));
-      for (PetscInt k = 0; k < nc; k++) {
-        if (!pass) local = PetscMax(local, PetscAbsScalar(v[k]));
-        else if (PetscAbsScalar(v[k]) > ip->filter_threshold * largest) PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
-      }
-      PetscCall(MatRestoreRow(J, i, &nc, &cols, &v));
-    }
-  }
-  PetscCall(VecAssemblyBegin(mark));
-  PetscCall(VecAssemblyEnd(mark));
-  PetscCall(VecGetOwnershipRange(mark, &cstart, NULL));
-  PetscCall(VecGetLocalSize(mark, &n));
-  PetscCall(VecGetArrayRead(mark, &a));
-  for (PetscInt j = 0; j < n; j++) count += PetscRealPart(a[j]) > 0.0;
-  PetscCall(PetscMalloc1(count, &idx));
-  count = 0;
-  for (PetscInt j = 0; j < n; j++)
-    if (PetscRealPart(a[j]) > 0.0) idx[count++] = cstart + j;
-  PetscCall(VecRestoreArrayRead(mark, &a));
-  PetscCall(VecDestroy(&mark));
-  PetscCall(ISCreateGeneral(PetscObjectComm((PetscObject)J), count, idx, PETSC_OWN_POINTER, is));
-  PetscFunctionReturn(0);
-}
-
-/* Takes over the inequality Jacobian: an AIJ view of it, and the filter's unknowns. Keeps the IS while its entries stay. */
+/* Takes over the inequality Jacobian: an AIJ view of it without fixed variables, and the filter's unknowns. Keeps the IS while its entries stay. */
 PetscErrorCode IPCondenseJacobian(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
@@ -78,6 +32,7 @@ PetscErrorCode IPCondenseJacobian(Tao tao)
   Mat              user = tao->jacobian_inequality;
   PetscObjectState state;
   PetscBool        aij;
+  Mat              J;
   IS               filter;
 
   PetscFunctionBegin;
@@ -85,13 +40,16 @@ PetscErrorCode IPCondenseJacobian(Tao tao)
   if (cond->J && state == cond->J_state && cond->J_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
   cond->J_state = state;
   cond->J_id    = ((PetscObject)user)->id;
+  PetscCall(MatGetNonzeroState(user, &cond->J_nonzero));
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   PetscCall(MatDestroy(&cond->J));
   if (aij) {
     PetscCall(PetscObjectReference((PetscObject)user));
-    cond->J = user;
-  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, &cond->J));
-  PetscCall(FilterIS(tao, &filter));
+    J = user;
+  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, &J));
+  PetscCall(IPFixedJacobian(tao, J, &cond->J));
+  PetscCall(MatDestroy(&J));
+  PetscCall(IPSubspaceFind(tao, &filter));
   if (cond->filter) {
     PetscBool same;
 
@@ -109,20 +67,18 @@ PetscErrorCode IPCondenseJacobian(Tao tao)
 /* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
 static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
 {
-  TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed     *cond = &ip->cond;
-  PetscObjectState nonzero;
-  PetscInt         rstart, rend;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed  *cond = &ip->cond;
+  PetscInt      rstart, rend;
 
   PetscFunctionBegin;
-  PetscCall(MatGetNonzeroState(cond->J, &nonzero));
-  *changed = (PetscBool)(!cond->JtDJ || nonzero != cond->J_nonzero || cond->JtDJ_id != cond->J_id);
+  *changed = (PetscBool)(!cond->JtDJ || cond->JtDJ_nonzero != cond->J_nonzero || cond->JtDJ_id != cond->J_id);
   if (*changed) {
     PetscCall(MatDestroy(&cond->DJ));
     PetscCall(MatDestroy(&cond->JtDJ));
     PetscCall(MatDuplicate(cond->J, MAT_COPY_VALUES, &cond->DJ));
-    cond->J_nonzero = nonzero;
-    cond->JtDJ_id   = cond->J_id;
+    cond->JtDJ_nonzero = cond->J_nonzero;
+    cond->JtDJ_id      = cond->J_id;
   } else PetscCall(MatCopy(cond->J, cond->DJ, SAME_NONZERO_PATTERN));
   PetscCall(MatDiagonalScale(cond->DJ, D, NULL));
   PetscCall(MatTransposeMatMult(cond->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
@@ -374,7 +330,7 @@ static PetscErrorCode WriteDiagonal(Tao tao)
 /* Whether nothing is ever added to H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->delta == 0.0);
 }
 
 /* Assembles A = H + Sigma + J^T D J + delta M_u for the given D */
@@ -388,6 +344,7 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, H, NULL, NULL));
+  ip->nsystems++;
   PetscCall(PetscObjectStateGet((PetscObject)H, &state));
   PetscCall(MatGetNonzeroState(H, &nonzero));
   if (Unconstrained(ip)) {
@@ -398,7 +355,10 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
     PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, H, NULL, NULL));
     PetscFunctionReturn(0);
   }
-  if (ip->mi) PetscCall(UpdateProduct(tao, D, &pattern));
+  if (ip->mi) {
+    PetscCall(UpdateProduct(tao, D, &pattern));
+    PetscCall(IPSubspaceSwitch(tao));
+  }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
   all     = (PetscBool)(pattern || state != cond->H_state);
   if (pattern) {
@@ -422,6 +382,7 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   }
   PetscCall(MatAssemblyBegin(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FINAL_ASSEMBLY));
+  PetscCall(IPFixedMatrix(tao, cond->A));
   if (cond->filter) PetscCall(PetscObjectCompose((PetscObject)cond->A, PCAMGF_FILTER_KEY, (PetscObject)cond->filter));
   PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, H, NULL, NULL));
   PetscFunctionReturn(0);

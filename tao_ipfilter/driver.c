@@ -1,17 +1,24 @@
 /* The outer iteration. */
 #include "ipfilterimpl.h"
 
-/* Objective, constraints and derivatives at the starting point, pushed inside its bounds; *finite is false where one is not a number */
+/* Objective, constraints and derivatives at the starting point, pushed inside its bounds; *finite is false where one is
+   not a number. No derivative is asked for where the objective is not one. */
 static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     norm, size = 0.0;
+  PetscBool     alone;
 
   PetscFunctionBegin;
+  *finite = PETSC_FALSE;
   PetscCall(TaoComputeVariableBounds(tao));
+  PetscCall(IPFixedSetUp(tao));
   PetscCall(IPBoundsSetUp(tao));
   PetscCall(IPBoundsPush(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->xsize0));
+  PetscCall(TaoIsGradientDefined(tao, &alone));
+  if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->f));
+  if (alone && IPUndefined(ip->f)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->c, ip->ce));
   if (ip->mi) {
     PetscCall(VecSet(ip->lambda, 0.0));
@@ -27,7 +34,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   ip->gradient0 = norm;
   ip->f0        = ip->f;
   ip->length0   = size;
-  *finite       = (PetscBool)(!PetscIsInfOrNanReal(ip->f) && !PetscIsInfOrNanReal(norm) && !PetscIsInfOrNanReal(size) && !PetscIsInfOrNanReal(ip->equality0));
+  *finite       = (PetscBool)(!IPUndefined(ip->f) && !IPUndefined(norm) && !IPUndefined(size) && !IPUndefined(ip->equality0));
   PetscFunctionReturn(0);
 }
 
@@ -36,12 +43,15 @@ static PetscErrorCode ResetRecord(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->niter_ksp    = 0;
+  ip->niter_ksp    = ip->most_ksp = 0;
+  ip->nsystems     = ip->nfiltered = 0;
+  ip->filtered     = PETSC_FALSE;
   ip->nerror       = 0;
   ip->equality0    = 0.0;
   ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
   ip->nacceptable  = 0;
-  ip->delta        = ip->delta_last = 0.0;
+  ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
+  ip->nregularized = ip->nretried = 0;
   ip->theta0       = -1.0;
   ip->best_error   = PETSC_INFINITY;
   ip->dx_norm      = ip->alpha_primal = ip->alpha_dual = 0.0;
@@ -63,6 +73,7 @@ static PetscErrorCode KeepBest(Tao tao)
   PetscFunctionBegin;
   if (ip->kkt.error >= ip->best_error) PetscFunctionReturn(0);
   ip->best_error = ip->kkt.error;
+  ip->fbest      = ip->f;
   PetscCall(VecCopy(tao->solution, ip->xbest));
   if (ip->me) PetscCall(VecCopy(ip->y, ip->ybest));
   if (ip->mi) {
@@ -81,6 +92,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscFunctionBegin;
   if (ip->best_error == PETSC_INFINITY || ip->kkt.error <= ip->best_error) PetscFunctionReturn(0);
   PetscCall(VecCopy(ip->xbest, tao->solution));
+  ip->f = ip->fbest;
   if (ip->mi) {
     PetscCall(VecCopy(ip->sbest, ip->pair[IP_SLACK].t));
     PetscCall(VecCopy(ip->zbest, ip->pair[IP_SLACK].z));
@@ -113,7 +125,7 @@ static PetscErrorCode TestConvergence(Tao tao)
   PetscFunctionBegin;
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
   ip->nacceptable = k->error <= ip->acceptable_tol ? ip->nacceptable + 1 : 0;
-  if (PetscIsInfOrNanReal(k->error) || PetscIsInfOrNanReal(ip->f)) {
+  if (IPUndefined(k->error) || IPUndefined(ip->f)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
   } else if (k->error <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)k->error, (double)ip->tol));

@@ -18,13 +18,17 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Objective, gradient and constraint Jacobians at tao->solution */
+/* Gradient and constraint Jacobians at tao->solution, whose objective is in ip->f. Fixed variables have none. */
 PetscErrorCode IPEvaluateDerivatives(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     alone;
 
   PetscFunctionBegin;
-  PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->f, tao->gradient));
+  PetscCall(TaoIsGradientDefined(tao, &alone));
+  if (alone) PetscCall(TaoComputeGradient(tao, tao->solution, tao->gradient));
+  else PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->f, tao->gradient));
+  PetscCall(IPFixedZero(tao, tao->gradient));
   if (ip->me) PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
   if (ip->mi) {
     PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));

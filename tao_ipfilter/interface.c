@@ -102,6 +102,27 @@ static PetscErrorCode TaoIPFilterGetReason_IPFilter(Tao tao, const char *reason[
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterGetFilterUse_IPFilter(Tao tao, PetscInt *systems, PetscInt *filtered)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (systems) *systems = ip->nsystems;
+  if (filtered) *filtered = ip->nfiltered;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *steps, PetscInt *retries, PetscReal *largest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (steps) *steps = ip->nregularized;
+  if (retries) *retries = ip->nretried;
+  if (largest) *largest = ip->delta_largest;
+  PetscFunctionReturn(0);
+}
+
 /* Attaches the implementations to the object, or detaches them */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
@@ -114,6 +135,8 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSlack_C", attach ? TaoIPFilterGetSlack_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C", attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFilterUse_C", attach ? TaoIPFilterGetFilterUse_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C", attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
@@ -327,5 +350,62 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(reason, 2);
   PetscUseMethod(tao, "TaoIPFilterGetReason_C", (Tao, const char *[]), (tao, reason));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetFilterUse - Gets how many condensed systems of the last `TaoSolve()` were preconditioned with the filter
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameters:
++ systems  - condensed matrices A = H + Sigma + J^T D J that were assembled; may be NULL
+- filtered - those for which `PCAMGF` solved the subspace of the constraints exactly, the others being left to the AMG
+             alone; 0 with another `PC`; may be NULL
+
+  Options Database Key:
+. -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `PCAMGF`, `PCAMGFSetFilterActive()`, `TaoIPFilterGetKSPIterations()`
+@*/
+PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *filtered)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetFilterUse_C", (Tao, PetscInt *, PetscInt *), (tao, systems, filtered));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` had to be shifted to be convex enough
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameters:
++ steps   - Newton steps taken with H + delta M_u, delta > 0; may be NULL
+. retries - linear systems solved in vain to find the shifts; may be NULL
+- largest - largest delta a step was taken with, in units of the Hessian over those of M_u; may be NULL
+
+  Level: intermediate
+
+  Note:
+  For the energy of an elastic body a shift tells that the tangent stiffness was not positive definite along a direction:
+  the body was at or past a limit or bifurcation point on the way to its equilibrium.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`
+@*/
+PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt *retries, PetscReal *largest)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetRegularizations_C", (Tao, PetscInt *, PetscInt *, PetscReal *), (tao, steps, retries, largest));
   PetscFunctionReturn(0);
 }

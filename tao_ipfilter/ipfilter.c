@@ -112,6 +112,7 @@ static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(given); k++) PetscCall(VecDestroy(given[k]));
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
   PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(ISDestroy(&ip->fixed));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->ksp_iterations));
@@ -174,6 +175,7 @@ static const RealOption real_options[] = {
   IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
   IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
+  IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
   IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
@@ -216,6 +218,8 @@ static PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->start], IPBarriers[ip->barrier], IPForcings[ip->forcing], IPKKTMeasures[ip->measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)ip->tol, (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->nsystems, ip->nfiltered));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT "\n", ip->nregularized, (double)ip->delta_largest, ip->nretried));
   if (ip->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->reason));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
@@ -250,6 +254,8 @@ static PetscErrorCode CreateKSP(Tao tao)
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)    - Krylov tolerance from the KKT error, or the KSP's own
 . -tao_ipfilter_kkt <relative> (relative,mass)         - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,none)       - constants that follow the units, or stand as they are
+. -tao_ipfilter_filter_switch <10>                     - `PCAMGF` filters once (J^T D J)_ii exceeds this many times H_ii
+                                                         for some i; 0: always
 . -tao_ipfilter_monitor                                - a line an iteration
 - -tao_ipfilter_ksp_type, -tao_ipfilter_pc_type        - solver of the condensed system, `KSPCG` and `PCAMGF` by default
 
@@ -261,6 +267,13 @@ static PetscErrorCode CreateKSP(Tao tao)
 
   `TaoSetHessian()` must give the Hessian of f - DI^T c_I as an assembled matrix, DI being what `TaoGetDualVariables()`
   returns. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
+
+  An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
+  constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of
+  `TaoIPFilterSetPrimalMass()`, is added: `TaoIPFilterGetRegularizations()` tells how often.
+
+  Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
+  gradient that `TaoGetGradient()` returns are zero.
 
   `TaoSetTolerances()` has no effect; convergence is decided by the KKT error alone. Reasons: `TAO_CONVERGED_GATOL`
   (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL` (only within the acceptable tolerance),

@@ -93,7 +93,8 @@ typedef struct {
   PetscBool        shifted;                  /* A's diagonal holds a shift */
   PetscObjectState H_state, H_nonzero;       /* of the H that A was assembled from */
   PetscObjectId    H_id, J_id, JtDJ_id;      /* which H, which Jacobian, and which Jacobian the product came from */
-  PetscObjectState J_state, J_nonzero;       /* of the Jacobian that J, the pattern and the filter came from */
+  PetscObjectState J_state, J_nonzero;       /* of the caller's Jacobian that J and the filter came from */
+  PetscObjectState JtDJ_nonzero;             /* of the caller's Jacobian that the product's pattern came from */
   PetscInt         nrows;                    /* rows of this rank touched by J^T D J */
   PetscInt        *rows;
   IS               filter;                   /* composed on A under PCAMGF_FILTER_KEY */
@@ -119,13 +120,15 @@ typedef struct {
   Vec       xtrial, ctrial, cetrial;
   Vec       xbest, sbest, zbest, lambdabest, ybest; /* iterate of smallest KKT error */
   Vec       dxfirst, dyfirst, rcsoc, cesoc;         /* second-order correction: the direction before it, its residuals */
-  PetscReal ftrial;
+  PetscReal ftrial, fbest;
   Vec       xwork, xwork2, cwork, cwork2, rhs;
   Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
   Vec       warm_s, warm_z;          /* the caller's starting values */
   Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
+  PetscReal stiffness_mean;          /* harmonic mean of rho, weighted */
   PetscReal jnorm;                   /* largest row sum of |J| at the start */
   Vec       hdiag;                   /* |diagonal of H| at the start */
+  IS        fixed;                   /* variables of this rank with equal bounds; NULL if no rank has one */
   PetscInt  mi;                      /* inequality constraints, all ranks */
   PetscReal f0, gradient0, length0, equality0, xsize0; /* objective, norm of its gradient and sizes of c_I, c_E and x at the start */
 
@@ -153,11 +156,16 @@ typedef struct {
 
   /* regularization */
   PetscReal delta, delta_last, hscale;
+  PetscInt  nregularized, nretried;  /* steps taken with a shifted Hessian, and systems solved to find the shift */
+  PetscReal delta_largest;           /* largest shift a step was taken with */
   PetscReal delta_c;                 /* regularization of dependent equality constraints */
 
   /* record */
   PetscInt  niter_ksp, max_ksp, *ksp_iterations; /* Krylov iterations of every linear solve */
+  PetscInt  most_ksp;                            /* most of them in a solve that gave a direction */
   PetscReal linear_residual;                     /* ||b - A d|| of the last solve */
+  PetscInt  nsystems, nfiltered;                 /* condensed matrices, and those preconditioned with the filter */
+  PetscBool filtered;                            /* the present one is */
   PetscReal best_error;
   PetscInt  nacceptable;                         /* iterates in a row within the acceptable tolerance */
   KSPConvergedReason ksp_reason;                 /* of the last solve */
@@ -182,9 +190,15 @@ typedef struct {
   PetscReal    kappa_soc;
   PetscReal    forcing_max, forcing_reduce, forcing_last;
   PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal    filter_threshold;
+  PetscReal    filter_threshold, filter_switch;
   PetscReal    bound_push, unbounded_factor;
 } TAO_IPFILTER;
+
+/* No value of a function there: NaN, or infinite, be it C's infinity or PETSc's large number */
+static inline PetscBool IPUndefined(PetscReal value)
+{
+  return (PetscBool)(PetscIsInfOrNanReal(value) || PetscAbsReal(value) >= PETSC_INFINITY);
+}
 
 PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
 
@@ -202,6 +216,13 @@ PETSC_INTERN PetscErrorCode IPPairProducts(const IPPair *, PetscReal, PetscReal 
 PETSC_INTERN PetscErrorCode IPPairStepProducts(const IPPair *, PetscReal, PetscReal, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairSafeguard(IPPair *, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairMoveTrial(IPPair *, PetscReal);
+
+/* fixed.c */
+PETSC_INTERN PetscBool      IPIsFixed(PetscScalar, PetscScalar);
+PETSC_INTERN PetscErrorCode IPFixedSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPFixedJacobian(Tao, Mat, Mat *);
+PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
 
 /* bounds.c */
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
@@ -229,6 +250,10 @@ PETSC_INTERN PetscErrorCode IPCondenseJacobian(Tao);
 PETSC_INTERN PetscErrorCode IPCondenseRHS(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPBackSubstitute(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
+
+/* subspace.c */
+PETSC_INTERN PetscErrorCode IPSubspaceFind(Tao, IS *);
+PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 
 /* linsolve.c */
 PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *);

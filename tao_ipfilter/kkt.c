@@ -19,17 +19,19 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
     PetscCall(VecPointwiseMult(ip->xwork2, ip->pair[b].w, ip->pair[b].z));
     PetscCall(VecAXPY(r, b == IP_LOWER ? -1.0 : 1.0, ip->xwork2));
   }
+  PetscCall(IPFixedZero(tao, r));
   PetscFunctionReturn(0);
 }
 
 /* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of H.
-   Its inverse sums the compliances of both sides of a contact, so the softer side decides. */
+   Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves anything
+   (a vertex at the edge of an overlap) counts as no more than 100 times as stiff as the mean: no scale may hang on it. */
 PetscErrorCode IPComputeStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Mat           scaled;
-  PetscScalar  *h, *rho;
-  PetscReal     hmax, cmax;
+  PetscScalar  *h, *rho, sum;
+  PetscReal     hmax, mean;
   PetscInt      n, rstart, rend;
 
   PetscFunctionBegin;
@@ -63,9 +65,11 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   PetscCall(VecRestoreArrayWrite(ip->stiffness, &rho));
   PetscCall(MatDestroy(&scaled));
   PetscCall(VecPointwiseMult(ip->stiffness, ip->stiffness, ip->pair[IP_SLACK].w));
-  PetscCall(VecMax(ip->stiffness, NULL, &cmax));
+  PetscCall(VecDot(ip->stiffness, ip->pair[IP_SLACK].w, &sum));
+  mean               = PetscRealPart(sum) / ip->pair[IP_SLACK].weight;
+  ip->stiffness_mean = mean > 0.0 ? 1.0 / mean : 1.0;
   PetscCall(VecGetArray(ip->stiffness, &rho));
-  for (PetscInt i = 0; i < rend - rstart; i++) rho[i] = cmax > 0.0 ? 1.0 / PetscMax(PetscRealPart(rho[i]), 1e-8 * cmax) : 1.0;
+  for (PetscInt i = 0; i < rend - rstart; i++) rho[i] = mean > 0.0 ? 1.0 / PetscMax(PetscRealPart(rho[i]), 1e-2 * mean) : 1.0;
   PetscCall(VecRestoreArray(ip->stiffness, &rho));
   PetscFunctionReturn(0);
 }
@@ -99,15 +103,14 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPScale      *s  = &ip->scale;
-  PetscReal     rho, c, t;
+  PetscReal     c, t;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(ip->c, NORM_INFINITY, &c));
   PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
-  PetscCall(VecNorm(ip->stiffness, NORM_INFINITY, &rho));
   s->length   = PetscMax(Within(PetscMax(c, t), IP_MOST * ip->length0), 10.0 * IP_SMALL * PetscMax(ip->length0, ip->jnorm * xsize));
-  s->pressure = PetscMax(s->pressure, IP_SMALL * rho * s->length);
+  s->pressure = PetscMax(s->pressure, IP_SMALL * ip->stiffness_mean * s->length);
   s->product  = s->length * s->pressure;
   PetscFunctionReturn(0);
 }

@@ -113,7 +113,8 @@ PetscErrorCode IPFractionToBoundary(Tao tao, PetscReal tau, PetscReal *primal, P
   PetscFunctionReturn(0);
 }
 
-/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number */
+/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the domain of
+   the objective nothing else is evaluated. */
 static PetscErrorCode TrialPoint(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -123,10 +124,12 @@ static PetscErrorCode TrialPoint(Tao tao, PetscReal alpha, PetscReal *theta, Pet
   PetscCall(IPPairMoveTrial(&ip->pair[IP_SLACK], alpha));
   PetscCall(IPBoundsDistance(tao, ip->xtrial, PETSC_TRUE));
   PetscCall(TaoComputeObjective(tao, ip->xtrial, &ip->ftrial));
+  *finite = PETSC_FALSE;
+  if (IPUndefined(ip->ftrial)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
   PetscCall(Violation(tao, ip->ctrial, ip->pair[IP_SLACK].trial, ip->cetrial, theta));
   PetscCall(BarrierFunction(tao, ip->ftrial, PETSC_TRUE, phi));
-  *finite = (PetscBool)(!PetscIsInfOrNanReal(*theta) && !PetscIsInfOrNanReal(*phi));
+  *finite = (PetscBool)(!IPUndefined(*theta) && !IPUndefined(*phi));
   PetscFunctionReturn(0);
 }
 

@@ -28,6 +28,20 @@ static PetscErrorCode TrueResidual(Tao tao, Vec b, Vec d, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
+/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter or the
+   first iterations correct does no harm. */
+static PetscErrorCode CheckGuess(Tao tao, Vec b, Vec d, PetscReal bnorm, PetscReal dtol)
+{
+  PetscReal residual, size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(d, NORM_INFINITY, &size));
+  if (size == 0.0) PetscFunctionReturn(0);
+  PetscCall(TrueResidual(tao, b, d, &residual));
+  if (!(residual < 0.1 * dtol * bnorm)) PetscCall(VecSet(d, 0.0));
+  PetscFunctionReturn(0);
+}
+
 /* Whether a direction that the KSP did not call converged may be used all the same. Rounding, too, makes CG meet a
    negative product; a residual within reach of the target settles that the direction solves the system. */
 static PetscBool Usable(const TAO_IPFILTER *ip, KSPConvergedReason reason, PetscReal target, PetscReal bnorm)
@@ -37,6 +51,15 @@ static PetscBool Usable(const TAO_IPFILTER *ip, KSPConvergedReason reason, Petsc
   if (reason == KSP_DIVERGED_PC_FAILED) return PETSC_FALSE;
   if (reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_BREAKDOWN) return (PetscBool)(ip->linear_residual <= PetscMax(target, ip->forcing_max * bnorm));
   return (PetscBool)(ip->linear_residual <= 10.0 * target);
+}
+
+/* Most iterations of the next solve: an indefinite matrix may keep a Krylov method busy for long without showing a
+   negative product. Ten times the most that a successful solve has taken is taken as a sign of it. */
+static PetscInt IterationLimit(const TAO_IPFILTER *ip, PetscInt given)
+{
+  const PetscInt least = 500, factor = 10;
+
+  return ip->most_ksp ? PetscMin(given, PetscMax(least, factor * ip->most_ksp)) : given;
 }
 
 /*
@@ -58,9 +81,11 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   PetscCall(KSPGetInitialGuessNonzero(tao->ksp, &guess));
   PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct)); /* takes no guess */
+  PetscCall(VecNorm(b, NORM_2, &bnorm));
   if (ip->forcing == IP_FORCING_ADAPTIVE) {
+    PetscCall(CheckGuess(tao, b, d, bnorm, dtol));
     PetscCall(KSPSetInitialGuessNonzero(tao->ksp, direct ? PETSC_FALSE : PETSC_TRUE));
-    PetscCall(KSPSetTolerances(tao->ksp, PETSC_MACHINE_EPSILON, target, dtol, maxits));
+    PetscCall(KSPSetTolerances(tao->ksp, PETSC_MACHINE_EPSILON, target, dtol, IterationLimit(ip, maxits)));
   }
   PetscCall(KSPSolve(tao->ksp, b, d));
   PetscCall(KSPSetTolerances(tao->ksp, rtol, abstol, dtol, maxits));
@@ -69,8 +94,8 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   PetscCall(KSPGetIterationNumber(tao->ksp, &its));
   PetscCall(RecordIterations(tao, its));
   PetscCall(TrueResidual(tao, b, d, &ip->linear_residual));
-  PetscCall(VecNorm(b, NORM_2, &bnorm));
   *usable = Usable(ip, reason, target, bnorm);
+  if (*usable) ip->most_ksp = PetscMax(ip->most_ksp, its);
   if (reason < 0) PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)bnorm));
   /* a factorization that failed is not to be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KSPReset(tao->ksp));

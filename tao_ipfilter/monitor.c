@@ -2,7 +2,8 @@
 #include "ipfilterimpl.h"
 #include <stdarg.h>
 
-/* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points, Krylov iterations */
+/* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points, Krylov iterations
+   (f: with the filter) */
 PetscErrorCode IPMonitor(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -11,11 +12,11 @@ PetscErrorCode IPMonitor(Tao tao)
 
   PetscFunctionBegin;
   if (!ip->monitor) PetscFunctionReturn(0);
-  if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp  kkt\n"));
+  if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp   kkt\n"));
   if (tao->niter && ip->delta > 0.0) PetscCall(PetscSNPrintf(rg, sizeof(rg), "%5.1f", (double)PetscLog10Real(ip->delta)));
   else PetscCall(PetscStrncpy(rg, "    -", sizeof(rg)));
-  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT "  %8.2e\n", tao->niter, (double)ip->f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0,
-                        (double)ip->dx_norm, rg, (double)ip->alpha_dual, (double)ip->alpha_primal, ip->step_tag, ip->nls, tao->ksp_its, (double)ip->kkt.error));
+  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT "%c  %8.2e\n", tao->niter, (double)ip->f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0,
+                        (double)ip->dx_norm, rg, (double)ip->alpha_dual, (double)ip->alpha_primal, ip->step_tag, ip->nls, tao->ksp_its, ip->filtered ? 'f' : ' ', (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }
 

@@ -104,16 +104,25 @@ static PetscErrorCode SetTargets(Tao tao, PetscReal mu, PetscReal most)
   PetscFunctionReturn(0);
 }
 
-/* Assembles the system with the present delta and solves it; in Mehrotra's method first for mu = 0, whose step chooses
-   mu and gives the second-order term and the guess of the direction proper */
-static PetscErrorCode SolveOnce(Tao tao, PetscBool *usable)
+/* The matrix with the present delta */
+static PetscErrorCode AssembleSystem(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], ip->cwork));
+  PetscCall(IPCondenseMatrix(tao, ip->cwork));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
+   guess of the direction proper */
+static PetscErrorCode SolveSystem(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscBool     matrix = PETSC_TRUE;
 
   PetscFunctionBegin;
-  if (ip->mi) PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], ip->cwork));
-  PetscCall(IPCondenseMatrix(tao, ip->cwork));
   PetscCall(VecSet(ip->dx, 0.0));
   if (ip->free_mu) {
     PetscCall(SetTargets(tao, 0.0, 0.0));
@@ -161,24 +170,49 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
+/* The shift below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve there,
+   and nothing that an AMG could be built from. Zero where the present A, not shifted, has none. */
+static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     smallest;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork));
+  if (ip->primal_mass) PetscCall(VecPointwiseDivide(ip->xwork, ip->xwork, ip->primal_mass));
+  PetscCall(VecMin(ip->xwork, NULL, &smallest));
+  *least = PetscMax(-smallest, 0.0);
+  PetscFunctionReturn(0);
+}
+
 /* The direction, with delta raised until the linear solve and the curvature (or the inertia) are in order */
 PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  PetscReal     unit = 1.0;
+  PetscReal     unit = 1.0, least = 0.0;
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
   *ok       = PETSC_FALSE;
   ip->delta = ip->delta_c = 0.0;
-  while (ip->delta <= ip->delta_max * unit && !*ok) {
+  while (ip->delta <= ip->delta_max * unit) {
     PetscBool usable = PETSC_FALSE;
 
-    PetscCall(SolveOnce(tao, &usable));
-    if (usable && ip->me) *ok = PETSC_TRUE;
-    else if (usable) PetscCall(CurvatureTest(tao, ok));
-    if (!*ok) ip->delta = NextDelta(ip, unit);
+    PetscCall(AssembleSystem(tao));
+    if (ip->delta == 0.0 && !ip->me) PetscCall(LeastDelta(tao, &least));
+    if (ip->delta > least || least == 0.0) {
+      PetscCall(SolveSystem(tao, &usable));
+      if (usable && ip->me) *ok = PETSC_TRUE;
+      else if (usable) PetscCall(CurvatureTest(tao, ok));
+      if (*ok) break;
+      ip->nretried++;
+    }
+    ip->delta = NextDelta(ip, unit);
+    while (ip->delta <= least) ip->delta = NextDelta(ip, unit);
   }
-  if (*ok && ip->delta > 0.0) ip->delta_last = ip->delta;
+  if (!*ok || ip->delta == 0.0) PetscFunctionReturn(0);
+  ip->delta_last    = ip->delta;
+  ip->delta_largest = PetscMax(ip->delta_largest, ip->delta);
+  ip->nregularized++;
   PetscFunctionReturn(0);
 }

@@ -124,20 +124,21 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The penalized objective f + 1/2 sum m rho min(c, 0)^2 at x, whose constraint values go into c */
+/* The penalized objective f + 1/2 sum m rho min(c, 0)^2 at x, whose f goes into ftrial and constraint values into c */
 static PetscErrorCode PenaltyObjective(Tao tao, Vec x, Vec c, PetscReal *value)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     f;
   PetscScalar   penalty;
 
   PetscFunctionBegin;
-  PetscCall(TaoComputeObjective(tao, x, &f));
+  PetscCall(TaoComputeObjective(tao, x, &ip->ftrial));
+  *value = ip->ftrial;
+  if (IPUndefined(*value)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, x, c, ip->cetrial));
   PetscCall(PenaltyPressure(tao, c, ip->cwork));
   PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
   PetscCall(VecDot(ip->cwork, c, &penalty));
-  *value = f - 0.5 * PetscRealPart(penalty);
+  *value -= 0.5 * PetscRealPart(penalty);
   PetscFunctionReturn(0);
 }
 
@@ -166,11 +167,12 @@ static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
   for (PetscInt k = 0; k < 4 && !*moved; k++, alpha *= 0.5) {
     PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
     PetscCall(PenaltyObjective(tao, ip->xtrial, ip->ctrial, &after));
-    *moved = (PetscBool)(!PetscIsInfOrNanReal(after) && after <= before);
+    *moved = (PetscBool)(!IPUndefined(after) && after <= before);
   }
   if (!*moved) PetscFunctionReturn(0);
   PetscCall(VecCopy(ip->xtrial, tao->solution));
   PetscCall(VecCopy(ip->ctrial, ip->c));
+  ip->f = ip->ftrial;
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);

@@ -168,6 +168,48 @@ static PetscErrorCode CheckAutomaticLag(void)
   PetscFunctionReturn(0);
 }
 
+/* The filter off for one operator: the AMG alone; then on again, with the symbolic factorization it had */
+static PetscErrorCode CheckSwitch(void)
+{
+  Context      c;
+  PC           amg;
+  Vec          alone;
+  PetscReal    difference;
+  PetscInt     before, after;
+  PCAMGFCounts counts;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "switch\n"));
+  PetscCall(SymbolicFactorizations(&before));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(PCAMGFSetFilterActive(c.pc, PETSC_FALSE));
+  c.problem.highest = 0.5;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "off"));
+  PetscCall(PCAMGFSetFilterActive(c.pc, PETSC_TRUE));
+  PetscCall(Solve(&c, "on, the same values"));
+  PetscCall(PCAMGFSetFilterActive(c.pc, PETSC_FALSE));
+  c.problem.highest = 0.4;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "off"));
+  PetscCall(VecDuplicate(c.b, &alone));
+  PetscCall(PCApply(c.pc, c.b, c.x));
+  PetscCall(PCAMGFGetAMGPC(c.pc, &amg));
+  PetscCall(PCApply(amg, c.b, alone));
+  PetscCall(RelativeDifference(c.x, alone, &difference));
+  PetscCall(ReportBound(c.comm, "  off: the AMG's application", difference, 1e-14));
+  PetscCall(VecDestroy(&alone));
+  PetscCall(PCAMGFSetFilterActive(c.pc, PETSC_TRUE));
+  c.problem.highest = 6.0;
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "on"));
+  PetscCall(PCAMGFGetCounts(c.pc, &counts));
+  PetscCall(SymbolicFactorizations(&after));
+  PetscCall(PetscPrintf(c.comm, "  filter solves: %s, symbolic factorizations: %" PetscInt_FMT "\n", counts.filter_applies ? "yes" : "none", after - before));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
 /* PCReset(), then an operator of another size */
 static PetscErrorCode CheckReset(void)
 {
@@ -271,6 +313,7 @@ int main(int argc, char **argv)
   PetscCall(CheckFixedLag(PC_AMGF_BFB, 3));
   PetscCall(CheckFixedLag(PC_AMGF_FBF, -1));
   PetscCall(CheckAutomaticLag());
+  PetscCall(CheckSwitch());
   PetscCall(CheckReset());
   PetscCall(CheckAmat());
   PetscCall(CheckFailure());

@@ -1,4 +1,5 @@
-static char help[] = "Contact geometry: overlaps of facets against independent areas and integrals, degenerate facets, frozen derivatives.\n";
+static char help[] = "Contact geometry: overlaps of facets against independent areas and integrals, degenerate facets, frozen derivatives.\n\
+  -pairs <n> : adversarial pairs of facets, on all ranks together\n";
 
 #include "../src/contact/contactimpl.h"
 
@@ -440,12 +441,317 @@ static PetscErrorCode TestLimits(void)
   PetscFunctionReturn(0);
 }
 
+/*
+  Exact overlaps in extended precision, by an algorithm of another kind: slabs between all places where an edge begins, ends
+  or crosses another one. Between them the height that two triangles share is linear.
+*/
+typedef long double Extended;
+
+static int CompareExtended(const void *a, const void *b)
+{
+  const Extended d = *(const Extended *)a - *(const Extended *)b;
+
+  return d < 0 ? -1 : d > 0;
+}
+
+/* Where the vertical line at x leaves the triangle: false where it does not meet it */
+static PetscBool Chord(Extended t[3][2], Extended x, Extended *low, Extended *high)
+{
+  PetscBool meets = PETSC_FALSE;
+
+  for (PetscInt e = 0; e < 3; ++e) {
+    const Extended *a = t[e], *b = t[(e + 1) % 3];
+    Extended        y;
+
+    if ((a[0] < x) == (b[0] < x)) continue;
+    y     = a[1] + (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0]));
+    *low  = meets && *low < y ? *low : y;
+    *high = meets && *high > y ? *high : y;
+    meets = PETSC_TRUE;
+  }
+  return meets;
+}
+
+static Extended TriangleOverlap(Extended s[3][2], Extended t[3][2])
+{
+  Extended x[15], area = 0;
+  PetscInt n = 0;
+
+  for (PetscInt v = 0; v < 3; ++v) {
+    x[n++] = s[v][0];
+    x[n++] = t[v][0];
+  }
+  for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt j = 0; j < 3; ++j) {
+      const Extended d[2] = {s[(i + 1) % 3][0] - s[i][0], s[(i + 1) % 3][1] - s[i][1]}, e[2] = {t[(j + 1) % 3][0] - t[j][0], t[(j + 1) % 3][1] - t[j][1]};
+      const Extended det = d[0] * e[1] - d[1] * e[0], u = ((t[j][0] - s[i][0]) * e[1] - (t[j][1] - s[i][1]) * e[0]) / det;
+
+      if (det != 0 && u > 0 && u < 1) x[n++] = s[i][0] + u * d[0];
+    }
+  }
+  qsort(x, n, sizeof(Extended), CompareExtended);
+  for (PetscInt k = 0; k + 1 < n; ++k) {
+    const Extended middle = 0.5L * (x[k] + x[k + 1]);
+    Extended       low[2], high[2], height;
+
+    if (!Chord(s, middle, &low[0], &high[0]) || !Chord(t, middle, &low[1], &high[1])) continue;
+    height = (high[0] < high[1] ? high[0] : high[1]) - (low[0] > low[1] ? low[0] : low[1]);
+    if (height > 0) area += height * (x[k + 1] - x[k]);
+  }
+  return area;
+}
+
+static Extended Signed(Extended t[3][2])
+{
+  return (t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) - (t[2][0] - t[0][0]) * (t[1][1] - t[0][1]);
+}
+
+/* Any quadrilaterals: each is the sum of two triangles with signs */
+static Extended QuadOverlap(Extended p[4][2], Extended q[4][2])
+{
+  Extended area = 0;
+
+  for (PetscInt i = 0; i < 2; ++i) {
+    for (PetscInt j = 0; j < 2; ++j) {
+      Extended s[3][2], t[3][2], a, b;
+
+      for (PetscInt v = 0; v < 3; ++v) {
+        for (PetscInt d = 0; d < 2; ++d) {
+          s[v][d] = p[v ? v + i : 0][d];
+          t[v][d] = q[v ? v + j : 0][d];
+        }
+      }
+      a = Signed(s);
+      b = Signed(t);
+      area += (a < 0 ? -1 : a > 0) * (b < 0 ? -1 : b > 0) * TriangleOverlap(s, t);
+    }
+  }
+  return area;
+}
+
+/* Vertices of both facets in the plane of the first */
+static void ProjectExtended(const PetscReal x1[12], const PetscReal x2[12], Extended p[4][2], Extended q[4][2])
+{
+  Extended d[2][3], n[3], s[3], tt = 0, ss = 0;
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    d[0][c] = (Extended)x1[6 + c] - x1[c];
+    d[1][c] = (Extended)x1[9 + c] - x1[3 + c];
+  }
+  for (PetscInt c = 0; c < 3; ++c) n[c] = d[0][(c + 1) % 3] * d[1][(c + 2) % 3] - d[0][(c + 2) % 3] * d[1][(c + 1) % 3];
+  for (PetscInt c = 0; c < 3; ++c) s[c] = n[(c + 1) % 3] * d[0][(c + 2) % 3] - n[(c + 2) % 3] * d[0][(c + 1) % 3];
+  for (PetscInt c = 0; c < 3; ++c) {
+    tt += d[0][c] * d[0][c];
+    ss += s[c] * s[c];
+  }
+  for (PetscInt a = 0; a < 4; ++a) {
+    p[a][0] = p[a][1] = q[a][0] = q[a][1] = 0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      const Extended y1 = (Extended)x1[3 * a + c] - x1[c], y2 = (Extended)x2[3 * (3 - a) + c] - x1[c];
+
+      p[a][0] += y1 * d[0][c] / sqrtl(tt);
+      p[a][1] += y1 * s[c] / sqrtl(ss);
+      q[a][0] += y2 * d[0][c] / sqrtl(tt);
+      q[a][1] += y2 * s[c] / sqrtl(ss);
+    }
+  }
+}
+
+/* What pairs may do to one another. p: the nonmortar facet, q: the mortar facet, both counterclockwise; noise is often exactly 0 */
+enum {
+  PAIR_RANDOM,
+  PAIR_COLLINEAR, /* an edge of q on the line of one of p */
+  PAIR_VERTEX,    /* a vertex of q on a vertex or an edge of p */
+  PAIR_PARALLEL,  /* q is p, hardly turned and shifted */
+  PAIR_SLIVER,    /* one or both are squeezed, in directions of their own */
+  PAIR_TRIANGLE,  /* two vertices coincide, in one or both */
+  PAIR_REFLEX,    /* one or both have a reflex corner, or nearly a straight one */
+  PAIR_WARPED,    /* out of plane, from rounding to much */
+  PAIR_KINDS
+};
+
+static PetscReal Power(PetscRandom r, PetscReal low, PetscReal high)
+{
+  return PetscPowReal(10.0, Random(r, low, high));
+}
+
+static PetscReal Noise(PetscRandom r)
+{
+  return Random(r, 0, 1) < 0.4 ? 0.0 : Random(r, -1, 1) * Power(r, -17, -6);
+}
+
+static void Squeeze(PetscRandom r, PetscReal p[4][2])
+{
+  const PetscReal angle = Random(r, 0, 7), c = PetscCosReal(angle), s = PetscSinReal(angle), factor = 1.0 - Power(r, -9, -1);
+
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscReal along = c * p[a][0] + s * p[a][1];
+
+    p[a][0] -= factor * along * c;
+    p[a][1] -= factor * along * s;
+  }
+}
+
+static void Dent(PetscRandom r, PetscReal p[4][2])
+{
+  const PetscInt  a = (PetscInt)Random(r, 0, 3.999);
+  const PetscReal t = Random(r, 0, 1) < 0.5 ? 0.5 : Random(r, 0.2, 0.8), depth = Random(r, 0, 1) < 0.5 ? Noise(r) : Random(r, 0, 0.3);
+
+  for (PetscInt d = 0; d < 2; ++d) {
+    const PetscReal straight = (1 - t) * p[(a + 3) % 4][d] + t * p[(a + 1) % 4][d];
+
+    p[a][d] = straight + depth * (p[(a + 2) % 4][d] - straight);
+  }
+}
+
+static void AdversarialPair(PetscRandom r, PetscInt kind, PetscReal p[4][2], PetscReal q[4][2])
+{
+  const PetscInt  a = (PetscInt)Random(r, 0, 3.999), b = (PetscInt)Random(r, 0, 3.999), which = (PetscInt)Random(r, 1, 3.999);
+  const PetscReal t = Random(r, 0, 1) < 0.3 ? 0.0 : Random(r, 0, 1), u = Random(r, -0.5, 1.5);
+
+  RandomConvex(r, p);
+  RandomConvex(r, q);
+  if (kind == PAIR_COLLINEAR) {
+    const PetscReal angle = PetscAtan2Real(p[(a + 1) % 4][1] - p[a][1], p[(a + 1) % 4][0] - p[a][0]) - PetscAtan2Real(q[(b + 1) % 4][1] - q[b][1], q[(b + 1) % 4][0] - q[b][0]) + (which == 1 ? PETSC_PI : 0.0) + Noise(r);
+    const PetscReal c = PetscCosReal(angle), s = PetscSinReal(angle), from[2] = {q[b][0], q[b][1]};
+
+    for (PetscInt v = 0; v < 4; ++v) {
+      const PetscReal dx = q[v][0] - from[0], dy = q[v][1] - from[1];
+
+      q[v][0] = p[a][0] + u * (p[(a + 1) % 4][0] - p[a][0]) + c * dx - s * dy;
+      q[v][1] = p[a][1] + u * (p[(a + 1) % 4][1] - p[a][1]) + s * dx + c * dy;
+    }
+  }
+  if (kind == PAIR_VERTEX) {
+    const PetscReal from[2] = {q[b][0], q[b][1]};
+
+    for (PetscInt v = 0; v < 4; ++v) {
+      for (PetscInt d = 0; d < 2; ++d) q[v][d] += p[a][d] + t * (p[(a + 1) % 4][d] - p[a][d]) - from[d];
+    }
+  }
+  if (kind == PAIR_PARALLEL) {
+    const PetscReal angle = Noise(r), dx = Noise(r), dy = Noise(r), scale = 1.0 + Noise(r);
+
+    for (PetscInt v = 0; v < 4; ++v) {
+      const PetscReal *w = p[(v + a) % 4];
+
+      q[v][0] = scale * (w[0] - angle * w[1]) + dx;
+      q[v][1] = scale * (w[1] + angle * w[0]) + dy;
+    }
+  }
+  for (PetscInt side = 0; side < 2; ++side) {
+    PetscReal(*x)[2] = side ? q : p;
+
+    if (!(which >> side & 1)) continue;
+    if (kind == PAIR_SLIVER) Squeeze(r, x);
+    if (kind == PAIR_REFLEX) Dent(r, x);
+    if (kind == PAIR_TRIANGLE) {
+      const PetscReal part = PetscAbsReal(Noise(r));
+
+      for (PetscInt d = 0; d < 2; ++d) x[a][d] = x[(a + 1) % 4][d] + part * (x[a][d] - x[(a + 1) % 4][d]);
+    }
+  }
+}
+
+/* Length by which the area of a facet's overlaps may change with the rounding of its vertices: the longest diagonal or edge */
+static PetscReal Diameter(const PetscReal x[12])
+{
+  PetscReal longest = 0.0;
+
+  for (PetscInt a = 0; a < 4; ++a) {
+    for (PetscInt b = 0; b < a; ++b) longest = PetscMax(longest, PetscSqr(x[3 * a] - x[3 * b]) + PetscSqr(x[3 * a + 1] - x[3 * b + 1]) + PetscSqr(x[3 * a + 2] - x[3 * b + 2]));
+  }
+  return PetscSqrtReal(longest);
+}
+
+/* Adds one pair's errors: area, partition of unity of the rows, of the mortar shape functions; infinite where something is not finite */
+static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal error[3], PetscInt *noverlaps)
+{
+  const ContactOverlapLimits all = {-1e-3, 0.0, 1e30, 1e30};
+  const PetscReal            normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  PetscReal                  n1[3], n2[3], exact, size, sum[2] = {0, 0};
+  Extended                   p[4][2], q[4][2];
+  ContactOverlap             o;
+  ContactIntegrals           m;
+
+  if (!ContactFacetNormal(x1, n1) || !ContactFacetNormal(x2, n2)) return;
+  if (n1[0] * n2[0] + n1[1] * n2[1] + n1[2] * n2[2] > -2e-3) return;
+  ProjectExtended(x1, x2, p, q);
+  exact = (PetscReal)QuadOverlap(p, q);
+  size  = PetscSqr(PetscMin(Diameter(x1), Diameter(x2)));
+  if (!ContactOverlapFind(x1, x2, &all, &o)) {
+    error[0] = PetscMax(error[0], exact / size);
+    return;
+  }
+  ++*noverlaps;
+  ContactIntegrate(&o, x1, x2, normals, &m);
+  for (PetscInt i = 0; i < 16; ++i) {
+    sum[0] += m.D[i / 4][i % 4];
+    sum[1] += m.M[i / 4][i % 4];
+  }
+  error[0] = PetscMax(error[0], PetscAbsReal(o.area - exact) / size);
+  for (PetscInt k = 0; k < 2; ++k) error[1 + k] = PetscMax(error[1 + k], PetscAbsReal(sum[k] - o.area) / o.area);
+  for (PetscInt k = 0; k < 4; ++k) sum[0] += m.gap[k];
+  if (PetscIsInfOrNanReal(sum[0] + sum[1] + exact)) error[0] = PETSC_MAX_REAL;
+}
+
+/* Pairs of every kind, turned in space or not; split over the ranks */
+static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
+{
+  static const char *const names[PAIR_KINDS] = {"random", "collinear edges", "touching vertices", "nearly the same", "slivers", "triangles", "reflex corners", "warped"};
+  PetscMPIInt              rank, size;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCall(PetscRandomSetSeed(r, 1000 + rank));
+  PetscCall(PetscRandomSeed(r));
+  for (PetscInt kind = 0; kind < PAIR_KINDS; ++kind) {
+    const PetscInt n = npairs / PAIR_KINDS;
+    PetscReal      error[3] = {0, 0, 0};
+    PetscInt       noverlaps = 0;
+
+    for (PetscInt trial = rank; trial < n; trial += size) {
+      PetscReal p[4][2], q[4][2], x1[12], x2[12];
+
+      AdversarialPair(r, kind, p, q);
+      Facet((const PetscReal(*)[2])p, 0.0, PETSC_TRUE, x1);
+      Facet((const PetscReal(*)[2])q, Random(r, -0.3, 0.3), PETSC_FALSE, x2);
+      if (kind == PAIR_WARPED) {
+        const PetscReal warp = Power(r, -16, 0);
+
+        for (PetscInt a = 0; a < 4; ++a) {
+          x1[3 * a + 2] += warp * Random(r, -1, 1);
+          x2[3 * a + 2] += warp * Random(r, -1, 1);
+        }
+      }
+      if (trial % 3) {
+        Motion motion;
+
+        RandomMotion(r, &motion);
+        Move(&motion, x1);
+        Move(&motion, x2);
+      }
+      CheckPair(x1, x2, error, &noverlaps);
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 3, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &noverlaps, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "adversarial facets, %s: %s\n", names[kind], noverlaps > n / 10 ? "more than a tenth overlap" : "too few overlaps"));
+    PetscCall(Report("  area", error[0], 1e-12));
+    PetscCall(Report("  weights of the rows", error[1], 1e-12));
+    PetscCall(Report("  weights of the mortar vertices", error[2], 1e-12));
+  }
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscRandom r;
+  PetscInt    npairs = 20000;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-pairs", &npairs, NULL));
   PetscCall(PetscRandomCreate(PETSC_COMM_SELF, &r));
   PetscCall(TestRandomAreas(r));
   PetscCall(TestTiling(r));
@@ -453,6 +759,7 @@ int main(int argc, char **argv)
   PetscCall(TestDegenerate(r));
   PetscCall(TestWarped(r));
   PetscCall(TestLimits());
+  PetscCall(TestAdversarial(r, npairs));
   PetscCall(PetscRandomDestroy(&r));
   PetscCall(PetscFinalize());
   return 0;
@@ -461,6 +768,7 @@ int main(int argc, char **argv)
 /*TEST
 
    test:
-      suffix: 1
+      nsize: {{1 3}}
+      output_file: output/contact_clip_1.out
 
 TEST*/

@@ -54,10 +54,12 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
 int main(int argc, char **argv)
 {
   static char       name[2][8] = {"lower", "upper"};
-  const ContactPair good       = {"lower.zmax", "upper.zmin"};
-  const ContactPair mortar     = {"lower.top", "upper.zmin"};
-  const ContactPair nonmortar  = {"lower.zmax", "middle.zmin"};
-  const ContactPair twice      = {"lower.zmax", "lower.zmax"};
+  const ContactPair good       = {"lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
+  const ContactPair mortar     = {"lower.top", "upper.zmin", GAP_MORTAR, 0.0};
+  const ContactPair nonmortar  = {"lower.zmax", "middle.zmin", GAP_MORTAR, 0.0};
+  const ContactPair twice      = {"lower.zmax", "lower.zmax", GAP_MORTAR, 0.0};
+  const ContactPair near       = {"lower.zmax", "upper.zmin", GAP_NODE, -0.5};
+  const ContactPair unknown    = {"lower.zmax", "upper.zmin", (GapType)7, 0.0};
   const ContactPair same[2]    = {good, good};
   SceneBody         body[2];
   DM                dm;
@@ -70,6 +72,8 @@ int main(int argc, char **argv)
   PetscCall(Attempt(dm, 1, &mortar, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &nonmortar, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &twice, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &near, NULL, NULL, PETSC_TRUE));
+  PetscCall(Attempt(dm, 1, &unknown, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 2, same, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &good, NULL, NULL, PETSC_FALSE));
   PetscCall(Attempt(dm, 1, &good, "-contact_search_distance", "-1", PETSC_TRUE));

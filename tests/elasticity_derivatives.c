@@ -1,4 +1,4 @@
-static char help[] = "Energy, force and tangent of two bodies with vertices moved off the grid: rigid motions, differences, symmetry, prescribed rows.\n\n";
+static char help[] = "Energy, force and tangent of two bodies with vertices moved off the grid: rigid motions, differences, symmetry, objectivity, prescribed rows.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -40,6 +40,31 @@ static void Direction(const PetscReal x[3], PetscReal u[3])
   u[0] = PetscCosReal(5 * x[1] + x[2]);
   u[1] = PetscSinReal(4 * x[0] - x[2]);
   u[2] = PetscCosReal(3 * x[0] * x[1]) - 0.5;
+}
+
+/* Rotation by 2.1 about (1, 2, 2)/3: R = c I + (1 - c) n n^T + s [n] */
+static const PetscReal angle = 2.1, axis[3] = {1. / 3, 2. / 3, 2. / 3};
+
+static void Rotate(const PetscReal x[3], PetscReal y[3])
+{
+  const PetscReal c = PetscCosReal(angle), s = PetscSinReal(angle), along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
+
+    y[i] = c * x[i] + (1 - c) * along * axis[i] + s * (axis[j] * x[k] - axis[k] * x[j]);
+  }
+}
+
+/* The smooth deformation followed by the rotation */
+static void SmoothRotated(const PetscReal x[3], PetscReal u[3])
+{
+  PetscReal y[3];
+
+  Smooth(x, u);
+  for (PetscInt i = 0; i < 3; ++i) y[i] = x[i] + u[i];
+  Rotate(y, u);
+  for (PetscInt i = 0; i < 3; ++i) u[i] -= x[i];
 }
 
 /* Force and energy of a rigid motion, beside the force of a unit field */
@@ -112,6 +137,48 @@ static PetscErrorCode CheckSymmetry(Mat K, Vec a, Vec b)
   PetscCall(VecDot(product, b, &ba));
   PetscCall(ProblemReport("asymmetry of the tangent, relative", PetscAbsScalar(ab - ba) / PetscAbsScalar(ab), 1e-13));
   PetscCall(VecDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
+/* A rotation after the deformation leaves the energy and turns the force; there too force and tangent are derivatives */
+static PetscErrorCode CheckRotated(Elasticity e, DM dm, Vec u, Vec d, Mat K)
+{
+  Vec          rotated, f, fr;
+  PetscReal    energy, turned, error, scale;
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBeginUser;
+  PetscCall(ProblemInterpolate(dm, SmoothRotated, &rotated));
+  PetscCall(VecDuplicate(u, &f));
+  PetscCall(VecDuplicate(u, &fr));
+  PetscCall(ElasticityEnergy(e, u, &energy));
+  PetscCall(ElasticityEnergy(e, rotated, &turned));
+  PetscCall(ElasticityForce(e, u, f));
+  PetscCall(ElasticityForce(e, rotated, fr));
+  PetscCall(VecNorm(f, NORM_2, &scale));
+  PetscCall(VecGetLocalSize(f, &n));
+  PetscCall(VecGetArray(f, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal x[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
+    PetscReal       y[3];
+
+    Rotate(x, y);
+    for (PetscInt k = 0; k < 3; ++k) a[i + k] = y[k];
+  }
+  PetscCall(VecRestoreArray(f, &a));
+  PetscCall(VecAXPY(fr, -1, f));
+  PetscCall(VecNorm(fr, NORM_2, &error));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "rotated by %g\n", (double)angle));
+  PetscCall(ProblemReport("change of the energy, relative", PetscAbsReal(turned - energy) / energy, 1e-12));
+  PetscCall(ProblemReport("force less the rotated one, relative", error / scale, 1e-12));
+  PetscCall(ElasticityTangent(e, rotated, K));
+  PetscCall(CheckDifferences(e, rotated, d, K));
+  PetscCall(CheckSymmetry(K, u, d));
+  PetscCall(ElasticityTangent(e, u, K));
+  PetscCall(VecDestroy(&fr));
+  PetscCall(VecDestroy(&f));
+  PetscCall(VecDestroy(&rotated));
   PetscFunctionReturn(0);
 }
 
@@ -233,19 +300,19 @@ int main(int argc, char **argv)
   Vec          u, d;
   SceneBody    bodies[2];
   Material     materials[2];
-  MaterialType type;
+  MaterialType type        = MATERIAL_LINEAR;
+  ElementType  elements[2] = {ELEMENT_FULL, ELEMENT_FULL};
   PetscReal    energy;
-  PetscEnum    option = (PetscEnum)MATERIAL_LINEAR;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  PetscCall(PetscOptionsGetEnum(NULL, NULL, "-material", MaterialTypes, &option, NULL));
-  type = (MaterialType)option;
+  PetscCall(ProblemOptions(&type, &elements[0]));
+  elements[1] = elements[0];
   PetscCall(ProblemBodies(type, bodies));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
   PetscCall(ProblemMoveVertices(dm, 0.02));
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
-  PetscCall(ElasticityCreate(dm, 2, materials, NULL, &e));
+  PetscCall(ElasticityCreate(dm, 2, materials, elements, &e));
   PetscCall(ElasticityCreateTangent(e, &K));
   PetscCall(ProblemInterpolate(dm, Smooth, &u));
   PetscCall(ProblemInterpolate(dm, Direction, &d));
@@ -257,6 +324,7 @@ int main(int argc, char **argv)
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "energy %.9e\n", (double)energy));
   PetscCall(CheckDifferences(e, u, d, K));
   PetscCall(CheckSymmetry(K, u, d));
+  if (type != MATERIAL_LINEAR) PetscCall(CheckRotated(e, dm, u, d, K));
   PetscCall(CheckPrescribed(e, dm, u, d, K));
   PetscCall(CheckMatrix(K, type));
 
@@ -282,9 +350,18 @@ int main(int argc, char **argv)
          args: -elasticity_mat_type {{aij sbaij}}
 
    test:
+      suffix: linear_bbar
+      nsize: {{1 3}}
+      args: -element bbar
+
+   test:
       suffix: neohookean
       nsize: {{1 3}}
       args: -material neohookean
-      output_file: output/elasticity_derivatives_neohookean.out
+
+   test:
+      suffix: neohookean_bbar
+      nsize: {{1 3}}
+      args: -material neohookean -element bbar
 
 TEST*/

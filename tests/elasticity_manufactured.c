@@ -1,10 +1,9 @@
 static char help[] = "Manufactured solution on a cube: order of convergence in displacement and gradient.\n\n";
 
 #include "elasticity_problem.h"
-#include <petscksp.h>
 
-static const PetscReal young = 2, poisson = 0.3;
-static const PetscReal amplitude[3] = {1, -0.5, 0.7};
+static const Material  materials[] = {{MATERIAL_LINEAR, 2, 0.3}, {MATERIAL_NEOHOOKEAN, 2, 0.3}};
+static const PetscReal amplitude[3] = {0.2, -0.1, 0.14};
 
 /* u = amplitude sin(pi x) sin(pi y) sin(pi z) + (0.1 y, 0.2 z - 0.1 x, 0.3 x) */
 static void Exact(const PetscReal x[3], PetscReal u[3])
@@ -45,17 +44,27 @@ static void ExactGradient(const PetscReal x[3], PetscReal H[3][3])
   }
 }
 
-/* f = -(lambda + mu) grad div u - mu laplacian u */
-static void BodyForce(const PetscReal x[3], PetscReal f[3])
+/* f = -div P = -A : grad grad u, with the law's tangent A at the exact gradient */
+static PetscErrorCode BodyForce(const Material *material, const PetscReal x[3], PetscReal f[3])
 {
-  const PetscReal lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu = 0.5 * young / (1 + poisson);
-  PetscReal       d1[3], d2[3][3];
+  const MaterialLaw *law;
+  PetscReal          lambda, mu, d1[3], d2[3][3], H[3][3], A[81];
 
+  PetscFunctionBeginUser;
+  PetscCall(MaterialGetLaw(material, &law));
+  PetscCall(MaterialGetLame(material, &lambda, &mu));
   SineDerivatives(x, d1, d2);
+  ExactGradient(x, H);
+  PetscCheck(law->tangent(lambda, mu, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
   for (PetscInt i = 0; i < 3; ++i) {
-    f[i] = -mu * amplitude[i] * (d2[0][0] + d2[1][1] + d2[2][2]);
-    for (PetscInt k = 0; k < 3; ++k) f[i] -= (lambda + mu) * amplitude[k] * d2[i][k];
+    f[i] = 0;
+    for (PetscInt j = 0; j < 3; ++j) {
+      for (PetscInt k = 0; k < 3; ++k) {
+        for (PetscInt l = 0; l < 3; ++l) f[i] -= A[9 * (3 * i + j) + 3 * k + l] * amplitude[k] * d2[j][l];
+      }
+    }
   }
+  PetscFunctionReturn(0);
 }
 
 /* One Gauss point of a cell that is an axis-aligned cube: place, weight, shape functions, gradients */
@@ -86,18 +95,20 @@ static void CubePoint(const PetscReal corner[3], PetscReal size, PetscInt q, Poi
 }
 
 /* Adds the load of a cube, or its squared errors against the exact solution */
-static void CubeLoad(const PetscReal corner[3], PetscReal size, const PetscInt offset[8], PetscScalar load[])
+static PetscErrorCode CubeLoad(const Material *material, const PetscReal corner[3], PetscReal size, const PetscInt offset[8], PetscScalar load[])
 {
+  PetscFunctionBeginUser;
   for (PetscInt q = 0; q < 27; ++q) {
     Point     p;
     PetscReal f[3];
 
     CubePoint(corner, size, q, &p);
-    BodyForce(p.x, f);
+    PetscCall(BodyForce(material, p.x, f));
     for (PetscInt a = 0; a < 8; ++a) {
       for (PetscInt d = 0; d < 3; ++d) load[offset[a] + d] += p.weight * p.N[a] * f[d];
     }
   }
+  PetscFunctionReturn(0);
 }
 
 static void CubeErrors(const PetscReal corner[3], PetscReal size, const PetscInt offset[8], const PetscScalar u[], PetscReal errors[2])
@@ -122,8 +133,8 @@ static void CubeErrors(const PetscReal corner[3], PetscReal size, const PetscInt
   }
 }
 
-/* Over all cells: the load vector where load is given, the L2 and H1-seminorm errors of u where that is */
-static PetscErrorCode Integrate(DM dm, Vec load, Vec u, PetscReal errors[2])
+/* Over all cells: the load vector of a material where load is given, the L2 and H1-seminorm errors of u where that is */
+static PetscErrorCode Integrate(DM dm, const Material *material, Vec load, Vec u, PetscReal errors[2])
 {
   Vec                coordinates, local;
   PetscSection       section;
@@ -148,7 +159,7 @@ static PetscErrorCode Integrate(DM dm, Vec load, Vec u, PetscReal errors[2])
     for (PetscInt a = 0; a < 8; ++a) PetscCall(PetscSectionGetOffset(section, vertices[a], &offset[a]));
     for (PetscInt d = 0; d < 3; ++d) corner[d] = PetscRealPart(x[offset[0] + d]);
     if (u) CubeErrors(corner, PetscRealPart(x[offset[1]]) - corner[0], offset, l, errors);
-    else CubeLoad(corner, PetscRealPart(x[offset[1]]) - corner[0], offset, l);
+    else PetscCall(CubeLoad(material, corner, PetscRealPart(x[offset[1]]) - corner[0], offset, l));
   }
   PetscCall(VecRestoreArray(local, &l));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
@@ -171,45 +182,22 @@ static PetscErrorCode SurfaceRows(DM dm, IS *rows)
   PetscFunctionReturn(0);
 }
 
-/* Solves with the exact displacement prescribed on the surface; u is new */
-static PetscErrorCode Solve(DM dm, Elasticity e, Vec *u)
+/* Solves with the exact displacement prescribed on the surface; u is new. Newton's method starts from the exact values at the vertices */
+static PetscErrorCode Solve(DM dm, Elasticity e, const Material *material, Vec *u)
 {
   IS  surface;
   Mat K;
-  Vec load, force, free, exact;
-  KSP ksp;
+  Vec load;
 
   PetscFunctionBeginUser;
   PetscCall(SurfaceRows(dm, &surface));
   PetscCall(ElasticitySetPrescribed(e, surface));
   PetscCall(ElasticityCreateTangent(e, &K));
-  PetscCall(ElasticityTangent(e, NULL, K));
-  PetscCall(ProblemInterpolate(dm, Exact, &exact));
-  PetscCall(VecDuplicate(exact, &load));
-  PetscCall(VecDuplicate(exact, &force));
-  PetscCall(VecDuplicate(exact, &free));
-  PetscCall(VecDuplicate(exact, u));
+  PetscCall(ProblemInterpolate(dm, Exact, u));
+  PetscCall(VecDuplicate(*u, &load));
   PetscCall(VecZeroEntries(load));
-  PetscCall(VecSet(free, 1));
-  PetscCall(VecISSet(free, surface, 0));
-  PetscCall(VecPointwiseMult(*u, free, exact));
-  PetscCall(VecAYPX(*u, -1, exact));
-  PetscCall(Integrate(dm, load, NULL, NULL));
-  PetscCall(ElasticityForce(e, *u, force));
-  PetscCall(VecAXPY(load, -1, force));
-  PetscCall(VecPointwiseMult(load, free, load));
-  PetscCall(KSPCreate(PETSC_COMM_WORLD, &ksp));
-  PetscCall(KSPSetOperators(ksp, K, K));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetTolerances(ksp, 1e-9, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(KSPSetErrorIfNotConverged(ksp, PETSC_TRUE));
-  PetscCall(KSPSetFromOptions(ksp));
-  PetscCall(KSPSolve(ksp, load, force));
-  PetscCall(VecAXPY(*u, 1, force));
-  PetscCall(KSPDestroy(&ksp));
-  PetscCall(VecDestroy(&exact));
-  PetscCall(VecDestroy(&free));
-  PetscCall(VecDestroy(&force));
+  PetscCall(Integrate(dm, material, load, NULL, NULL));
+  PetscCall(ProblemNewton(e, surface, load, K, *u));
   PetscCall(VecDestroy(&load));
   PetscCall(MatDestroy(&K));
   PetscCall(ISDestroy(&surface));
@@ -229,12 +217,17 @@ static PetscErrorCode ReportOrder(const char name[], const PetscReal errors[], P
 int main(int argc, char **argv)
 {
   static char     name[]   = "cube";
-  const SceneBody cube     = {name, SHAPE_BOX, {0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {MATERIAL_LINEAR, 0, 0}};
-  const Material  material = {MATERIAL_LINEAR, young, poisson};
+  const PetscReal lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  const PetscInt  cells[3] = {2, 2, 2};
+  SceneBody       cube;
+  MaterialType    type    = MATERIAL_LINEAR;
+  ElementType     element = ELEMENT_FULL;
   PetscReal       values[3], gradients[3];
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(ProblemOptions(&type, &element));
+  ProblemBox(name, lower, upper, cells, &cube);
   for (PetscInt level = 0; level < 3; ++level) {
     DM         dm;
     Elasticity e;
@@ -242,9 +235,9 @@ int main(int argc, char **argv)
     PetscReal  errors[2] = {0, 0};
 
     PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &cube, level + 1, &dm));
-    PetscCall(ElasticityCreate(dm, 1, &material, NULL, &e));
-    PetscCall(Solve(dm, e, &u));
-    PetscCall(Integrate(dm, NULL, u, errors));
+    PetscCall(ElasticityCreate(dm, 1, &materials[type], &element, &e));
+    PetscCall(Solve(dm, e, &materials[type], &u));
+    PetscCall(Integrate(dm, NULL, NULL, u, errors));
     values[level]    = PetscSqrtReal(errors[0]);
     gradients[level] = PetscSqrtReal(errors[1]);
     PetscCall(VecDestroy(&u));
@@ -273,5 +266,12 @@ int main(int argc, char **argv)
          suffix: sbaij
          nsize: {{1 3}}
          args: -elasticity_mat_type sbaij -pc_type bjacobi -sub_pc_type icc
+      test:
+         suffix: bbar
+         args: -element bbar -pc_type pbjacobi
+      test:
+         suffix: neohookean
+         nsize: {{1 3}}
+         args: -material neohookean -element {{full bbar}} -pc_type pbjacobi
 
 TEST*/

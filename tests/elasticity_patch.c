@@ -57,6 +57,45 @@ static PetscErrorCode CheckStress(Elasticity e, DM dm, Vec u, const Material mat
   PetscFunctionReturn(0);
 }
 
+static void Smooth(const PetscReal x[3], PetscReal u[3])
+{
+  u[0] = 0.1 * PetscSinReal(2 * x[0] + x[1]) + 0.05 * x[2] * x[2];
+  u[1] = 0.1 * x[0] * x[2];
+  u[2] = 0.08 * PetscCosReal(x[1] - 2 * x[2]);
+}
+
+/* Averaged over a cell, the pressure kappa theta of full integration is that of the mean dilatation: both elements have the same cell stress */
+static PetscErrorCode CheckElements(DM dm, const Material materials[])
+{
+  const ElementType elements[2] = {ELEMENT_BBAR, ELEMENT_BBAR};
+  Elasticity        full, bbar;
+  Vec               u;
+  PetscReal        *sigma, *tau, error = 0, largest = 0;
+  PetscInt          start, end;
+
+  PetscFunctionBeginUser;
+  PetscCall(ElasticityCreate(dm, 2, materials, NULL, &full));
+  PetscCall(ElasticityCreate(dm, 2, materials, elements, &bbar));
+  PetscCall(ProblemInterpolate(dm, Smooth, &u));
+  PetscCall(ElasticityCellStress(full, u, &sigma));
+  PetscCall(ElasticityCellStress(bbar, u, &tau));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
+  for (PetscInt i = 0; i < 7 * (end - start); ++i) {
+    error   = PetscMax(error, PetscAbsReal(sigma[i] - tau[i]));
+    largest = PetscMax(largest, PetscAbsReal(sigma[i]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "stress of a smooth displacement: %s\n", largest > 0.1 ? "some" : "NONE"));
+  PetscCall(ProblemReport("difference of the two elements' cell stress", error, 1e-13));
+  PetscCall(PetscFree(sigma));
+  PetscCall(PetscFree(tau));
+  PetscCall(VecDestroy(&u));
+  PetscCall(ElasticityDestroy(&bbar));
+  PetscCall(ElasticityDestroy(&full));
+  PetscFunctionReturn(0);
+}
+
 /* Largest force away from the faces, and the sum of all forces */
 static PetscErrorCode CheckForce(Elasticity e, DM dm, Vec u)
 {
@@ -143,25 +182,28 @@ static PetscErrorCode CheckMass(Elasticity e, DM dm)
 
 int main(int argc, char **argv)
 {
-  DM         dm;
-  Elasticity e;
-  Vec        u;
-  SceneBody  bodies[2];
-  Material   materials[2];
-  PetscBool  finite = PETSC_FALSE;
+  DM           dm;
+  Elasticity   e;
+  Vec          u;
+  SceneBody    bodies[2];
+  Material     materials[2];
+  MaterialType type        = MATERIAL_LINEAR;
+  ElementType  elements[2] = {ELEMENT_FULL, ELEMENT_FULL};
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-finite_strain", &finite, NULL));
-  PetscCall(ProblemBodies(finite ? MATERIAL_NEOHOOKEAN : MATERIAL_LINEAR, bodies));
+  PetscCall(ProblemOptions(&type, &elements[0]));
+  elements[1] = elements[0];
+  PetscCall(ProblemBodies(type, bodies));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
   PetscCall(ProblemMoveVertices(dm, 0.02));
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
-  PetscCall(ElasticityCreate(dm, 2, materials, NULL, &e));
+  PetscCall(ElasticityCreate(dm, 2, materials, elements, &e));
   PetscCall(ProblemInterpolate(dm, Affine, &u));
   PetscCall(CheckStress(e, dm, u, materials));
   PetscCall(CheckForce(e, dm, u));
   PetscCall(CheckMass(e, dm));
+  PetscCall(CheckElements(dm, materials));
   PetscCall(VecDestroy(&u));
   PetscCall(ElasticityDestroy(&e));
   PetscCall(DMDestroy(&dm));
@@ -179,6 +221,17 @@ int main(int argc, char **argv)
          args: -elasticity_quadrature {{2 3}}
       test:
          suffix: finite
-         args: -finite_strain
+         args: -material neohookean
+
+   testset:
+      nsize: {{1 3}}
+      args: -element bbar
+      output_file: output/elasticity_patch.out
+      test:
+         suffix: bbar
+         args: -material {{linear neohookean}}
+      test:
+         suffix: bbar_points
+         args: -material {{linear neohookean}} -elasticity_quadrature 3
 
 TEST*/

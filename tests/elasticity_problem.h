@@ -4,18 +4,46 @@
 
 #include <mesh.h>
 #include <elasticity.h>
+#include <petscksp.h>
+
+/* A box; material, element and all the rest are the caller's to set */
+static inline void ProblemBox(char name[], const PetscReal lower[3], const PetscReal upper[3], const PetscInt cells[3], SceneBody *body)
+{
+  *body       = (SceneBody){0};
+  body->name  = name;
+  body->shape = SHAPE_BOX;
+  for (PetscInt d = 0; d < 3; ++d) {
+    body->lower[d] = lower[d];
+    body->upper[d] = upper[d];
+    body->cells[d] = cells[d];
+  }
+}
 
 /* A slab and a smaller block above it, not touching */
 static inline PetscErrorCode ProblemBodies(MaterialType type, SceneBody bodies[2])
 {
   static char     slab[] = "slab", block[] = "block";
-  const SceneBody two[2] = {
-    {slab,  SHAPE_BOX, {-1, -0.5, -1},     {1, 0.5, 0},      {6, 3, 2}, {type, 1, 0.3}},
-    {block, SHAPE_BOX, {-0.5, -0.25, 0.2}, {0, 0.25, 0.7}, {2, 2, 2}, {type, 10, 0.1}}
-  };
+  const PetscReal lower[2][3] = {{-1, -0.5, -1}, {-0.5, -0.25, 0.2}}, upper[2][3] = {{1, 0.5, 0}, {0, 0.25, 0.7}};
+  const PetscInt  cells[2][3] = {{6, 3, 2}, {2, 2, 2}};
+  const Material  materials[2] = {{type, 1, 0.3}, {type, 10, 0.1}};
 
   PetscFunctionBeginUser;
-  PetscCall(PetscArraycpy(bodies, two, 2));
+  ProblemBox(slab, lower[0], upper[0], cells[0], &bodies[0]);
+  ProblemBox(block, lower[1], upper[1], cells[1], &bodies[1]);
+  for (PetscInt b = 0; b < 2; ++b) bodies[b].material = materials[b];
+  PetscFunctionReturn(0);
+}
+
+/* -material and -element; what is not given stays */
+static inline PetscErrorCode ProblemOptions(MaterialType *type, ElementType *element)
+{
+  PetscEnum m = (PetscEnum)*type, e = (PetscEnum)*element;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetEnum(NULL, NULL, "-material", MaterialTypes, &m, NULL));
+  PetscCall(PetscOptionsGetEnum(NULL, NULL, "-element", ElementTypes, &e, NULL));
+  *type    = (MaterialType)m;
+  *element = (ElementType)e;
   PetscFunctionReturn(0);
 }
 
@@ -40,6 +68,28 @@ static inline PetscErrorCode ProblemMoveVertices(DM dm, PetscReal distance)
 }
 
 typedef void (*Field)(const PetscReal x[3], PetscReal u[3]);
+
+/* Moves every vertex to its image */
+static inline PetscErrorCode ProblemMapVertices(DM dm, Field map)
+{
+  Vec          coordinates;
+  PetscScalar *x;
+  PetscInt     n;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(VecGetLocalSize(coordinates, &n));
+  PetscCall(VecGetArray(coordinates, &x));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal place[3] = {PetscRealPart(x[i]), PetscRealPart(x[i + 1]), PetscRealPart(x[i + 2])};
+    PetscReal       image[3];
+
+    map(place, image);
+    for (PetscInt d = 0; d < 3; ++d) x[i + d] = image[d];
+  }
+  PetscCall(VecRestoreArray(coordinates, &x));
+  PetscFunctionReturn(0);
+}
 
 /* Vertex values of a displacement field, as a new global vector */
 static inline PetscErrorCode ProblemInterpolate(DM dm, Field field, Vec *u)
@@ -79,6 +129,41 @@ static inline PetscErrorCode ProblemFixFace(DM dm, const char face[], IS *rows)
   for (PetscInt d = 0; d < 3; ++d) PetscCall(MeshGetFaceDofs(dm, face, d, &components[d]));
   PetscCall(ISConcatenate(PetscObjectComm((PetscObject)dm), 3, components, rows));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ISDestroy(&components[d]));
+  PetscFunctionReturn(0);
+}
+
+/* Newton's method for force(u) = load on the rows that are not prescribed, from u, which holds the prescribed displacements; -ksp_ and -pc_ options */
+static inline PetscErrorCode ProblemNewton(Elasticity e, IS prescribed, Vec load, Mat K, Vec u)
+{
+  const PetscReal rtol = 1e-9;
+  PetscReal       norm = 1, first = 0;
+  KSP             ksp;
+  Vec             residual, step;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(u, &residual));
+  PetscCall(VecDuplicate(u, &step));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)u), &ksp));
+  PetscCall(KSPSetType(ksp, KSPCG));
+  PetscCall(KSPSetTolerances(ksp, 1e-9, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
+  PetscCall(KSPSetErrorIfNotConverged(ksp, PETSC_TRUE));
+  PetscCall(KSPSetFromOptions(ksp));
+  for (PetscInt it = 0; it < 20; ++it) {
+    PetscCall(ElasticityForce(e, u, residual));
+    PetscCall(VecAYPX(residual, -1, load));
+    PetscCall(VecISSet(residual, prescribed, 0));
+    PetscCall(VecNorm(residual, NORM_2, &norm));
+    if (!it) first = norm;
+    if (norm <= rtol * first) break;
+    PetscCall(ElasticityTangent(e, u, K));
+    PetscCall(KSPSetOperators(ksp, K, K));
+    PetscCall(KSPSolve(ksp, residual, step));
+    PetscCall(VecAXPY(u, 1, step));
+  }
+  PetscCheck(norm <= rtol * first, PetscObjectComm((PetscObject)u), PETSC_ERR_NOT_CONVERGED, "Newton's method left a residual of %g of the first", (double)(norm / first));
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(VecDestroy(&step));
+  PetscCall(VecDestroy(&residual));
   PetscFunctionReturn(0);
 }
 

@@ -1,49 +1,12 @@
 static char help[] = "The condensed matrix and the Newton direction against their definitions, in all matrix formats.\n\n";
 
-#include <petscamgf.h>
+#include "ipfilter_problem.h"
 
-/* min 1/2 x^T H x - b^T x, J x - g >= 0, with random data; H positive definite with nb block rows of size bs */
+/* A quadratic program with random data; H positive definite with nb block rows of size bs */
 typedef struct {
-  Mat H, J;
-  Vec b, g, mass;
+  QuadraticProgram q;
+  Vec              mass;
 } Data;
-
-static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
-{
-  Data       *d = (Data *)user;
-  PetscScalar xHx, xb;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(MatMult(d->H, x, g));
-  PetscCall(VecDot(x, g, &xHx));
-  PetscCall(VecDot(x, d->b, &xb));
-  PetscCall(VecAXPY(g, -1.0, d->b));
-  *f = 0.5 * PetscRealPart(xHx) - PetscRealPart(xb);
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Constant(Tao tao, Vec x, Mat A, Mat B, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)x;
-  (void)A;
-  (void)B;
-  (void)user;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Inequality(Tao tao, Vec x, Vec c, void *user)
-{
-  Data *d = (Data *)user;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(MatMult(d->J, x, c));
-  PetscCall(VecAXPY(c, -1.0, d->g));
-  PetscFunctionReturn(0);
-}
 
 /* Number in (0, 1) that depends on i and j alone, so that every number of ranks has the same data */
 static PetscReal Noise(PetscInt i, PetscInt j)
@@ -89,21 +52,21 @@ static PetscErrorCode CreateConstraints(PetscInt m, Data *d)
   PetscInt n, N, lo, hi;
 
   PetscFunctionBeginUser;
-  PetscCall(VecGetLocalSize(d->b, &n));
-  PetscCall(VecGetSize(d->b, &N));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, n, m, N, 3, NULL, 3, NULL, &d->J));
-  PetscCall(MatCreateVecs(d->J, NULL, &d->g));
-  PetscCall(VecDuplicate(d->g, &d->mass));
-  PetscCall(MatGetOwnershipRange(d->J, &lo, &hi));
+  PetscCall(VecGetLocalSize(d->q.b, &n));
+  PetscCall(VecGetSize(d->q.b, &N));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, n, m, N, 3, NULL, 3, NULL, &d->q.J));
+  PetscCall(MatCreateVecs(d->q.J, NULL, &d->q.g));
+  PetscCall(VecDuplicate(d->q.g, &d->mass));
+  PetscCall(MatGetOwnershipRange(d->q.J, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++) {
-    for (PetscInt k = 0; k < 3; k++) PetscCall(MatSetValue(d->J, i, (2 * i + k * (N / 3)) % N, 0.5 + Noise(i, 1000 + k), INSERT_VALUES));
-    PetscCall(VecSetValue(d->g, i, Noise(i, 2000), INSERT_VALUES));
+    for (PetscInt k = 0; k < 3; k++) PetscCall(MatSetValue(d->q.J, i, (2 * i + k * (N / 3)) % N, 0.5 + Noise(i, 1000 + k), INSERT_VALUES));
+    PetscCall(VecSetValue(d->q.g, i, Noise(i, 2000), INSERT_VALUES));
     PetscCall(VecSetValue(d->mass, i, 0.5 + Noise(i, 3000), INSERT_VALUES));
   }
-  PetscCall(MatAssemblyBegin(d->J, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(d->J, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecAssemblyBegin(d->g));
-  PetscCall(VecAssemblyEnd(d->g));
+  PetscCall(MatAssemblyBegin(d->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(d->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(d->q.g));
+  PetscCall(VecAssemblyEnd(d->q.g));
   PetscCall(VecAssemblyBegin(d->mass));
   PetscCall(VecAssemblyEnd(d->mass));
   PetscFunctionReturn(0);
@@ -117,12 +80,12 @@ static PetscErrorCode ApplyDefinition(Data *d, PetscReal z0, PetscBool bounded, 
   PetscInt  m;
 
   PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(d->g, &jv));
-  PetscCall(MatMult(d->J, v, jv));
+  PetscCall(VecDuplicate(d->q.g, &jv));
+  PetscCall(MatMult(d->q.J, v, jv));
   PetscCall(VecPointwiseMult(jv, jv, d->mass));
   PetscCall(VecScale(jv, z0));
-  PetscCall(MatMult(d->H, v, y));
-  PetscCall(MatMultTransposeAdd(d->J, jv, y, y));
+  PetscCall(MatMult(d->q.H, v, y));
+  PetscCall(MatMultTransposeAdd(d->q.J, jv, y, y));
   PetscCall(VecSum(d->mass, &mean));
   PetscCall(VecGetSize(d->mass, &m));
   if (bounded) PetscCall(VecAXPY(y, 2.0 * mean / m, v));
@@ -136,13 +99,13 @@ static PetscErrorCode RightHandSide(Data *d, PetscReal z0, Vec b)
   Vec r;
 
   PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(d->g, &r));
-  PetscCall(VecCopy(d->g, r));
+  PetscCall(VecDuplicate(d->q.g, &r));
+  PetscCall(VecCopy(d->q.g, r));
   PetscCall(VecShift(r, 1.0));
   PetscCall(VecScale(r, z0));
   PetscCall(VecShift(r, 1.0));
   PetscCall(VecPointwiseMult(r, r, d->mass));
-  PetscCall(MatMultTransposeAdd(d->J, r, d->b, b));
+  PetscCall(MatMultTransposeAdd(d->q.J, r, d->q.b, b));
   PetscCall(VecDestroy(&r));
   PetscFunctionReturn(0);
 }
@@ -188,17 +151,10 @@ static PetscErrorCode Compare(Tao tao, Data *d, PetscReal z0, PetscBool bounded,
 
 static PetscErrorCode CreateSolver(Data *d, PetscBool bounded, Vec x, Tao *tao)
 {
-  Vec c, lower, upper;
+  Vec lower, upper;
 
   PetscFunctionBeginUser;
-  PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
-  PetscCall(TaoSetType(*tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(*tao, x));
-  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, ObjectiveAndGradient, d));
-  PetscCall(TaoSetHessian(*tao, d->H, d->H, Constant, d));
-  PetscCall(VecDuplicate(d->g, &c));
-  PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, Inequality, d));
-  PetscCall(TaoSetJacobianInequalityRoutine(*tao, d->J, d->J, Constant, d));
+  PetscCall(ProblemCreateSolver(&d->q, x, tao));
   PetscCall(TaoIPFilterSetSlackMass(*tao, d->mass));
   PetscCall(TaoSetMaximumIterations(*tao, 1));
   if (bounded) {
@@ -210,7 +166,6 @@ static PetscErrorCode CreateSolver(Data *d, PetscBool bounded, Vec x, Tao *tao)
     PetscCall(VecDestroy(&lower));
     PetscCall(VecDestroy(&upper));
   }
-  PetscCall(VecDestroy(&c));
   PetscFunctionReturn(0);
 }
 
@@ -224,9 +179,9 @@ static PetscErrorCode Test(MatType type, PetscInt bs, PetscBool bounded)
   Tao         tao;
 
   PetscFunctionBeginUser;
-  PetscCall(CreateHessian(type, 24, bs, &d.H));
-  PetscCall(MatCreateVecs(d.H, &x, &d.b));
-  PetscCall(VecSet(d.b, 1.0));
+  PetscCall(CreateHessian(type, 24, bs, &d.q.H));
+  PetscCall(MatCreateVecs(d.q.H, &x, &d.q.b));
+  PetscCall(VecSet(d.q.b, 1.0));
   PetscCall(CreateConstraints(7, &d));
   PetscCall(CreateSolver(&d, bounded, x, &tao));
   for (PetscInt k = 0; k < 2; k++) {
@@ -243,10 +198,7 @@ static PetscErrorCode Test(MatType type, PetscInt bs, PetscBool bounded)
   if (matrix < 1e-13 && direction < 1e-9) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix and direction as defined\n", type, bs, bounded ? "bounds" : "no bounds"));
   else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix off by %g, direction by %g\n", type, bs, bounded ? "bounds" : "no bounds", (double)matrix, (double)direction));
   PetscCall(TaoDestroy(&tao));
-  PetscCall(MatDestroy(&d.H));
-  PetscCall(MatDestroy(&d.J));
-  PetscCall(VecDestroy(&d.b));
-  PetscCall(VecDestroy(&d.g));
+  PetscCall(ProblemDestroy(&d.q));
   PetscCall(VecDestroy(&d.mass));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(0);

@@ -1,52 +1,14 @@
 static char help[] = "A membrane over an obstacle: min 1/2 u^T K u - b^T u, u - psi >= 0 where the obstacle is.\n\n";
 
 #include <petscdmda.h>
-#include <petscamgf.h>
+#include "ipfilter_problem.h"
 
-/* Constraints on part of the unknowns: J picks them. length and energy are the units the problem is stated in. */
+/* Constraints on part of the unknowns: J picks them. length and energy are the units the problem is stated in: with
+   x = length u, f = energy (1/2 u^T K u - b^T u). */
 typedef struct {
-  Mat       K, J;
-  Vec       b, psi, Ku;
-  PetscReal length, energy;
+  QuadraticProgram q;
+  PetscReal        length, energy;
 } Obstacle;
-
-/* f and its gradient: with x = length u, f = energy (1/2 u^T K u - b^T u) */
-static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
-{
-  Obstacle   *o = (Obstacle *)user;
-  PetscScalar xKx, xb;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(MatMult(o->K, x, g));
-  PetscCall(VecDot(x, g, &xKx));
-  PetscCall(VecDot(x, o->b, &xb));
-  PetscCall(VecAXPY(g, -1.0, o->b));
-  *f = 0.5 * PetscRealPart(xKx) - PetscRealPart(xb);
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Constant(Tao tao, Vec x, Mat A, Mat B, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)x;
-  (void)A;
-  (void)B;
-  (void)user;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Gap(Tao tao, Vec x, Vec c, void *user)
-{
-  Obstacle *o = (Obstacle *)user;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(MatMult(o->J, x, c));
-  PetscCall(VecAXPY(c, -1.0, o->psi));
-  PetscFunctionReturn(0);
-}
 
 /* Five-point Laplacian on the unit square with fixed edge, stated in the given units */
 static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
@@ -57,9 +19,8 @@ static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
   PetscFunctionBeginUser;
   PetscCall(DMDAGetLocalInfo(da, &info));
   h = 1.0 / (info.mx - 1);
-  PetscCall(DMCreateMatrix(da, &o->K));
-  PetscCall(DMCreateGlobalVector(da, &o->b));
-  PetscCall(VecDuplicate(o->b, &o->Ku));
+  PetscCall(DMCreateMatrix(da, &o->q.H));
+  PetscCall(DMCreateGlobalVector(da, &o->q.b));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
     for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
       MatStencil  row = {.i = i, .j = j}, col[5];
@@ -78,12 +39,12 @@ static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
           v[n++] = -k;
         }
       }
-      PetscCall(MatSetValuesStencil(o->K, 1, &row, n, col, v, INSERT_VALUES));
+      PetscCall(MatSetValuesStencil(o->q.H, 1, &row, n, col, v, INSERT_VALUES));
     }
   }
-  PetscCall(MatAssemblyBegin(o->K, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(o->K, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecSet(o->b, -2.0 * h * h * o->energy / o->length));
+  PetscCall(MatAssemblyBegin(o->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(o->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecSet(o->q.b, -2.0 * h * h * o->energy / o->length));
   PetscFunctionReturn(0);
 }
 
@@ -109,19 +70,19 @@ static PetscErrorCode CreateObstacle(DM da, PetscReal lift, Obstacle *o)
     }
   }
   PetscCall(AOApplicationToPetsc(ao, count, cols));
-  PetscCall(VecGetLocalSize(o->b, &n));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &o->J));
-  PetscCall(MatCreateVecs(o->J, NULL, &o->psi));
-  PetscCall(MatGetOwnershipRange(o->J, &rstart, NULL));
+  PetscCall(VecGetLocalSize(o->q.b, &n));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &o->q.J));
+  PetscCall(MatCreateVecs(o->q.J, NULL, &o->q.g));
+  PetscCall(MatGetOwnershipRange(o->q.J, &rstart, NULL));
   for (PetscInt k = 0; k < count; k++) {
-    PetscCall(MatSetValue(o->J, rstart + k, cols[k], 1.0, INSERT_VALUES));
-    PetscCall(VecSetValue(o->psi, rstart + k, values[k], INSERT_VALUES));
+    PetscCall(MatSetValue(o->q.J, rstart + k, cols[k], 1.0, INSERT_VALUES));
+    PetscCall(VecSetValue(o->q.g, rstart + k, values[k], INSERT_VALUES));
   }
   PetscCall(PetscFree2(cols, values));
-  PetscCall(MatAssemblyBegin(o->J, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(o->J, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecAssemblyBegin(o->psi));
-  PetscCall(VecAssemblyEnd(o->psi));
+  PetscCall(MatAssemblyBegin(o->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(o->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(o->q.g));
+  PetscCall(VecAssemblyEnd(o->q.g));
   PetscFunctionReturn(0);
 }
 
@@ -141,29 +102,15 @@ static PetscErrorCode CreateProblem(PetscInt n, PetscReal lift, PetscReal length
 static PetscErrorCode DestroyProblem(DM *da, Obstacle *o)
 {
   PetscFunctionBeginUser;
-  PetscCall(MatDestroy(&o->K));
-  PetscCall(MatDestroy(&o->J));
-  PetscCall(VecDestroy(&o->b));
-  PetscCall(VecDestroy(&o->psi));
-  PetscCall(VecDestroy(&o->Ku));
+  PetscCall(ProblemDestroy(&o->q));
   PetscCall(DMDestroy(da));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CreateSolver(Obstacle *o, Vec x, Tao *tao)
 {
-  Vec c;
-
   PetscFunctionBeginUser;
-  PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
-  PetscCall(TaoSetType(*tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(*tao, x));
-  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, ObjectiveAndGradient, o));
-  PetscCall(TaoSetHessian(*tao, o->K, o->K, Constant, o));
-  PetscCall(VecDuplicate(o->psi, &c));
-  PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, Gap, o));
-  PetscCall(TaoSetJacobianInequalityRoutine(*tao, o->J, o->J, Constant, o));
-  PetscCall(VecDestroy(&c));
+  PetscCall(ProblemCreateSolver(&o->q, x, tao));
   PetscCall(TaoSetFromOptions(*tao));
   PetscFunctionReturn(0);
 }
@@ -179,30 +126,22 @@ static PetscErrorCode SolveByTRON(Obstacle *o, Vec x)
   PetscCall(VecDuplicate(x, &upper));
   PetscCall(VecSet(upper, PETSC_INFINITY));
   PetscCall(VecSet(lower, -1e3 * o->length));
-  PetscCall(VecDuplicate(o->psi, &one));
-  PetscCall(VecCopy(o->psi, one));
+  PetscCall(VecDuplicate(o->q.g, &one));
+  PetscCall(VecCopy(o->q.g, one));
   PetscCall(VecShift(one, 1e3 * o->length));
-  PetscCall(MatMultTransposeAdd(o->J, one, lower, lower));
+  PetscCall(MatMultTransposeAdd(o->q.J, one, lower, lower));
   PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
   PetscCall(TaoSetType(tao, TAOTRON));
   PetscCall(TaoSetSolution(tao, x));
   PetscCall(TaoSetVariableBounds(tao, lower, upper));
-  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, o));
-  PetscCall(TaoSetHessian(tao, o->K, o->K, Constant, o));
+  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ProblemObjectiveAndGradient, &o->q));
+  PetscCall(TaoSetHessian(tao, o->q.H, o->q.H, ProblemConstant, NULL));
   PetscCall(TaoSetTolerances(tao, 1e-12, 0.0, 0.0));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&lower));
   PetscCall(VecDestroy(&upper));
   PetscCall(VecDestroy(&one));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Verdict(const char what[], PetscReal value, PetscReal limit)
-{
-  PetscFunctionBeginUser;
-  if (value <= limit) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: below %g\n", what, (double)limit));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %g is above %g\n", what, (double)value, (double)limit));
   PetscFunctionReturn(0);
 }
 
@@ -222,23 +161,23 @@ static PetscErrorCode Check(Tao tao, Obstacle *o, Vec x)
   PetscCall(VecNorm(reference, NORM_INFINITY, &size));
   PetscCall(VecAXPY(reference, -1.0, x));
   PetscCall(VecNorm(reference, NORM_INFINITY, &error));
-  PetscCall(Verdict("difference from TRON's solution, relative", error / size, 1e-6));
+  PetscCall(ProblemVerdict("difference from TRON's solution, relative", error / size, 1e-6));
   PetscCall(VecDuplicate(x, &reaction));
-  PetscCall(MatMult(o->K, x, reaction));
-  PetscCall(VecAXPY(reaction, -1.0, o->b));
+  PetscCall(MatMult(o->q.H, x, reaction));
+  PetscCall(VecAXPY(reaction, -1.0, o->q.b));
   PetscCall(VecNorm(reaction, NORM_INFINITY, &force));
   PetscCall(TaoGetDualVariables(tao, NULL, &DI));
-  PetscCall(MatMultTranspose(o->J, DI, reference));
+  PetscCall(MatMultTranspose(o->q.J, DI, reference));
   PetscCall(VecAXPY(reference, -1.0, reaction));
   PetscCall(VecNorm(reference, NORM_INFINITY, &error));
-  PetscCall(Verdict("multipliers against the reaction, relative", error / force, 1e-6));
-  PetscCall(VecDuplicate(o->psi, &gap));
-  PetscCall(Gap(tao, x, gap, o));
+  PetscCall(ProblemVerdict("multipliers against the reaction, relative", error / force, 1e-6));
+  PetscCall(VecDuplicate(o->q.g, &gap));
+  PetscCall(ProblemConstraints(tao, x, gap, &o->q));
   PetscCall(VecMin(gap, NULL, &error));
-  PetscCall(Verdict("penetration, relative", -error / size, 1e-9));
+  PetscCall(ProblemVerdict("penetration, relative", -error / size, 1e-9));
   PetscCall(VecPointwiseMult(gap, gap, DI));
   PetscCall(VecNorm(gap, NORM_INFINITY, &error));
-  PetscCall(Verdict("gap times multiplier, relative", error / force / size, 1e-6));
+  PetscCall(ProblemVerdict("gap times multiplier, relative", error / force / size, 1e-6));
   PetscCall(VecDestroy(&reference));
   PetscCall(VecDestroy(&reaction));
   PetscCall(VecDestroy(&gap));
@@ -269,7 +208,7 @@ static PetscErrorCode CompareWarmStart(PetscInt n)
 
   PetscFunctionBeginUser;
   PetscCall(CreateProblem(n, 0.0, 1.0, 1.0, &da, &o));
-  PetscCall(VecDuplicate(o.b, &x));
+  PetscCall(VecDuplicate(o.q.b, &x));
   PetscCall(CreateSolver(&o, x, &tao));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoIPFilterGetSlack(tao, &s));
@@ -280,7 +219,7 @@ static PetscErrorCode CompareWarmStart(PetscInt n)
   PetscCall(VecCopy(x, x0));
   PetscCall(VecCopy(s, ws));
   PetscCall(VecCopy(z, wz));
-  PetscCall(VecShift(o.psi, 1e-4));
+  PetscCall(VecShift(o.q.g, 1e-4));
   PetscCall(TaoIPFilterSetWarmStart(tao, ws, wz));
   PetscCall(TaoSolve(tao));
   PetscCall(CountIterations(tao, &newton[0], &krylov[0]));
@@ -315,7 +254,7 @@ static PetscErrorCode CompareUnits(PetscInt n)
     Vec      x;
 
     PetscCall(CreateProblem(n, 0.0, length[k], energy[k], &da, &o));
-    PetscCall(VecDuplicate(o.b, &x));
+    PetscCall(VecDuplicate(o.q.b, &x));
     PetscCall(CreateSolver(&o, x, &tao));
     PetscCall(TaoSolve(tao));
     PetscCall(CountIterations(tao, &newton[k], &krylov[k]));
@@ -349,7 +288,7 @@ int main(int argc, char **argv)
     PetscCall(CompareUnits(n));
   } else {
     PetscCall(CreateProblem(n, 0.0, 1.0, 1.0, &da, &o));
-    PetscCall(VecDuplicate(o.b, &x));
+    PetscCall(VecDuplicate(o.q.b, &x));
     PetscCall(CreateSolver(&o, x, &tao));
     PetscCall(TaoSolve(tao));
     PetscCall(Check(tao, &o, x));

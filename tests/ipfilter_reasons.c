@@ -1,6 +1,6 @@
 static char help[] = "Every end of TAOIPFILTER has its reason: infeasible, unbounded, NaN, limits, failed linear solver.\n\n";
 
-#include <petscamgf.h>
+#include "ipfilter_problem.h"
 
 typedef enum {
   CASE_SOLVABLE,
@@ -102,17 +102,6 @@ static PetscErrorCode Inequality(Tao tao, Vec x, Vec c, void *user)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Constant(Tao tao, Vec x, Mat J, Mat Jpre, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)x;
-  (void)J;
-  (void)Jpre;
-  (void)user;
-  PetscFunctionReturn(0);
-}
-
 /* m = 1 or 2 rows on the first rank */
 static PetscErrorCode CreateJacobian(PetscInt m, Vec x, Mat *J)
 {
@@ -154,7 +143,7 @@ static PetscErrorCode Run(Case which, PetscInt max_it, PetscInt max_funcs, const
   PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, &which));
   PetscCall(TaoSetHessian(tao, H, H, Hessian, &which));
   PetscCall(TaoSetInequalityConstraintsRoutine(tao, c, Inequality, NULL));
-  PetscCall(TaoSetJacobianInequalityRoutine(tao, J, J, Constant, NULL));
+  PetscCall(TaoSetJacobianInequalityRoutine(tao, J, J, ProblemConstant, NULL));
   if (max_it >= 0) PetscCall(TaoSetMaximumIterations(tao, max_it));
   if (max_funcs >= 0) PetscCall(TaoSetMaximumFunctionEvaluations(tao, max_funcs));
   PetscCall(TaoSetFromOptions(tao));

@@ -53,6 +53,63 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda,
   PetscFunctionReturn(0);
 }
 
+/* W = W_iso + kappa/2 theta^2, and theta's derivatives against differences */
+static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const PetscReal h = 1e-5, kappa = lambda + 2 * mu / 3;
+  PetscReal       errors[3] = {0, 0, 0};
+
+  PetscFunctionBeginUser;
+  for (PetscInt sample = 0; sample < 10; ++sample) {
+    PetscReal H[9], C[9], A[81], theta;
+
+    for (PetscInt i = 0; i < 9; ++i) H[i] = 0.25 * Rough(9 * sample + i);
+    theta = law->dilatation(H, C);
+    PetscCall(PetscArrayzero(A, 81));
+    law->curvature(kappa, H, A);
+    errors[0] = PetscMax(errors[0], PetscAbsReal(law->energy(lambda, mu, H) - law->energy(-2 * mu / 3, mu, H) - 0.5 * kappa * theta * theta));
+    for (PetscInt j = 0; j < 9; ++j) {
+      const PetscReal keep = H[j];
+      PetscReal       forward, backward, Cf[9], Cb[9];
+
+      H[j]      = keep + h;
+      forward   = law->dilatation(H, Cf);
+      H[j]      = keep - h;
+      backward  = law->dilatation(H, Cb);
+      H[j]      = keep;
+      errors[1] = PetscMax(errors[1], PetscAbsReal((forward - backward) / (2 * h) - C[j]));
+      for (PetscInt i = 0; i < 9; ++i) errors[2] = PetscMax(errors[2], PetscAbsReal(kappa * (Cf[i] - Cb[i]) / (2 * h) - A[9 * i + j]));
+    }
+  }
+  PetscCall(Report("energy less its isochoric and volumetric parts", errors[0], 1e-14));
+  PetscCall(Report("dilatation's derivative against differences", errors[1], 1e-9));
+  PetscCall(Report("dilatation's second derivative against differences", errors[2], 1e-9));
+  PetscFunctionReturn(0);
+}
+
+/* Strains far below the square root of the rounding error: Hooke's stress and energy to many digits */
+static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+{
+  const MaterialLaw *hooke;
+  const Material     linear = {MATERIAL_LINEAR, 1, 0};
+  PetscReal          H[9], P[9], Q[9], difference = 0, scale = 0, W;
+
+  PetscFunctionBeginUser;
+  PetscCall(MaterialGetLaw(&linear, &hooke));
+  for (PetscInt i = 0; i < 9; ++i) H[i] = 1e-10 * Rough(7 + i);
+  law->stress(lambda, mu, H, P);
+  hooke->stress(lambda, mu, H, Q);
+  for (PetscInt i = 0; i < 9; ++i) {
+    difference = PetscMax(difference, PetscAbsReal(P[i] - Q[i]));
+    scale      = PetscMax(scale, PetscAbsReal(Q[i]));
+  }
+  for (PetscInt i = 0; i < 9; ++i) H[i] *= 1e4;
+  W = hooke->energy(lambda, mu, H);
+  PetscCall(Report("stress of strains of 1e-10 against Hooke's, relative", difference / scale, 1e-8));
+  PetscCall(Report("energy of strains of 1e-6 against Hooke's, relative", PetscAbsReal(law->energy(lambda, mu, H) - W) / W, 2e-5));
+  PetscFunctionReturn(0);
+}
+
 /* At rest a law is without energy and stress, and its tangent is Hooke's; uniaxial strain e stresses it by (lambda + 2 mu) e and lambda e */
 static PetscErrorCode CheckRest(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
 {
@@ -108,13 +165,16 @@ static PetscErrorCode CheckRotation(const MaterialLaw *law, PetscReal lambda, Pe
 static PetscErrorCode CheckDilation(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
 {
   const PetscReal a = 1.3, kappa = lambda + 2 * mu / 3, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
-  PetscReal       sigma[6], error = 0;
+  PetscReal       sigma[6], P[9], A[81], error = 0;
+  PetscBool       refused;
 
   PetscFunctionBeginUser;
   law->cauchy(lambda, mu, H, sigma);
   for (PetscInt k = 0; k < 6; ++k) error = PetscMax(error, PetscAbsReal(sigma[k] - (k < 3 ? kappa * (a * a * a - 1) : 0)));
   PetscCall(Report("pressure of a dilation", error, 1e-13));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", law->energy(lambda, mu, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
+  refused = (PetscBool)(!law->stress(lambda, mu, inside, P) && !law->tangent(lambda, mu, inside, A) && !law->cauchy(lambda, mu, inside, sigma));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", refused ? "no stress, no tangent" : "STRESS OR TANGENT"));
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +206,9 @@ int main(int argc, char **argv)
     PetscCall(MaterialGetLaw(&material, &law));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[t], law->constant ? ", constant tangent" : ""));
     PetscCall(CheckDerivatives(law, lambda, mu));
+    PetscCall(CheckDilatationPart(law, lambda, mu));
     PetscCall(CheckRest(law, lambda, mu));
+    PetscCall(CheckSmallStrains(law, lambda, mu));
     if (t != MATERIAL_LINEAR) {
       PetscCall(CheckRotation(law, lambda, mu));
       PetscCall(CheckDilation(law, lambda, mu));

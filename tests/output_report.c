@@ -10,7 +10,13 @@ int main(int argc, char **argv)
     {.step = 1, .load = 0.5, .constraints = 81, .filter_dofs = 111, .ip_iterations = 3, .ksp_iterations = iterations, .nksp = 3, .amg_applications = 35, .amg_setups = 2, .energy = -1.0 / 3, .kkt_error = 1e-7, .kkt_error_unscaled = 2e-7, .gap_min = -1e-9, .complementarity = 1e-8, .contact_force = {0, 0.25, -1e300}, .reaction = {1, 2, 3}, .converged = PETSC_TRUE, .reason = "converged"},
     {.step = 2, .load = 1, .energy = NAN, .kkt_error = INFINITY, .gap_min = -INFINITY, .reason = "line \"search\" failed\\\n\tat once"},
   };
-  RunReport report               = {.problem = "caf\xc3\xa9 \"two\"", .dofs = 13380, .refine = 1, .converged = PETSC_FALSE, .nsteps = 2, .steps = steps, .peak_memory_bytes = 1.5e9};
+  const char *bodies[]     = {"slab", "block"};
+  PetscInt    assemblies[] = {1, 12};
+  RunEffect   effects[]    = {
+    {"contact", PETSC_TRUE, "1 contact pairs", 0.5},
+    {"pressure", PETSC_FALSE, "0 \"pressures\"", -1},
+  };
+  RunReport report               = {.nbodies = 2, .bodies = bodies, .assemblies = assemblies, .neffects = 2, .effects = effects, .problem = "caf\xc3\xa9 \"two\"", .dofs = 13380, .refine = 1, .converged = PETSC_FALSE, .nsteps = 2, .steps = steps, .peak_memory_bytes = 1.5e9};
   char      file[PETSC_MAX_PATH_LEN] = "summary.json";
 
   PetscFunctionBeginUser;
@@ -24,6 +30,7 @@ int main(int argc, char **argv)
   PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
   PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
   PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(ReportViewEffects(&report, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(PetscFinalize());
   return 0;
 }

@@ -14,6 +14,27 @@ static PetscErrorCode ViewToFile(Scene scene, const char file[])
   PetscFunctionReturn(0);
 }
 
+/* The two views, byte by byte on the first rank */
+static PetscErrorCode CompareViews(const char first[], const char second[])
+{
+  PetscMPIInt rank;
+  FILE       *a, *b;
+  int         c;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank) PetscFunctionReturn(0);
+  PetscCall(PetscFOpen(PETSC_COMM_SELF, first, "r", &a));
+  PetscCall(PetscFOpen(PETSC_COMM_SELF, second, "r", &b));
+  do {
+    c = fgetc(a);
+    PetscCheck(c == fgetc(b), PETSC_COMM_SELF, PETSC_ERR_PLIB, "%s and %s differ", first, second);
+  } while (c != EOF);
+  PetscCall(PetscFClose(PETSC_COMM_SELF, a));
+  PetscCall(PetscFClose(PETSC_COMM_SELF, b));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CompareBodies(Scene a, Scene b)
 {
   PetscFunctionBeginUser;
@@ -79,8 +100,12 @@ int main(int argc, char **argv)
   PetscCall(ViewToFile(scene, "viewed.yaml"));
   PetscCall(PetscOptionsClearValue(NULL, "-refine"));
   PetscCall(PetscOptionsClearValue(NULL, "-load_steps"));
+  PetscCall(PetscOptionsClearValue(NULL, "-model"));
+  PetscCall(PetscOptionsClearValue(NULL, "-contact_updates"));
   PetscCall(SceneLoad(PETSC_COMM_WORLD, "viewed.yaml", &again));
   PetscCall(CompareScenes(scene, again));
+  PetscCall(ViewToFile(again, "again.yaml"));
+  PetscCall(CompareViews("viewed.yaml", "again.yaml"));
   PetscCall(SceneDestroy(&again));
   PetscCall(SceneDestroy(&scene));
   PetscCall(SceneDestroy(&scene));
@@ -105,5 +130,16 @@ int main(int argc, char **argv)
   test:
     suffix: two_block
     args: -scene ${AMGF_DIR}/share/scenes/two_block.yaml
+
+  test:
+    suffix: command_line
+    args: -scene scene_fewest_keys.yaml -model quadratic -contact_updates 4 -load_steps 2 -refine 1
+    localrunfiles: scene_fewest_keys.yaml
+
+  test:
+    suffix: resampled
+    args: -scene scene_every_key.yaml -load_steps 8
+    localrunfiles: scene_every_key.yaml
+    filter: sed -n -e "/^load/,/^refine/p" -e /^displacement_bounds/p
 
 TEST*/

@@ -13,16 +13,16 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, const PetscInt node[4], const PetscReal value[4])
+PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[])
 {
   PetscFunctionBegin;
-  if (as->n + 4 > as->size) {
+  if (as->n + n > as->size) {
     as->size = 2 * as->size + 1024;
     PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->row));
     PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->node));
     PetscCall(PetscRealloc(as->size * sizeof(PetscScalar), &as->value));
   }
-  for (PetscInt b = 0; b < 4; ++b) {
+  for (PetscInt b = 0; b < n; ++b) {
     as->row[as->n]     = row;
     as->node[as->n]    = node[b];
     as->value[as->n++] = value[b];

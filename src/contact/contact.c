@@ -3,8 +3,12 @@
 
 /* Facets pair by default within this part of the size of the smaller face, the square root of its area */
 #define SEARCH_FRACTION 0.25
+/* and never deeper in one another than this part of what both bodies are thick */
+#define THROUGH_FRACTION 0.9
 
-const char *const ContactGapTypes[] = {"mortar", "ContactGapType", "CONTACT_GAP_", NULL};
+const char *const GapTypes[] = {"mortar", "node", "GapType", "GAP_", NULL};
+
+static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode}; /* by GapType */
 
 PetscLogEvent CONTACT_Search, CONTACT_Integrate;
 
@@ -34,6 +38,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const ContactPai
     PetscCheck(!same, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names face \"%s\" twice", p, pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names mortar face \"%s\", but the mesh has no such face", p, pairs[p].mortar);
+    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair %" PetscInt_FMT " asks for gap formulation %d, which there is not", p, (int)pairs[p].gap);
+    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair %" PetscInt_FMT " has search distance %g, but it must not be negative", p, (double)pairs[p].distance);
     PetscCall(DMHasLabel(dm, pairs[p].nonmortar, &has));
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names nonmortar face \"%s\", but the mesh has no such face", p, pairs[p].nonmortar);
     for (PetscInt q = 0; q < p; ++q) {
@@ -47,15 +53,28 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const ContactPai
   PetscFunctionReturn(0);
 }
 
-/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh */
-static PetscErrorCode ContactSetSearch(Contact contact)
+/*
+  Depth to which facets of two bodies pair. A body's own faces, or those of thin bodies, would see one another through the
+  bodies: touching plates at the depth of both together, so not much less than that may be asked for.
+*/
+static PetscReal ContactGetDepth(const ContactPairData *pair)
+{
+  const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
+
+  if (pair->mortar.body == pair->nonmortar.body) return thinner;
+  return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
+}
+
+/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh; what else its gap needs */
+static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
 
-    pair->distance = contact->distance > 0.0 ? contact->distance : SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area));
-    pair->depth    = contact->depth > 0.0 ? contact->depth : PetscMin(pair->mortar.thickness, pair->nonmortar.thickness);
+    pair->distance = pair->given > 0.0 ? pair->given : SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area));
+    pair->depth    = contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair);
+    if (pair->gap == GAP_NODE && !pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
   }
   PetscFunctionReturn(0);
 }
@@ -76,7 +95,8 @@ static PetscErrorCode ContactSetSearch(Contact contact)
   Level: beginner
 
   Notes:
-  A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error.
+  A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error, and so
+  is a negative search distance.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -94,20 +114,20 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
   c->dm           = dm;
   c->comm         = PetscObjectComm((PetscObject)dm);
   c->npairs       = npairs;
-  c->type         = CONTACT_GAP_MORTAR;
-  c->gap          = ContactGap_Mortar;
   c->cosine       = -0.174;
   c->overlap_drop = 1e-8;
   c->row_drop     = 1e-5;
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBodyThickness(dm, &nbodies, &thickness));
   for (PetscInt p = 0; p < npairs; ++p) {
+    c->pairs[p].gap   = pairs[p].gap;
+    c->pairs[p].given = pairs[p].distance;
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
   PetscCall(PetscFree(thickness));
   PetscCall(ContactRowsCreate(c));
-  PetscCall(ContactSetSearch(c));
+  PetscCall(ContactSetUpPairs(c));
   *contact = c;
   PetscFunctionReturn(0);
 }
@@ -121,9 +141,10 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
 . contact - the contact
 
   Options Database Keys:
-+ -contact_gap <mortar>              - how the gap is measured
-. -contact_search_distance <length>  - facets farther apart do not pair; 0: a quarter of the square root of the smaller face's area
-. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the smallest mean thickness of the bodies in contact
++ -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
+. -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area
+. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner body, or the
+                                       pair's own distance up to 0.9 of what both bodies are thick
 . -contact_normal_cosine <-0.174>    - facets pair when the cosine between their normals is at most this
 . -contact_overlap_drop <1e-8>       - overlaps below this part of the smaller facet's area are left out
 . -contact_row_drop <1e-5>           - rows whose 1-norm is below this part of the largest row's are left out
@@ -135,22 +156,30 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
 @*/
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
+  GapType   gap      = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
+  PetscReal distance = contact->npairs ? contact->pairs[0].given : 0.0;
+  PetscBool set_gap, set_distance;
+
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
-  PetscCall(PetscOptionsEnum("-contact_gap", "How the gap is measured", "ContactSetFromOptions", ContactGapTypes, (PetscEnum)contact->type, (PetscEnum *)&contact->type, NULL));
-  PetscCall(PetscOptionsReal("-contact_search_distance", "Facets farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", contact->distance, &contact->distance, NULL));
+  PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes, (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
+  PetscCall(PetscOptionsReal("-contact_search_distance", "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth", "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)", "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
   PetscCall(PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this", "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
   PetscCall(PetscOptionsReal("-contact_overlap_drop", "Overlaps below this part of the smaller facet's area are left out", "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
   PetscCall(PetscOptionsReal("-contact_row_drop", "Rows whose 1-norm is below this part of the largest are left out", "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
   PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every linearization", "ContactView", NULL, NULL, NULL));
   PetscOptionsEnd();
-  PetscCheck(contact->distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_distance must not be negative, but is %g", (double)contact->distance);
+  PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_distance must not be negative, but is %g", (double)distance);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
   PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
   PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
   PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
-  PetscCall(ContactSetSearch(contact));
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    if (set_gap) contact->pairs[p].gap = gap;
+    if (set_distance) contact->pairs[p].given = distance;
+  }
+  PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }
 
@@ -165,11 +194,12 @@ static PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscCall(DMGlobalToLocal(contact->dm, u, INSERT_VALUES, local));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair  = &contact->pairs[p];
-    const PetscInt   first = rows->first[p];
+    const PetscInt   first = rows->first[p], n = rows->first[p + 1] - first;
 
     PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->mortar));
     PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->nonmortar));
-    PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, rows->first[p + 1] - first, rows->vertex + first, rows->normal + 3 * first));
+    PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first, rows->normal + 3 * first));
+    PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
   }
   PetscCall(DMRestoreLocalVector(contact->dm, &local));
   PetscFunctionReturn(0);
@@ -230,22 +260,20 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_1, &norm)); /* the maximum norm of BLAS passes over NaN */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP, "The displacement at which contact is linearized is not finite");
-  contact->noverlaps = 0;
   PetscCall(ContactDeform(contact, u));
   PetscCall(ContactAssemblyCreate(contact, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
-    const ContactPairData *pair = &contact->pairs[p];
-    ContactCandidates      candidates;
-    ContactNear            near;
+    ContactPairData     *pair   = &contact->pairs[p];
+    const ContactGapOps *ops    = gap_ops[pair->gap];
+    PetscReal            box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+    ContactCandidates    candidates;
 
     PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-    PetscCall(ContactExchange(contact->comm, pair, &candidates));
-    PetscCall(ContactSearch(pair, &candidates, &near));
+    PetscCall((*ops->box)(contact, p, box));
+    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
     PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
-    PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-    PetscCall((*contact->gap)(contact, pair, &candidates, &near, &assembly));
-    PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-    PetscCall(ContactNearDestroy(&near));
+    pair->nfacing = 0;
+    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
     PetscCall(ContactCandidatesDestroy(&candidates));
   }
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
@@ -275,18 +303,19 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
 PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
 {
   PetscBool ascii;
-  PetscInt  noverlaps;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
   if (!ascii) PetscFunctionReturn(0);
-  PetscCallMPI(MPI_Allreduce(&contact->noverlaps, &noverlaps, 1, MPIU_INT, MPI_SUM, contact->comm));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact: %" PetscInt_FMT " pairs, gap %s, %" PetscInt_FMT " overlapping facet pairs, %" PetscInt_FMT " rows\n", contact->npairs, ContactGapTypes[contact->type], noverlaps, contact->nrows));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact: %" PetscInt_FMT " pairs, %" PetscInt_FMT " rows\n", contact->npairs, contact->nrows));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     const ContactPairData *pair = &contact->pairs[p];
+    PetscInt               nfacing;
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "pair %" PetscInt_FMT ": mortar %s, nonmortar %s, search distance %g, depth %g\n", p, pair->mortar.name, pair->nonmortar.name, (double)pair->distance, (double)pair->depth));
+    PetscCallMPI(MPI_Allreduce(&pair->nfacing, &nfacing, 1, MPIU_INT, MPI_SUM, contact->comm));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "pair %" PetscInt_FMT ": mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", p, pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
+                                     nfacing, pair->gap == GAP_MORTAR ? "overlapping facets" : "vertices over a facet"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows below %g of the largest are left out\n", (double)contact->cosine, (double)contact->overlap_drop,
                                    (double)contact->row_drop));

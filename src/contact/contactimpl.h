@@ -6,12 +6,6 @@
 
 typedef struct _n_ContactPairData ContactPairData;
 
-/* How the gap is measured */
-typedef enum {
-  CONTACT_GAP_MORTAR /* segment to segment, integrated over the clipped overlap */
-} ContactGapType;
-PETSC_INTERN const char *const ContactGapTypes[];
-
 PETSC_INTERN PetscLogEvent CONTACT_Search, CONTACT_Integrate;
 
 /* The facets of a named face that this rank owns */
@@ -22,15 +16,19 @@ typedef struct {
   PetscInt  *node;         /* [4 nfacets] global numbers of the vertices: a third of their first global row */
   PetscReal *reference;    /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;            /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscInt  *border;       /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
+  PetscBool  bordered;     /* whether border has been asked for; the same on all ranks */
   PetscReal  area;         /* of the whole undeformed face, all ranks [length^2] */
-  PetscReal  thickness;    /* smallest mean thickness of the bodies behind the face, all ranks [length] */
+  PetscInt   body;         /* behind the face */
+  PetscReal  thickness;    /* mean thickness of that body [length] */
 } ContactSurface;
 
-/* Mortar facets that may face one of this rank's nonmortar facets, whoever owns them */
+/* Mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
 typedef struct {
   PetscInt   n;
-  PetscInt  *node; /* [4 n] */
-  PetscReal *x;    /* [12 n] */
+  PetscInt  *node;   /* [4 n] */
+  PetscInt  *border; /* [n] where the surface is bordered */
+  PetscReal *x;      /* [12 n] */
 } ContactCandidates;
 
 /* Of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] along its normal */
@@ -40,10 +38,13 @@ typedef struct {
 
 struct _n_ContactPairData {
   ContactSurface mortar, nonmortar;
+  GapType        gap;
+  PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */
   PetscInt      *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
   PetscReal     *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
   PetscReal      distance; /* facets farther apart than this do not pair [length] */
   PetscReal      depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
+  PetscInt       nfacing;  /* of the last linearization, on this rank: facets that overlap, or vertices that face a facet */
 };
 
 /* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
@@ -51,6 +52,7 @@ typedef struct {
   PetscInt  nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
   PetscInt *vertex;         /* [nlocal] local DMPlex points */
   PetscReal *normal;        /* [3 nlocal] averaged unit normals */
+  PetscReal *x;             /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;          /* int phi_A over the whole undeformed nonmortar face [length^2] */
 } ContactRows;
 
@@ -68,35 +70,68 @@ struct _n_Contact {
   PetscInt         npairs;
   ContactPairData *pairs;
   ContactRows      rows;
-  ContactGapType   type;
-  PetscReal        distance;             /* 0: from the size of each pair's faces */
-  PetscReal        depth;                /* 0: from the thickness of the bodies */
-  PetscReal        cosine;               /* facets pair when n1.n2 is at most this */
-  PetscReal        overlap_drop;         /* relative to the smaller facet's area */
-  PetscReal        row_drop;             /* relative to the largest row's 1-norm */
-  PetscInt         noverlaps, nrows;     /* of the last linearization: overlaps on this rank, rows on all */
-  /* Adds one pair's gap and coupling to the assembly */
-  PetscErrorCode (*gap)(Contact, const ContactPairData *, const ContactCandidates *, const ContactNear *, ContactAssembly *);
+  PetscReal        depth;        /* 0: from the thickness of the bodies */
+  PetscReal        cosine;       /* facets pair when n1.n2 is at most this */
+  PetscReal        overlap_drop; /* relative to the smaller facet's area */
+  PetscReal        row_drop;     /* relative to the largest row's 1-norm */
+  PetscInt         nrows;        /* of the last linearization, on all ranks */
 };
+
+/* A formulation of the gap */
+typedef struct {
+  /* Grows box to hold all that may face this rank's part of pair p */
+  PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
+  /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
+  PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
+} ContactGapOps;
+PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode;
 
 /* surface.c */
 PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
+PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
+
+/* border.c */
+PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
 
 /* thickness.c */
 PETSC_INTERN PetscErrorCode ContactBodyThickness(DM, PetscInt *nbodies, PetscReal *thickness[]);
 
-/* search.c */
+/* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
+#define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
+typedef struct {
+  PetscReal box[6];      /* lower corner, upper corner */
+  PetscInt  first, last; /* facets of a leaf: order[first] to order[last - 1] */
+  PetscInt  second;      /* the second child; 0 in a leaf */
+} ContactTreeNode;
+typedef struct {
+  PetscInt         nnodes;
+  ContactTreeNode *node;
+  PetscInt        *order;
+  PetscReal       *box; /* [6 n] of the facets */
+} ContactTree;
 PETSC_INTERN void           ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
+PETSC_INTERN PetscErrorCode ContactTreeCreate(const ContactCandidates *, ContactTree *);
+PETSC_INTERN PetscErrorCode ContactTreeDestroy(ContactTree *);
+
+/* search.c: facets along a facet's normal */
 PETSC_INTERN void           ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
 PETSC_INTERN PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
 PETSC_INTERN PetscErrorCode ContactSearch(const ContactPairData *, const ContactCandidates *, ContactNear *);
 PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
 
+/* nearest.c: the facet nearest to a vertex, among those that face it */
+typedef struct {
+  PetscInt  facet; /* of the candidates; negative: none */
+  PetscReal xi[2]; /* closest point on it */
+  PetscReal y[3];
+} ContactNearest;
+PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach, const PetscReal x[3], const PetscReal normal[3], ContactNearest *);
+
 /* exchange.c */
-PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const ContactPairData *, ContactCandidates *);
+PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *, ContactCandidates *);
 PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 
 /* clip.c: convex polygons in the plane, vertices counterclockwise */
@@ -111,9 +146,13 @@ PETSC_INTERN void ContactTriangleRule(PetscReal barycentric[CONTACT_TRIANGLE_POI
 
 /* facet.c: bilinear facets */
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
+PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+
+/* closest.c */
+PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3]);
 
 /* frame.c */
 typedef struct {
@@ -145,7 +184,6 @@ typedef struct {
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
 PETSC_INTERN void           ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
-PETSC_INTERN PetscErrorCode ContactGap_Mortar(Contact, const ContactPairData *, const ContactCandidates *, const ContactNear *, ContactAssembly *);
 
 /* rows.c */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
@@ -153,7 +191,7 @@ PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 
 /* assemble.c */
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
-PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, const PetscInt node[4], const PetscReal value[4]);
+PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[]);
 PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
 

@@ -1,4 +1,4 @@
-/* Mortar facets go to the ranks whose nonmortar facets they may face; nothing else of a mesh is exchanged */
+/* Mortar facets go to the ranks whose part of the nonmortar face they may face; nothing else of a mesh is exchanged */
 #include <petscsf.h>
 #include "contactimpl.h"
 
@@ -6,29 +6,9 @@
 typedef struct {
   PetscMPIInt  nranks, *rank;
   PetscInt    *range; /* [2 nranks] for each rank, first facet and number of facets */
-  PetscInt     n, *node;
+  PetscInt     n, *node, *border;
   PetscReal   *x;
 } Outgoing;
-
-/* Every rank's box about what its nonmortar facets sweep along their normals; empty where it has none */
-static PetscErrorCode GatherBoxes(MPI_Comm comm, const ContactPairData *pair, PetscReal boxes[])
-{
-  const ContactSurface *s = &pair->nonmortar;
-  PetscReal             mine[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
-
-  PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->nfacets; ++f) {
-    PetscReal box[6];
-
-    ContactSweptBox(&s->x[12 * f], pair->distance, pair->depth, box);
-    for (PetscInt c = 0; c < 3; ++c) {
-      mine[c]     = PetscMin(mine[c], box[c]);
-      mine[3 + c] = PetscMax(mine[3 + c], box[3 + c]);
-    }
-  }
-  PetscCallMPI(MPI_Allgather(mine, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
-  PetscFunctionReturn(0);
-}
 
 /* Counts the facets for each rank, or packs them once out->x is there */
 static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[], Outgoing *out)
@@ -47,6 +27,7 @@ static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, cons
       if (out->x) {
         PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
         PetscCall(PetscArraycpy(&out->node[4 * out->n], &s->node[4 * f], 4));
+        if (s->bordered) out->border[out->n] = s->border[f];
       }
       ++out->n;
     }
@@ -104,27 +85,29 @@ static PetscErrorCode Broadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit
   PetscFunctionReturn(0);
 }
 
-/* Collective. The mortar facets of all ranks whose boxes meet the box about what this rank's nonmortar facets sweep */
-PetscErrorCode ContactExchange(MPI_Comm comm, const ContactPairData *pair, ContactCandidates *in)
+/* Collective. The facets of all ranks whose boxes meet the box of this rank */
+PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
-  PetscMPIInt size;
-  PetscReal  *boxes;
-  PetscSF     sf;
-  Outgoing    out = {0};
+  const PetscInt nborder = s->bordered ? 1 : 0;
+  PetscMPIInt    size;
+  PetscReal     *boxes;
+  PetscSF        sf;
+  Outgoing       out = {0};
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
-  PetscCall(GatherBoxes(comm, pair, boxes));
-  PetscCall(PackFacets(&pair->mortar, size, boxes, &out));
-  PetscCall(PetscMalloc2(12 * out.n, &out.x, 4 * out.n, &out.node));
-  if (out.n) PetscCall(PackFacets(&pair->mortar, size, boxes, &out));
+  PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
+  PetscCall(PackFacets(s, size, boxes, &out));
+  PetscCall(PetscMalloc3(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border));
+  if (out.n) PetscCall(PackFacets(s, size, boxes, &out));
   PetscCall(CreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc2(12 * in->n, &in->x, 4 * in->n, &in->node));
+  PetscCall(PetscMalloc3(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border));
   PetscCall(Broadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(Broadcast(sf, 4, MPIU_INT, out.node, in->node));
+  if (nborder) PetscCall(Broadcast(sf, 1, MPIU_INT, out.border, in->border));
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree2(out.x, out.node));
+  PetscCall(PetscFree3(out.x, out.node, out.border));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -132,7 +115,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const ContactPairData *pair, Conta
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(in->x, in->node));
+  PetscCall(PetscFree3(in->x, in->node, in->border));
   in->n = 0;
   PetscFunctionReturn(0);
 }

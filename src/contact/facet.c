@@ -28,6 +28,18 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
+/* Derivatives of the facet's points by their parameters */
+void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) t1[c] = t2[c] = 0.0;
+  for (PetscInt a = 0; a < 4; ++a) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      t1[c] += 0.25 * corner[a][0] * (1.0 + corner[a][1] * xi[1]) * x[3 * a + c];
+      t2[c] += 0.25 * corner[a][1] * (1.0 + corner[a][0] * xi[0]) * x[3 * a + c];
+    }
+  }
+}
+
 /* mass[A] = integral of phi_A over the facet, exact for plane facets; returns the area */
 PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
 {
@@ -37,15 +49,10 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
   for (PetscInt a = 0; a < 4; ++a) mass[a] = 0.0;
   for (PetscInt q = 0; q < 4; ++q) {
     const PetscReal xi[2] = {g * corner[q][0], g * corner[q][1]};
-    PetscReal       phi[4], t1[3] = {0, 0, 0}, t2[3] = {0, 0, 0}, n[3], weight;
+    PetscReal       phi[4], t1[3], t2[3], n[3], weight;
 
     ContactShape(xi, phi);
-    for (PetscInt a = 0; a < 4; ++a) {
-      for (PetscInt c = 0; c < 3; ++c) {
-        t1[c] += 0.25 * corner[a][0] * (1.0 + corner[a][1] * xi[1]) * x[3 * a + c];
-        t2[c] += 0.25 * corner[a][1] * (1.0 + corner[a][0] * xi[0]) * x[3 * a + c];
-      }
-    }
+    ContactFacetTangents(x, xi, t1, t2);
     Cross(t1, t2, n);
     weight = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (PetscInt a = 0; a < 4; ++a) mass[a] += weight * phi[a];

@@ -46,26 +46,54 @@ static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const Cont
     for (PetscInt a = 0; a < 4; ++a) {
       gap[a] += m.gap[a];
       for (PetscInt b = 0; b < 4; ++b) D[a][b] -= m.D[a][b];
-      PetscCall(ContactAssemblyAdd(assembly, row[a], &mortar->node[4 * near[k]], m.M[a]));
+      PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &mortar->node[4 * near[k]], m.M[a]));
     }
   }
   if (n) {
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], &pair->nonmortar.node[4 * f], D[a]));
+    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &pair->nonmortar.node[4 * f], D[a]));
     PetscCall(VecSetValues(assembly->gap, 4, row, gap, ADD_VALUES));
   }
   *noverlaps += n;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactGap_Mortar(Contact contact, const ContactPairData *pair, const ContactCandidates *mortar, const ContactNear *near, ContactAssembly *assembly)
+/* Box about what this rank's nonmortar facets sweep along their normals */
+static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal box[6])
 {
-  const ContactOverlapLimits limits = {contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
+  const ContactPairData *pair = &contact->pairs[p];
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
-    const PetscInt first = near->offset[f], n = near->offset[f + 1] - first;
+    PetscReal swept[6];
 
-    PetscCall(MortarFacet(&limits, pair, f, mortar, n, near->facet + first, assembly, &contact->noverlaps));
+    ContactSweptBox(&pair->nonmortar.x[12 * f], pair->distance, pair->depth, swept);
+    for (PetscInt c = 0; c < 3; ++c) {
+      box[c]     = PetscMin(box[c], swept[c]);
+      box[3 + c] = PetscMax(box[3 + c], swept[3 + c]);
+    }
   }
   PetscFunctionReturn(0);
 }
+
+static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar, ContactAssembly *assembly)
+{
+  ContactPairData           *pair   = &contact->pairs[p];
+  const ContactOverlapLimits limits = {contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
+  ContactNear                near;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscCall(ContactSearch(pair, mortar, &near));
+  PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
+    const PetscInt first = near.offset[f], n = near.offset[f + 1] - first;
+
+    PetscCall(MortarFacet(&limits, pair, f, mortar, n, near.facet + first, assembly, &pair->nfacing));
+  }
+  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactNearDestroy(&near));
+  PetscFunctionReturn(0);
+}
+
+const ContactGapOps ContactGapMortar = {ContactBox_Mortar, ContactAdd_Mortar};

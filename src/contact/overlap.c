@@ -1,8 +1,11 @@
 /* Where two facets face each other: projection, clipping, quadrature points on both */
 #include "contactimpl.h"
 
-/* Convex parts of a quadrilateral: itself, or two triangles where a corner is reflex */
-static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2])
+/*
+  Convex parts of a quadrilateral, counterclockwise: itself, or two triangles where a corner is reflex. Where its edges cross
+  (two reflex corners, if only by rounding) one of the triangles is clockwise: it is reversed, and counts negatively.
+*/
+static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2], PetscReal sign[2])
 {
   PetscInt reflex = -1;
 
@@ -19,12 +22,19 @@ static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal
       part[k][i][0] = p[(first + i) % 4][0];
       part[k][i][1] = p[(first + i) % 4][1];
     }
+    sign[k] = ContactPolygonArea(size[k], (const PetscReal(*)[2])part[k]) < 0.0 ? -1.0 : 1.0;
+    for (PetscInt d = 0; sign[k] < 0.0 && d < 2; ++d) {
+      const PetscReal swap = part[k][1][d];
+
+      part[k][1][d] = part[k][2][d];
+      part[k][2][d] = swap;
+    }
   }
   return reflex < 0 ? 1 : 2;
 }
 
-/* Adds the points of the fan of triangles about the polygon's centroid */
-static void AddPolygon(PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+/* Adds the points of the fan of triangles about the polygon's centroid, with this sign */
+static void AddPolygon(PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
   PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], weight[CONTACT_TRIANGLE_POINTS], centre[2];
 
@@ -36,7 +46,7 @@ static void AddPolygon(PetscInt n, const PetscReal polygon[][2], const PetscReal
       {polygon[t][0],              polygon[t][1]             },
       {polygon[(t + 1) % n][0],    polygon[(t + 1) % n][1]   }
     };
-    const PetscReal area = ContactPolygonArea(3, tri);
+    const PetscReal area = sign * ContactPolygonArea(3, tri);
 
     if (area == 0.0) continue;
     o->area += area;
@@ -75,7 +85,7 @@ static PetscReal MeanGap(const ContactOverlap *o, const PetscReal h1[4], const P
 */
 PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, ContactOverlap *o)
 {
-  PetscReal    n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], smaller, gap;
+  PetscReal    n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
   PetscInt     size[2], nparts;
   ContactFrame frame;
 
@@ -90,12 +100,12 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     reversed[a][1] = p2[3 - a][1];
   }
   smaller = PetscMin(ContactPolygonArea(4, p1), ContactPolygonArea(4, reversed));
-  nparts  = ConvexParts(p1, size, part);
+  nparts  = ConvexParts(p1, size, part, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
     PetscReal      polygon[CONTACT_MAX_POLYGON][2];
     const PetscInt n = ContactClip(4, reversed, size[k], part[k], polygon);
 
-    if (n && ContactPolygonArea(n, polygon) > limits->overlap_drop * smaller) AddPolygon(n, polygon, p1, p2, o);
+    if (n && ContactPolygonArea(n, polygon) > limits->overlap_drop * smaller) AddPolygon(sign[k], n, polygon, p1, p2, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   gap = MeanGap(o, h1, h2);

@@ -101,7 +101,7 @@ PetscErrorCode ContactRowsCreate(Contact contact)
   rstart -= rows->nlocal;
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(ShareRows(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
   PetscCall(PetscFree(number));
-  PetscCall(PetscMalloc1(3 * rows->nlocal, &rows->normal));
+  PetscCall(PetscMalloc2(3 * rows->nlocal, &rows->normal, 3 * rows->nlocal, &rows->x));
   PetscCall(CreateMass(contact));
   PetscFunctionReturn(0);
 }
@@ -114,7 +114,7 @@ PetscErrorCode ContactRowsDestroy(Contact contact)
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(PetscFree2(contact->pairs[p].row, contact->pairs[p].normal));
   PetscCall(PetscFree(rows->first));
   PetscCall(PetscFree(rows->vertex));
-  PetscCall(PetscFree(rows->normal));
+  PetscCall(PetscFree2(rows->normal, rows->x));
   PetscCall(VecDestroy(&rows->mass));
   PetscFunctionReturn(0);
 }

@@ -1,22 +1,5 @@
-/* Which mortar facets may face a nonmortar facet: a static tree of bounding boxes, O(N log N) */
+/* Which mortar facets may face a nonmortar facet: those along its normal */
 #include "contactimpl.h"
-
-#define LEAF_SIZE 4
-#define MAX_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
-
-/* Depth-first: the first child of a node follows it */
-typedef struct {
-  PetscReal box[6];      /* lower corner, upper corner */
-  PetscInt  first, last; /* facets of a leaf: order[first] to order[last - 1] */
-  PetscInt  second;      /* the second child; 0 in a leaf */
-} TreeNode;
-
-typedef struct {
-  PetscInt   nnodes;
-  TreeNode  *node;
-  PetscInt  *order;
-  PetscReal *box; /* [6 n] of the facets */
-} Tree;
 
 /*
   What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the normal:
@@ -27,14 +10,6 @@ typedef struct {
   PetscReal    low[3], high[3]; /* in the frame */
   PetscReal    box[6];
 } Prism;
-
-void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
-{
-  for (PetscInt c = 0; c < 3; ++c) {
-    box[c]     = PetscMin(PetscMin(x[c], x[3 + c]), PetscMin(x[6 + c], x[9 + c]));
-    box[3 + c] = PetscMax(PetscMax(x[c], x[3 + c]), PetscMax(x[6 + c], x[9 + c]));
-  }
-}
 
 /* Box about what a facet sweeps along its normal; its own box where it has no normal */
 void ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6])
@@ -90,89 +65,15 @@ static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
   return PETSC_TRUE;
 }
 
-/* Twice the centre of a facet's box along an axis */
-static inline PetscReal Centre(const Tree *t, PetscInt facet, PetscInt axis)
-{
-  return t->box[6 * facet + axis] + t->box[6 * facet + 3 + axis];
-}
-
-/* Hoare's selection: orders order[lo..hi] so that nothing before position k has a larger centre than anything after it */
-static void SelectMedian(Tree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
-{
-  while (lo < hi) {
-    const PetscReal pivot = Centre(t, t->order[lo + (hi - lo) / 2], axis);
-    PetscInt        i = lo, j = hi;
-
-    while (i <= j) {
-      while (Centre(t, t->order[i], axis) < pivot) ++i;
-      while (Centre(t, t->order[j], axis) > pivot) --j;
-      if (i <= j) {
-        const PetscInt swap = t->order[i];
-
-        t->order[i++] = t->order[j];
-        t->order[j--] = swap;
-      }
-    }
-    if (k <= j) hi = j;
-    else if (k >= i) lo = i;
-    else return;
-  }
-}
-
-static void TreeBuild(Tree *t, PetscInt first, PetscInt last)
-{
-  const PetscInt self = t->nnodes++;
-  PetscReal      lower[3], upper[3];
-  PetscInt       axis = 0;
-  TreeNode      *node = &t->node[self];
-
-  *node = (TreeNode){.first = first, .last = last, .second = 0};
-  for (PetscInt c = 0; c < 3; ++c) {
-    lower[c] = upper[c] = Centre(t, t->order[first], c);
-    node->box[c]        = t->box[6 * t->order[first] + c];
-    node->box[3 + c]    = t->box[6 * t->order[first] + 3 + c];
-    for (PetscInt i = first + 1; i < last; ++i) {
-      const PetscInt f = t->order[i];
-
-      lower[c]         = PetscMin(lower[c], Centre(t, f, c));
-      upper[c]         = PetscMax(upper[c], Centre(t, f, c));
-      node->box[c]     = PetscMin(node->box[c], t->box[6 * f + c]);
-      node->box[3 + c] = PetscMax(node->box[3 + c], t->box[6 * f + 3 + c]);
-    }
-    if (upper[c] - lower[c] > upper[axis] - lower[axis]) axis = c;
-  }
-  if (last - first > LEAF_SIZE) {
-    const PetscInt middle = first + (last - first) / 2;
-
-    SelectMedian(t, axis, first, last - 1, middle);
-    TreeBuild(t, first, middle);
-    t->node[self].second = t->nnodes;
-    TreeBuild(t, middle, last);
-  }
-}
-
-static PetscErrorCode TreeCreate(const ContactCandidates *facets, Tree *t)
-{
-  PetscFunctionBegin;
-  t->nnodes = 0;
-  PetscCall(PetscMalloc3(2 * facets->n, &t->node, facets->n, &t->order, 6 * facets->n, &t->box));
-  for (PetscInt f = 0; f < facets->n; ++f) {
-    t->order[f] = f;
-    ContactFacetBox(&facets->x[12 * f], &t->box[6 * f]);
-  }
-  if (facets->n) TreeBuild(t, 0, facets->n);
-  PetscFunctionReturn(0);
-}
-
 /* Number of facets whose boxes meet the prism; those are put into found unless it is NULL */
-static PetscInt TreeQuery(const Tree *t, const Prism *prism, PetscInt found[])
+static PetscInt TreeQuery(const ContactTree *t, const Prism *prism, PetscInt found[])
 {
-  PetscInt stack[MAX_DEPTH], depth = 0, n = 0;
+  PetscInt stack[CONTACT_TREE_DEPTH], depth = 0, n = 0;
 
   if (t->nnodes) stack[depth++] = 0;
   while (depth) {
     const PetscInt  self = stack[--depth];
-    const TreeNode *node = &t->node[self];
+    const ContactTreeNode *node = &t->node[self];
 
     if (!PrismMeetsBox(prism, node->box)) continue;
     if (node->second) {
@@ -193,11 +94,11 @@ static PetscInt TreeQuery(const Tree *t, const Prism *prism, PetscInt found[])
 PetscErrorCode ContactSearch(const ContactPairData *pair, const ContactCandidates *mortar, ContactNear *near)
 {
   const ContactSurface *s = &pair->nonmortar;
-  Tree                  tree;
+  ContactTree           tree;
   Prism                 prism;
 
   PetscFunctionBegin;
-  PetscCall(TreeCreate(mortar, &tree));
+  PetscCall(ContactTreeCreate(mortar, &tree));
   PetscCall(PetscMalloc1(s->nfacets + 1, &near->offset));
   near->offset[0] = 0;
   near->facet     = NULL;
@@ -210,7 +111,7 @@ PetscErrorCode ContactSearch(const ContactPairData *pair, const ContactCandidate
     }
     if (!pass) PetscCall(PetscMalloc1(near->offset[s->nfacets], &near->facet));
   }
-  PetscCall(PetscFree3(tree.node, tree.order, tree.box));
+  PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(0);
 }
 

@@ -30,21 +30,19 @@ static PetscErrorCode GatherVertices(PetscSection section, Vec local, PetscInt n
   PetscFunctionReturn(0);
 }
 
-/* Smallest thickness of the bodies these facets belong to */
-static PetscErrorCode SurfaceThickness(DM dm, PetscInt nfacets, const PetscInt facet[], const PetscReal thickness[], PetscReal *smallest)
+/* The body these facets belong to, on all ranks */
+static PetscErrorCode SurfaceBody(DM dm, PetscInt nfacets, const PetscInt facet[], PetscInt *body)
 {
-  PetscReal mine = PETSC_MAX_REAL;
+  PetscInt mine = -1;
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < nfacets; ++f) {
+  if (nfacets) {
     const PetscInt *cell;
-    PetscInt        body;
 
-    PetscCall(DMPlexGetSupport(dm, facet[f], &cell));
-    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cell[0], &body));
-    mine = PetscMin(mine, thickness[body]);
+    PetscCall(DMPlexGetSupport(dm, facet[0], &cell));
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cell[0], &mine));
   }
-  PetscCallMPI(MPI_Allreduce(&mine, smallest, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)dm)));
+  PetscCallMPI(MPI_Allreduce(&mine, body, 1, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 
@@ -72,7 +70,8 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
     PetscCall(MeshGetFacetVertices(dm, f[i], &s->vertex[4 * i]));
     for (PetscInt a = 0; a < 4; ++a) PetscCall(VertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));
   }
-  PetscCall(SurfaceThickness(dm, s->nfacets, f, thickness, &s->thickness));
+  PetscCall(SurfaceBody(dm, s->nfacets, f, &s->body));
+  s->thickness = thickness[s->body];
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
@@ -80,6 +79,25 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscCall(GatherVertices(coordsection, coordinates, 4 * s->nfacets, s->vertex, s->reference));
   for (PetscInt i = 0; i < s->nfacets; ++i) area += ContactFacetMass(&s->reference[12 * i], mass);
   PetscCallMPI(MPI_Allreduce(&area, &s->area, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Coordinates of n vertices moved by a local displacement vector */
+PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[])
+{
+  PetscSection section, coordsection;
+  Vec          coordinates;
+  PetscReal   *reference;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &coordsection));
+  PetscCall(PetscMalloc1(3 * n, &reference));
+  PetscCall(GatherVertices(coordsection, coordinates, n, vertex, reference));
+  PetscCall(GatherVertices(section, ulocal, n, vertex, x));
+  for (PetscInt i = 0; i < 3 * n; ++i) x[i] += reference[i];
+  PetscCall(PetscFree(reference));
   PetscFunctionReturn(0);
 }
 
@@ -148,5 +166,6 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscFunctionBegin;
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
+  PetscCall(PetscFree(s->border));
   PetscFunctionReturn(0);
 }

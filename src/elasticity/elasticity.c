@@ -72,14 +72,16 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 }
 
 /*@
-  ElasticityCreate - Creates the elasticity of the bodies of a mesh, with trilinear hexahedra and full integration
+  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of trilinear hexahedra
 
   Collective
 
   Input Parameters:
 + dm        - the mesh, from `MeshCreate()`
 . nbodies   - number of bodies
-- materials - materials[b] belongs to the cells whose "body" label is b
+. materials - materials[b] belongs to the cells whose "body" label is b
+- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`, or `ELEMENT_BBAR`, which does not lock as Poisson's
+              ratio nears 1/2; `NULL` for full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
@@ -97,20 +99,72 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Elasticity e;
 
   PetscFunctionBegin;
-  (void)elements;
   PetscCall(ElasticityInitializePackage());
   PetscCall(PetscNew(&e));
   PetscCall(PetscObjectReference((PetscObject)dm));
   e->dm      = dm;
   e->nbodies = nbodies;
-  PetscCall(PetscMalloc1(nbodies, &e->bodies));
+  PetscCall(PetscCalloc1(nbodies, &e->bodies));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscCall(MaterialGetLame(&materials[b], &e->bodies[b].lambda, &e->bodies[b].mu));
-    PetscCall(MaterialGetLaw(&materials[b], &e->bodies[b].law));
+    BodyMaterial *m = &e->bodies[b].material;
+
+    PetscCall(MaterialGetLame(&materials[b], &m->lambda, &m->mu));
+    PetscCall(MaterialGetLaw(&materials[b], &m->law));
+    PetscCall(ElementGet(elements ? elements[b] : ELEMENT_FULL, &e->bodies[b].element));
   }
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
+  PetscCall(ElasticitySetUpKept(e));
   *elasticity = e;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityIsLinear - Whether no body's tangent depends on the displacement
+
+  Not Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameter:
+. linear - `PETSC_TRUE` if the energy is quadratic in the displacement
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`, `ElasticityGetAssemblies()`
+@*/
+PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
+{
+  PetscFunctionBegin;
+  *linear = PETSC_TRUE;
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    if (!e->bodies[b].material.law->constant) *linear = PETSC_FALSE;
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityGetAssemblies - Gets how often a body has been assembled into a tangent
+
+  Not Collective
+
+  Input Parameters:
++ elasticity - the context
+- body       - the body, from 0
+
+  Output Parameter:
+. assemblies - number of assemblies, into whichever matrix
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`
+@*/
+PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *assemblies)
+{
+  PetscFunctionBegin;
+  PetscCheck(body >= 0 && body < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
+  *assemblies = e->bodies[body].assemblies;
   PetscFunctionReturn(0);
 }
 
@@ -140,6 +194,7 @@ PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
 
   PetscFunctionBegin;
   PetscCall(PetscFree(e->prescribed));
+  e->assembled.id = 0;
   if (!rows) PetscFunctionReturn(0);
   PetscCall(DMGetGlobalVector(e->dm, &global));
   PetscCall(DMGetLocalVector(e->dm, &local));

@@ -2,26 +2,42 @@
 #define ELASTICITY_PRIVATE_H
 
 #include <elasticity.h>
-#include "hex.h"
+#include "element.h"
 
 typedef struct {
-  const MaterialLaw *law;
-  PetscReal          lambda, mu; /* [force/length^2] */
-} BodyMaterial;
+  BodyMaterial   material;
+  const Element *element;
+  PetscBool      kept;       /* constant tangent, and no vertex shared with a body that is assembled again */
+  PetscInt       assemblies; /* into any tangent */
+} Body;
+
+/* The last tangent assembled, as it was left: a matrix of another id or state is assembled completely */
+typedef struct {
+  PetscObjectId    id; /* 0: none */
+  PetscObjectState state;
+} AssembledTangent;
 
 struct _n_Elasticity {
-  DM             dm;
-  char           mattype[64];
-  HexBasis       basis;
-  PetscInt       nbodies;
-  BodyMaterial  *bodies;
-  PetscInt       ncells, nnodes; /* of this rank; a node is a vertex, numbered as the local section does */
-  PetscInt      *cellnodes;      /* 8 nodes a cell, tensor order */
-  PetscInt      *cellbody;
-  unsigned char *prescribed; /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
+  DM               dm;
+  char             mattype[64];
+  HexBasis         basis;
+  PetscInt         nbodies;
+  Body            *bodies;
+  PetscInt         ncells, nnodes; /* of this rank; a node is a vertex, numbered as the local section does */
+  PetscInt        *cellnodes;      /* 8 nodes a cell, tensor order */
+  PetscInt        *cellbody;
+  unsigned char   *prescribed; /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
+  AssembledTangent assembled;
 };
 
 PETSC_INTERN PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force;
+
+/* Local values of a displacement (NULL: zero), and the coordinates */
+PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x);
+PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul, const PetscScalar **x);
+
+/* Sets which bodies are kept when a tangent is assembled again */
+PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);
 
 /* Allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);

@@ -9,7 +9,7 @@ static PetscReal MaterialEnergy_Linear(PetscReal lambda, PetscReal mu, const Pet
   return 0.5 * lambda * trace * trace + mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
 }
 
-static void MaterialCauchy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+static PetscBool MaterialCauchy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
 {
   const PetscReal pressure = lambda * (H[0] + H[4] + H[8]);
 
@@ -19,9 +19,10 @@ static void MaterialCauchy_Linear(PetscReal lambda, PetscReal mu, const PetscRea
   sigma[3] = mu * (H[1] + H[3]);
   sigma[4] = mu * (H[5] + H[7]);
   sigma[5] = mu * (H[2] + H[6]);
+  return PETSC_TRUE;
 }
 
-static void MaterialStress_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+static PetscBool MaterialStress_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
 {
   PetscReal s[6];
 
@@ -32,9 +33,10 @@ static void MaterialStress_Linear(PetscReal lambda, PetscReal mu, const PetscRea
   P[1] = P[3] = s[3];
   P[5] = P[7] = s[4];
   P[2] = P[6] = s[5];
+  return PETSC_TRUE;
 }
 
-static void MaterialTangent_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialTangent_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
 {
   (void)H;
   for (int i = 0; i < 81; ++i) A[i] = 0;
@@ -45,6 +47,19 @@ static void MaterialTangent_Linear(PetscReal lambda, PetscReal mu, const PetscRe
       A[9 * (3 * i + j) + 3 * j + i] += mu;
     }
   }
+  return PETSC_TRUE;
 }
 
-const MaterialLaw MaterialLawLinear = {PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear};
+/* theta = tr e */
+static PetscReal MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9])
+{
+  for (int i = 0; i < 9; ++i) C[i] = i % 4 ? 0 : 1;
+  return H[0] + H[4] + H[8];
+}
+
+static void MaterialCurvature_Linear(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+{
+  (void)pressure, (void)H, (void)A;
+}
+
+const MaterialLaw MaterialLawLinear = {PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};

@@ -1,75 +1,141 @@
-/* Compressible neo-Hookean: W = mu/2 (J^(-2/3) tr(F^T F) - 3) + kappa/2 (J - 1)^2, kappa = lambda + 2 mu/3 */
+/*
+   Compressible neo-Hookean: W = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2, I1 = tr(F^T F), kappa = lambda + 2 mu/3.
+
+   Everything is written in what vanishes at rest, H, theta = J - 1 and I1 - 3, so that small strains keep their digits.
+*/
 #include "laws.h"
 
-/* F = I + H, its cofactors C = J F^(-T), J = det F, tr(F^T F) */
-static void NeoHookeanKinematics(const PetscReal H[9], PetscReal F[9], PetscReal C[9], PetscReal *J, PetscReal *I1)
+typedef struct {
+  PetscReal D[9];  /* cof F - I, cof F = J F^(-T) */
+  PetscReal theta; /* J - 1 */
+  PetscReal i1;    /* I1 - 3 */
+  PetscReal power; /* J^(-2/3); set where J > 0 */
+  PetscReal less;  /* J^(-2/3) - 1; set where J > 0 */
+} Kinematics;
+
+/* cof F = I + (tr H) I - H^T + cof H, J = 1 + tr H + tr cof H + det H; returns whether J > 0 (or not a number) */
+static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k)
 {
-  for (int i = 0; i < 9; ++i) F[i] = H[i] + (i % 4 == 0);
+  const PetscReal trace = H[0] + H[4] + H[8];
+  PetscReal       cofactor[9], c, square = 0;
+
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
 
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
 
-      C[3 * i + j] = F[3 * i1 + j1] * F[3 * i2 + j2] - F[3 * i1 + j2] * F[3 * i2 + j1];
+      cofactor[3 * i + j] = H[3 * i1 + j1] * H[3 * i2 + j2] - H[3 * i1 + j2] * H[3 * i2 + j1];
+      k->D[3 * i + j]     = cofactor[3 * i + j] - H[3 * j + i] + (i == j ? trace : 0);
     }
   }
-  *J  = F[0] * C[0] + F[1] * C[1] + F[2] * C[2];
-  *I1 = 0;
-  for (int i = 0; i < 9; ++i) *I1 += F[i] * F[i];
+  for (int i = 0; i < 9; ++i) square += H[i] * H[i];
+  k->theta = trace + cofactor[0] + cofactor[4] + cofactor[8] + H[0] * cofactor[0] + H[1] * cofactor[1] + H[2] * cofactor[2];
+  k->i1    = 2 * trace + square;
+  if (k->theta <= -1) return PETSC_FALSE;
+  c        = PetscCbrtReal(1 + k->theta);
+  k->power = 1 / (c * c);
+  k->less  = -k->theta * (c + 1) / (c * c + c + 1) * k->power; /* 1 - c^2 = -(c^3 - 1) (c + 1)/(c^2 + c + 1) */
+  return PETSC_TRUE;
 }
 
 static PetscReal MaterialEnergy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9])
 {
-  PetscReal F[9], C[9], J, I1;
+  Kinematics k;
 
-  NeoHookeanKinematics(H, F, C, &J, &I1);
-  if (J <= 0) return PETSC_INFINITY;
-  return 0.5 * mu * (PetscPowReal(J, -2. / 3.) * I1 - 3) + 0.5 * (lambda + 2 * mu / 3) * (J - 1) * (J - 1);
+  if (!NeoHookeanKinematics(H, &k)) return PETSC_INFINITY;
+  return 0.5 * mu * (k.i1 * k.power + 3 * k.less) + 0.5 * (lambda + 2 * mu / 3) * k.theta * k.theta;
 }
 
-/* P = mu J^(-2/3) (F - I1/3 G) + kappa (J - 1) J G, G = F^(-T) */
-static void MaterialStress_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+/* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 - 3)/3 cof F */
+static inline void NeoHookeanStress(PetscReal lambda, PetscReal mu, const PetscReal H[9], const Kinematics *k, PetscReal P[9])
 {
-  PetscReal F[9], C[9], J, I1, m, g;
+  const PetscReal J = 1 + k->theta, m = mu * k->power, g = (lambda + 2 * mu / 3) * k->theta - m * k->i1 / (3 * J);
 
-  NeoHookeanKinematics(H, F, C, &J, &I1);
-  m = mu * PetscPowReal(J, -2. / 3.);
-  g = (lambda + 2 * mu / 3) * (J - 1) - m * I1 / (3 * J);
-  for (int i = 0; i < 9; ++i) P[i] = m * F[i] + g * C[i];
+  for (int i = 0; i < 9; ++i) {
+    const PetscReal unit = i % 4 ? 0 : 1;
+
+    P[i] = m * (H[i] + (k->theta * unit - k->D[i]) / J) + g * (unit + k->D[i]);
+  }
 }
 
-/* From dJ = J G:dF, dI1 = 2 F:dF and dG_iJ = -G_iL G_kJ dF_kL */
-static void MaterialTangent_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialStress_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
 {
-  const PetscReal kappa = lambda + 2 * mu / 3;
-  PetscReal       F[9], G[9], J, I1, m;
+  Kinematics k;
 
-  NeoHookeanKinematics(H, F, G, &J, &I1);
-  for (int i = 0; i < 9; ++i) G[i] /= J;
-  m = mu * PetscPowReal(J, -2. / 3.);
+  if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
+  NeoHookeanStress(lambda, mu, H, &k, P);
+  return PETSC_TRUE;
+}
+
+/* With G = F^(-T), from dJ = J G:dF, dI1 = 2 F:dF and dG_iJ = -G_iL G_kJ dF_kL */
+static PetscBool MaterialTangent_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+{
+  Kinematics k;
+  PetscReal  F[9], G[9], J, m, unit, dyad, mixed, crossed;
+
+  if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
+  J       = 1 + k.theta;
+  m       = mu * k.power;
+  unit    = m;
+  mixed   = -2. / 3. * m;
+  dyad    = 2. / 9. * m * (3 + k.i1) + (lambda + 2 * mu / 3) * (2 * J - 1) * J;
+  crossed = m * (3 + k.i1) / 3 - (lambda + 2 * mu / 3) * k.theta * J;
+  for (int i = 0; i < 9; ++i) {
+    F[i] = (i % 4 ? 0 : 1) + H[i];
+    G[i] = ((i % 4 ? 0 : 1) + k.D[i]) / J;
+  }
   for (int p = 0; p < 9; ++p) {
-    for (int q = 0; q < 9; ++q) {
-      const PetscReal crossed = G[p / 3 * 3 + q % 3] * G[q / 3 * 3 + p % 3];
+    for (int q = p; q < 9; ++q) {
+      A[9 * p + q] = mixed * (F[p] * G[q] + G[p] * F[q]) + dyad * G[p] * G[q] + crossed * G[p / 3 * 3 + q % 3] * G[q / 3 * 3 + p % 3];
+      A[9 * q + p] = A[9 * p + q];
+    }
+    A[10 * p] += unit;
+  }
+  return PETSC_TRUE;
+}
 
-      A[9 * p + q] = m * ((p == q) - 2. / 3. * (F[p] * G[q] + G[p] * F[q]) + I1 * (2. / 9. * G[p] * G[q] + crossed / 3)) + kappa * ((2 * J - 1) * J * G[p] * G[q] - (J - 1) * J * crossed);
+/* sigma = P F^T / J */
+static PetscBool MaterialCauchy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+{
+  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  Kinematics       k;
+  PetscReal        P[9];
+
+  if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
+  NeoHookeanStress(lambda, mu, H, &k, P);
+  for (int s = 0; s < 6; ++s) {
+    const PetscReal *p = P + 3 * row[s], *h = H + 3 * column[s];
+
+    sigma[s] = (p[column[s]] + p[0] * h[0] + p[1] * h[1] + p[2] * h[2]) / (1 + k.theta);
+  }
+  return PETSC_TRUE;
+}
+
+/* theta = J - 1 */
+static PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9])
+{
+  Kinematics k;
+
+  (void)NeoHookeanKinematics(H, &k);
+  for (int i = 0; i < 9; ++i) C[i] = (i % 4 ? 0 : 1) + k.D[i];
+  return k.theta;
+}
+
+/* d2J/dF_ij dF_kl = e_ikm e_jln F_mn: zero unless i, k, m and j, l, n are permutations */
+static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+{
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int di = 1; di < 3; ++di) {
+        for (int dj = 1; dj < 3; ++dj) {
+          const int k = (i + di) % 3, l = (j + dj) % 3, m = 3 - i - k, n = 3 - j - l;
+
+          A[9 * (3 * i + j) + 3 * k + l] += (di == dj ? pressure : -pressure) * ((m == n) + H[3 * m + n]);
+        }
+      }
     }
   }
 }
 
-/* sigma = P F^T / J */
-static void MaterialCauchy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
-{
-  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  PetscReal        F[9], C[9], P[9], J, I1;
-
-  NeoHookeanKinematics(H, F, C, &J, &I1);
-  MaterialStress_NeoHookean(lambda, mu, H, P);
-  for (int s = 0; s < 6; ++s) {
-    const PetscReal *p = P + 3 * row[s], *f = F + 3 * column[s];
-
-    sigma[s] = (p[0] * f[0] + p[1] * f[1] + p[2] * f[2]) / J;
-  }
-}
-
-const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, MaterialEnergy_NeoHookean, MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean};
+const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, MaterialEnergy_NeoHookean, MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean, MaterialCurvature_NeoHookean};

@@ -1,7 +1,12 @@
-/* Boxes of equal hexahedra, aligned with the axes */
+/* Boxes of hexahedra, aligned with the axes, equal or graded along each axis */
 #include "shape.h"
 
-static const char *const BoxFaces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", NULL};
+static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)
+{
+  static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", NULL};
+
+  return faces;
+}
 
 static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {
@@ -14,70 +19,47 @@ static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscI
     PetscCheck(body->cells[d] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the box must have at least one cell along each axis, but has %" PetscInt_FMT " along %c", body->name, body->cells[d], "xyz"[d]);
     PetscCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has too many level 0 cells for this PETSc's integers: %" PetscInt_FMT " x %" PetscInt_FMT " x %" PetscInt_FMT, body->name,
                body->cells[0], body->cells[1], body->cells[2]);
+    PetscCall(ShapeCheckGrading(comm, body, body->grading[d]));
     *ncells *= body->cells[d];
     *nvertices *= body->cells[d] + 1;
   }
   PetscFunctionReturn(0);
 }
 
-/* The facets of a face normal to axis d, at the vertex plane `plane` of that axis */
-static void BoxFace(const PetscInt n[3], const PetscInt stride[3], PetscInt d, PetscInt plane, PetscInt face, ShapeGrid *grid)
+static PetscInt BoxVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
 {
-  const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+  const PetscInt *n = (const PetscInt *)context;
 
-  for (PetscInt j = 0; j < n[t]; ++j) {
-    for (PetscInt i = 0; i < n[s]; ++i) {
-      const PetscInt v = plane * stride[d] + i * stride[s] + j * stride[t];
-      PetscInt      *f = grid->facets + 4 * grid->nfacets;
-
-      f[0]                              = v;
-      f[1]                              = v + stride[s];
-      f[2]                              = v + stride[s] + stride[t];
-      f[3]                              = v + stride[t];
-      grid->facetface[grid->nfacets++] = face;
-    }
-  }
+  return i + (n[0] + 1) * (j + (n[1] + 1) * k);
 }
 
 static PetscErrorCode ShapeCreate_Box(const SceneBody *body, ShapeGrid *grid)
 {
-  const PetscInt *n         = body->cells;
-  const PetscInt  stride[3] = {1, n[0] + 1, (n[0] + 1) * (n[1] + 1)};
-  const PetscInt  nfacets   = 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
-  PetscInt       *c;
-  PetscReal      *x;
+  const PetscInt  *n     = body->cells;
+  const ShapeBlock block = {
+    {n[0], n[1], n[2]},
+    {0, 1, 2, 3, 4, 5},
+    n, BoxVertex
+  };
+  PetscReal *x;
 
   PetscFunctionBegin;
-  grid->ncells    = n[0] * n[1] * n[2];
-  grid->nvertices = stride[2] * (n[2] + 1);
-  grid->nfacets   = 0;
-  PetscCall(PetscMalloc1(8 * grid->ncells, &grid->cells));
-  PetscCall(PetscMalloc1(3 * grid->nvertices, &grid->coordinates));
-  PetscCall(PetscMalloc1(4 * nfacets, &grid->facets));
-  PetscCall(PetscMalloc1(nfacets, &grid->facetface));
+  PetscCall(ShapeGridCreate(1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
   x = grid->coordinates;
   for (PetscInt k = 0; k <= n[2]; ++k) {
     for (PetscInt j = 0; j <= n[1]; ++j) {
       for (PetscInt i = 0; i <= n[0]; ++i, x += 3) {
         const PetscInt index[3] = {i, j, k};
 
-        for (PetscInt d = 0; d < 3; ++d) x[d] = ((n[d] - index[d]) * body->lower[d] + index[d] * body->upper[d]) / n[d];
+        for (PetscInt d = 0; d < 3; ++d) {
+          const PetscReal t = ShapeGraded(body->grading[d], n[d], index[d]);
+
+          x[d] = (1 - t) * body->lower[d] + t * body->upper[d];
+        }
       }
     }
-  }
-  c = grid->cells;
-  for (PetscInt k = 0; k < n[2]; ++k) {
-    for (PetscInt j = 0; j < n[1]; ++j) {
-      for (PetscInt i = 0; i < n[0]; ++i, c += 8) {
-        for (PetscInt a = 0; a < 8; ++a) c[a] = (i + (a & 1)) * stride[0] + (j + (a >> 1 & 1)) * stride[1] + (k + (a >> 2)) * stride[2];
-      }
-    }
-  }
-  for (PetscInt d = 0; d < 3; ++d) {
-    BoxFace(n, stride, d, 0, 2 * d, grid);
-    BoxFace(n, stride, d, n[d], 2 * d + 1, grid);
   }
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeBox = {BoxFaces, ShapeSize_Box, ShapeCreate_Box};
+const Shape ShapeBox = {ShapeFaces_Box, ShapeSize_Box, ShapeCreate_Box, NULL};

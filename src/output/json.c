@@ -1,5 +1,6 @@
 /* The report of a run as JSON */
 #include "outputimpl.h"
+#include <math.h>
 
 static void WriteString(FILE *stream, const char key[], const char text[], const char end[])
 {
@@ -56,16 +57,48 @@ static void WriteStep(FILE *stream, const StepReport *step)
   fprintf(stream, "]%s", next);
   WriteInt(stream, "amg_applications", step->amg_applications, next);
   WriteInt(stream, "amg_setups", step->amg_setups, next);
+  WriteInt(stream, "substeps", step->substeps, next);
+  WriteInt(stream, "cuts", step->cuts, next);
+  WriteInt(stream, "contact_updates", step->contact_updates, next);
+  WriteInt(stream, "regularizations", step->regularizations, next);
+  WriteInt(stream, "systems", step->systems, next);
+  WriteInt(stream, "filtered_systems", step->filtered_systems, next);
   WriteReal(stream, "energy", (double)step->energy, next);
+  WriteReal(stream, "potential", (double)step->potential, next);
+  WriteReal(stream, "equilibrium", (double)step->equilibrium, next);
   WriteReal(stream, "kkt_error", (double)step->kkt_error, next);
   WriteReal(stream, "kkt_error_unscaled", (double)step->kkt_error_unscaled, next);
   WriteReal(stream, "gap_min", (double)step->gap_min, next);
+  WriteReal(stream, "gap_true", (double)step->gap_true, next);
+  WriteReal(stream, "gap_change", (double)step->gap_change, next);
   WriteReal(stream, "complementarity", (double)step->complementarity, next);
   WriteVector(stream, "contact_force", step->contact_force, next);
   WriteVector(stream, "reaction", step->reaction, next);
   WriteReal(stream, "solve_time", (double)step->solve_time, next);
   fprintf(stream, "\"converged\": %s%s", step->converged ? "true" : "false", next);
   WriteString(stream, "reason", step->reason, "\n    }");
+}
+
+static void WriteAssemblies(FILE *stream, const RunReport *report)
+{
+  fputs("\"assemblies\": {", stream);
+  for (PetscInt b = 0; b < report->nbodies; ++b) WriteInt(stream, report->bodies[b], report->assemblies[b], b + 1 < report->nbodies ? ", " : "");
+  fputs("},\n  ", stream);
+}
+
+static void WriteEffects(FILE *stream, const RunReport *report)
+{
+  fputs("\"effects\": [", stream);
+  for (PetscInt e = 0; e < report->neffects; ++e) {
+    const RunEffect *effect = &report->effects[e];
+
+    fputs(e ? ",\n    {" : "\n    {", stream);
+    WriteString(stream, "name", effect->name, ", ");
+    fprintf(stream, "\"on\": %s, ", effect->on ? "true" : "false");
+    WriteString(stream, "why", effect->why, ", ");
+    WriteReal(stream, "time", effect->time < 0 ? NAN : effect->time, "}");
+  }
+  fputs("\n  ],\n  ", stream);
 }
 
 static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
@@ -94,6 +127,8 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   WriteReal(stream, "filter_setup", report->time.filter_setup, ",\n    ");
   WriteReal(stream, "filter_apply", report->time.filter_apply, ",\n    ");
   WriteReal(stream, "other", report->time.other, "\n  },\n  ");
+  WriteAssemblies(stream, report);
+  WriteEffects(stream, report);
   fputs("\"contact_free\": {\n    ", stream);
   WriteInt(stream, "iterations", report->contact_free.iterations, ",\n    ");
   WriteReal(stream, "condition", (double)report->contact_free.condition, ",\n    ");

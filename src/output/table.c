@@ -28,6 +28,20 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* How far the step is from the truth of its own discretization, beside the optimizer's KKT error */
+static PetscErrorCode ViewAccuracy(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %5s %8s %8s  %15s %11s %10s %10s\n", "step", "solves", "cuts", "gap", "indef.", "potential", "equilibrium", "true", "gap"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %5s %8s %8s  %15s %11s %10s %10s\n", "", "", "", "updates", "systems", "", "residual", "gap", "change"));
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8" PetscInt_FMT " %5" PetscInt_FMT " %8" PetscInt_FMT " %8" PetscInt_FMT "  %15.8e %11.2e %10.2e %10.2e\n", step->step, step->substeps, step->cuts, step->contact_updates, step->regularizations, (double)step->potential, (double)step->equilibrium, (double)step->gap_true, (double)step->gap_change));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
 {
   const struct {
@@ -71,6 +85,35 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
 }
 
 /*@C
+   ReportViewEffects - Prints what the scene called for and what it did not, why, and the share of the time
+
+   Collective on the viewer
+
+   Input Parameters:
++  report - the report
+-  viewer - an ASCII viewer
+
+   Level: intermediate
+
+   Note:
+   An effect without a share is part of the phases it works in (an element's formulation, say, of the assembly).
+
+.seealso: `ReportView()`
+@*/
+PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%-20s %-4s %10s %6s  %s\n", "effect", "", "time [s]", "share", "why"));
+  for (PetscInt i = 0; i < report->neffects; ++i) {
+    const RunEffect *effect = &report->effects[i];
+
+    if (effect->time < 0) PetscCall(PetscViewerASCIIPrintf(viewer, "%-20s %-4s %10s %6s  %s\n", effect->name, effect->on ? "on" : "off", "-", "-", effect->why));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, "%-20s %-4s %10.3f %5.1f%%  %s\n", effect->name, effect->on ? "on" : "off", effect->time, report->time.total > 0 ? 100 * effect->time / report->time.total : 0.0, effect->why));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
    ReportView - Prints the report of a run: steps, forces, times, memory
 
    Collective on the viewer
@@ -90,6 +133,8 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewSteps(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewForces(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewAccuracy(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
   PetscCall(ViewContactFree(report, viewer));

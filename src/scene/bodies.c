@@ -1,29 +1,17 @@
 /* bodies: a list of named bodies, each with its shape, mesh and material */
 #include "sceneimpl.h"
 
-const char *const BodyShapes[] = {"box", "BodyShape", "SHAPE_", NULL};
-
-static PetscErrorCode SceneReadBox(SceneKeys keys, SceneBody *body)
+static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
-  const struct {
-    const char *name;
-    PetscReal  *corner;
-  } corners[] = {
-    {"lower", body->lower},
-    {"upper", body->upper}
-  };
+  PetscInt    element = ELEMENT_FULL;
 
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(corners); ++i) {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_%s", body->name, corners[i].name));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-    if (text) PetscCall(SceneParseReals(keys, key, text, 3, corners[i].corner));
-  }
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_cells", body->name));
-  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-  if (text) PetscCall(SceneParseInts(keys, key, text, 3, body->cells));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_element", body->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseEnum(keys, key, text, ElementTypes, &element));
+  body->element = (ElementType)element;
   PetscFunctionReturn(0);
 }
 
@@ -55,24 +43,18 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
 
 PetscErrorCode SceneReadBodies(SceneKeys keys, Scene scene)
 {
-  char      **names;
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
+  char **names;
 
   PetscFunctionBegin;
   PetscCall(SceneGetNames(keys, "bodies", PETSC_TRUE, &scene->nbodies, &names));
   PetscCall(PetscCalloc1(scene->nbodies, &scene->bodies));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    SceneBody *body  = &scene->bodies[b];
-    PetscInt   shape = SHAPE_BOX;
+    SceneBody *body = &scene->bodies[b];
 
     body->name = names[b];
-    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_shape", body->name));
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-    if (text) PetscCall(SceneParseEnum(keys, key, text, BodyShapes, &shape));
-    body->shape = (BodyShape)shape;
-    PetscCall(SceneReadBox(keys, body));
+    PetscCall(SceneReadShape(keys, body));
     PetscCall(SceneReadMaterial(keys, body));
+    PetscCall(SceneReadElement(keys, body));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);

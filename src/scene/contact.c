@@ -1,22 +1,37 @@
 /* contact: a list of named pairs of faces */
 #include "sceneimpl.h"
 
+static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscInt    gap = GAP_MORTAR;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "contact_%s_mortar", pair->name));
+  PetscCall(PetscStrallocpy(text ? text : "", &pair->mortar));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "contact_%s_nonmortar", pair->name));
+  PetscCall(PetscStrallocpy(text ? text : "", &pair->nonmortar));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_gap", pair->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseEnum(keys, key, text, GapTypes, &gap));
+  pair->gap = (GapType)gap;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_distance", pair->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseReal(keys, key, text, &pair->distance));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneReadContact(SceneKeys keys, Scene scene)
 {
-  char      **names;
-  const char *text;
+  char **names;
 
   PetscFunctionBegin;
   PetscCall(SceneGetNames(keys, "contact", PETSC_FALSE, &scene->npairs, &names));
   PetscCall(PetscCalloc1(scene->npairs, &scene->pairs));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    SceneContactPair *pair = &scene->pairs[p];
-
-    pair->name = names[p];
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "contact_%s_mortar", pair->name));
-    PetscCall(PetscStrallocpy(text ? text : "", &pair->mortar));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "contact_%s_nonmortar", pair->name));
-    PetscCall(PetscStrallocpy(text ? text : "", &pair->nonmortar));
+    scene->pairs[p].name = names[p];
+    PetscCall(SceneReadPair(keys, &scene->pairs[p]));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);

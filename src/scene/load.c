@@ -1,55 +1,115 @@
-/* load: so many equal steps to load factor 1, or the factor at the end of each */
+/* load and ramps: the program of the load itself and of what follows a program of its own */
 #include "sceneimpl.h"
 
-static PetscErrorCode SceneCreateLoadRamp(Scene scene, PetscInt nsteps)
+/* Equal parts of a rise from 0 to 1 */
+static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
 {
   PetscFunctionBegin;
-  if (!scene->ramps) {
-    PetscCall(PetscCalloc1(1, &scene->ramps));
-    PetscCall(PetscStrallocpy("load", &scene->ramps[0].name));
-    scene->nramps = 1;
-  }
-  scene->nsteps = nsteps;
-  PetscCall(PetscFree(scene->ramps[0].factor));
-  PetscCall(PetscCalloc1(PetscMax(0, nsteps), &scene->ramps[0].factor));
+  PetscCall(PetscMalloc1(PetscMax(0, nsteps), &ramp->factor));
+  for (PetscInt i = 0; i < nsteps; ++i) ramp->factor[i] = (PetscReal)(i + 1) / (PetscReal)nsteps;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneSetUniformLoad(Scene scene, PetscInt nsteps)
-{
-  PetscFunctionBegin;
-  PetscCall(SceneCreateLoadRamp(scene, nsteps));
-  for (PetscInt i = 0; i < nsteps; ++i) scene->ramps[0].factor[i] = (PetscReal)(i + 1) / (PetscReal)nsteps;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SceneReadFactors(SceneKeys keys, Scene scene, const char text[])
-{
-  char   **words;
-  PetscInt n = PETSC_DECIDE;
-
-  PetscFunctionBegin;
-  PetscCall(SceneParseList(keys, "load_factors", text, &n, &words));
-  PetscCall(SceneCreateLoadRamp(scene, n));
-  for (PetscInt i = 0; i < scene->nsteps; ++i) PetscCall(SceneParseReal(keys, "load_factors", words[i], &scene->ramps[0].factor[i]));
-  PetscCall(PetscStrToArrayDestroy((int)scene->nsteps, words));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene)
+/* The load itself is ramp 0, and sets the number of steps */
+static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp)
 {
   const char *steps, *factors;
-  PetscInt    nsteps = 1;
+  char      **words;
 
   PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
   if (steps && factors) PetscCall(SceneKeysComplain(keys, "load_steps and load_factors exclude each other"));
-  if (factors) PetscCall(SceneReadFactors(keys, scene, factors));
-  else {
-    if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &nsteps));
-    PetscCall(SceneSetUniformLoad(scene, nsteps));
+  if (factors) {
+    scene->nsteps = PETSC_DECIDE;
+    PetscCall(SceneParseList(keys, "load_factors", factors, &scene->nsteps, &words));
+    PetscCall(PetscStrToArrayDestroy((int)scene->nsteps, words));
+    PetscCall(PetscCalloc1(scene->nsteps, &ramp->factor));
+    PetscCall(SceneParseReals(keys, "load_factors", factors, scene->nsteps, ramp->factor));
+  } else {
+    scene->nsteps = 1;
+    if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
+    PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
   }
+  if (scene->nsteps < 1) PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *ramp)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscBool   reserved;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
+  if (reserved) PetscCall(SceneKeysComplain(keys, "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+  PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
+  if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
+{
+  PetscInt n;
+  char   **names;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetNames(keys, "ramps", PETSC_FALSE, &n, &names));
+  scene->nramps = 1 + n;
+  PetscCall(PetscCalloc1(scene->nramps, &scene->ramps));
+  PetscCall(SceneReadLoad(keys, scene, &scene->ramps[0]));
+  for (PetscInt r = 0; r < n; ++r) {
+    scene->ramps[1 + r].name = names[r];
+    PetscCall(SceneReadRamp(keys, scene->nsteps, &scene->ramps[1 + r]));
+  }
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+/* The ramp that <list>_<name> follows: its key ramp, or else the load */
+PetscErrorCode SceneReadRampName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *ramp)
+{
+  const char *text;
+  char        choices[SCENE_KEY_LENGTH] = "";
+  PetscBool   same;
+
+  PetscFunctionBegin;
+  *ramp = 0;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_ramp", list, name));
+  if (!text) PetscFunctionReturn(0);
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    PetscCall(PetscStrcasecmp(text, scene->ramps[r].name, &same));
+    if (same) {
+      *ramp = r;
+      PetscFunctionReturn(0);
+    }
+    if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
+    PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
+  }
+  PetscCall(SceneKeysComplain(keys, "%s_%s_ramp is \"%s\"; it can be: %s", list, name, text, choices));
+  PetscFunctionReturn(0);
+}
+
+/* The same programs in so many steps of equal time. Displacement bounds begin no earlier than they did */
+PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
+{
+  const PetscReal stretch = (PetscReal)nsteps / (PetscReal)scene->nsteps;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    PetscReal *factor;
+
+    PetscCall(PetscMalloc1(nsteps, &factor));
+    for (PetscInt i = 0; i < nsteps; ++i) PetscCall(SceneGetFactor(scene, r, (PetscReal)(i + 1) * (PetscReal)scene->nsteps / (PetscReal)nsteps, &factor[i]));
+    PetscCall(PetscFree(scene->ramps[r].factor));
+    scene->ramps[r].factor = factor;
+  }
+  if (scene->displacement_bounds) scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
+  scene->nsteps = nsteps;
   PetscFunctionReturn(0);
 }
 

@@ -99,7 +99,7 @@ PetscErrorCode SceneParseInts(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
-static PetscBool IsName(const char name[])
+PetscBool SceneIsName(const char name[])
 {
   if (!isalpha((unsigned char)name[0])) return PETSC_FALSE;
   for (const char *c = name; *c; ++c)
@@ -124,7 +124,7 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
   PetscCall(PetscMalloc1(*n, names));
   for (PetscInt i = 0; i < *n; ++i) {
     PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
-    if (!IsName(words[i])) PetscCall(SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
+    if (!SceneIsName(words[i])) PetscCall(SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
       if (same) PetscCall(SceneKeysComplain(keys, "the name \"%s\" stands twice in %s", words[i], key));

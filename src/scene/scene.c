@@ -2,6 +2,8 @@
 #include "sceneimpl.h"
 #include <string.h>
 
+const char *const StepModels[] = {"energy", "quadratic", "StepModel", "MODEL_", NULL};
+
 /* The file's name without folders and .yaml */
 static PetscErrorCode SceneDefaultName(const char file[], char **name)
 {
@@ -18,18 +20,36 @@ static PetscErrorCode SceneDefaultName(const char file[], char **name)
 static PetscErrorCode SceneReadProblem(SceneKeys keys, Scene scene)
 {
   const char *text;
+  PetscInt    model = MODEL_ENERGY;
+  const struct {
+    const char *name;
+    PetscInt   *value;
+  } counts[] = {
+    {"refine",              &scene->refine             },
+    {"contact_updates",     &scene->contact_updates    },
+    {"displacement_bounds", &scene->displacement_bounds}
+  };
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "problem"));
   if (text) PetscCall(PetscStrallocpy(text, &scene->name));
   else PetscCall(SceneDefaultName(keys->file, &scene->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "refine"));
-  if (text) PetscCall(SceneParseInt(keys, "refine", text, &scene->refine));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "model"));
+  if (text) PetscCall(SceneParseEnum(keys, "model", text, StepModels, &model));
+  scene->model           = (StepModel)model;
+  scene->contact_updates = 1;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(counts); ++i) {
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", counts[i].name));
+    if (text) PetscCall(SceneParseInt(keys, counts[i].name, text, counts[i].value));
+  }
+  if (scene->displacement_bounds && (scene->displacement_bounds < 2 || scene->displacement_bounds > scene->nsteps)) {
+    PetscCall(SceneKeysComplain(keys, "displacement_bounds = %" PetscInt_FMT "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and at most the last, %" PetscInt_FMT, scene->displacement_bounds, scene->nsteps));
+  }
   PetscFunctionReturn(0);
 }
 
 /* The command line wins over the file */
-static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, Scene scene)
+static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt  nsteps = scene->nsteps;
   PetscBool set;
@@ -37,9 +57,12 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, Scene scene)
   PetscFunctionBegin;
   PetscOptionsBegin(comm, NULL, "Scene", NULL);
   PetscCall(PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
-  PetscCall(PetscOptionsInt("-load_steps", "Load steps of equal size", "SceneLoad", nsteps, &nsteps, &set));
+  PetscCall(PetscOptionsInt("-load_steps", "Load steps: equal parts of the scene's program", "SceneLoad", nsteps, &nsteps, &set));
+  PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
+  PetscCall(PetscOptionsInt("-contact_updates", "Linearizations of the gap a load step", "SceneLoad", scene->contact_updates, &scene->contact_updates, NULL));
   PetscOptionsEnd();
-  if (set) PetscCall(SceneSetUniformLoad(scene, nsteps));
+  PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1", file, nsteps);
+  if (set && nsteps != scene->nsteps) PetscCall(SceneResample(scene, nsteps));
   PetscFunctionReturn(0);
 }
 
@@ -55,35 +78,18 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, Scene scene)
    Output Parameter:
 .  scene - the scene, the same on every rank
 
-   Options Database Keys:
-+  -refine <n>     - uniform refinements of level 0, instead of the file's
--  -load_steps <n> - load steps of equal size, instead of the file's
+   Options Database Keys, each instead of what the file says:
++  -refine <n>               - uniform refinements of level 0
+.  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in between
+.  -model <energy,quadratic> - what a load step minimizes
+-  -contact_updates <n>      - linearizations of the gap a load step
 
    Level: beginner
 
    Notes:
-   A scene holds these keys. Lists of named things keep their order; a name is a letter, then letters, digits, _ or -.
-   A number may be a fraction, as -5/7. Lengths, forces and pressures are in any consistent units.
-.vb
-   problem: two_block                  # optional; the file's name
-   bodies:
-     - slab:
-         shape: box                    # optional
-         lower: [-4.5, -2, -4.5]       # corners [length]
-         upper: [4.5, 2, -1.5]
-         cells: [20, 6, 3]             # hexahedra along x, y, z at level 0
-         material: linear              # optional; or neohookean
-         young: 1                      # [force/length^2]
-         poisson: 0.499
-   displacements:                      # prescribed, times the load factor [length]
-     - bottom: {face: slab.zmin, value: [0, 0, 0]}
-     - top:    {face: block.zmax, value: [free, free, -5/7]}
-   contact:                            # optional; the nonmortar face carries the constraints
-     - blocks: {mortar: slab.zmax, nonmortar: block.zmin}
-   load: {steps: 2}                    # or {factors: [0.5, 1]}; optional, 1 step
-   refine: 1                           # optional, 0
-.ve
-   The faces of a box are xmin, xmax, ymin, ymax, zmin and zmax.
+   share/scenes/README.md documents the format: every key, its unit and default, and an example of every effect.
+
+   The options under the key solver are set in the options database until `SceneDestroy()`, where it has not got them yet.
 
    Every error is raised on all ranks: PETSC_ERR_FILE_OPEN and PETSC_ERR_FILE_READ for a file that is not there or no
    YAML, PETSC_ERR_USER_INPUT for what it says.
@@ -98,15 +104,21 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscFunctionBegin;
   PetscCall(SceneKeysCreate(comm, file, &keys));
   PetscCall(PetscNew(&s));
+  PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadProblem(keys, s));
   PetscCall(SceneReadBodies(keys, s));
+  PetscCall(SceneReadFaces(keys, s));
   PetscCall(SceneReadDisplacements(keys, s));
+  PetscCall(SceneReadSymmetry(keys, s));
+  PetscCall(SceneReadPressures(keys, s));
+  PetscCall(SceneReadBodyForces(keys, s));
   PetscCall(SceneReadContact(keys, s));
-  PetscCall(SceneReadLoad(keys, s));
+  PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));
   PetscCall(SceneKeysDestroy(&keys));
-  PetscCall(SceneSetFromOptions(comm, s));
+  PetscCall(SceneSetFromOptions(comm, file, s));
   PetscCall(SceneValidate(comm, file, s));
+  PetscCall(SceneSetOptions(s));
   *scene = s;
   PetscFunctionReturn(0);
 }
@@ -129,11 +141,19 @@ PetscErrorCode SceneDestroy(Scene *scene)
 
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(0);
-  for (PetscInt b = 0; b < s->nbodies; ++b) PetscCall(PetscFree(s->bodies[b].name));
+  for (PetscInt b = 0; b < s->nbodies; ++b) {
+    PetscCall(PetscFree(s->bodies[b].name));
+    PetscCall(SceneDestroyShape(&s->bodies[b]));
+  }
   for (PetscInt d = 0; d < s->ndisplacements; ++d) {
     PetscCall(PetscFree(s->displacements[d].name));
     PetscCall(PetscFree(s->displacements[d].face));
   }
+  for (PetscInt p = 0; p < s->npressures; ++p) {
+    PetscCall(PetscFree(s->pressures[p].name));
+    PetscCall(PetscFree(s->pressures[p].face));
+  }
+  for (PetscInt f = 0; f < s->nforces; ++f) PetscCall(PetscFree(s->forces[f].name));
   for (PetscInt p = 0; p < s->npairs; ++p) {
     PetscCall(PetscFree(s->pairs[p].name));
     PetscCall(PetscFree(s->pairs[p].mortar));
@@ -141,7 +161,10 @@ PetscErrorCode SceneDestroy(Scene *scene)
   }
   PetscCall(PetscFree(s->bodies));
   PetscCall(PetscFree(s->displacements));
+  PetscCall(PetscFree(s->pressures));
+  PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
+  PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {
     PetscCall(PetscFree(s->ramps[r].name));
     PetscCall(PetscFree(s->ramps[r].factor));

@@ -17,6 +17,7 @@ typedef struct {
 } *SceneKeys;
 
 #define SCENE_KEY_LENGTH 256
+#define SCENE_LOAD_RAMP  "load" /* ramp 0: the load itself */
 
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
@@ -31,26 +32,34 @@ PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const ch
 PETSC_INTERN PetscErrorCode SceneParseList(SceneKeys, const char key[], const char text[], PetscInt *n, char ***words);
 PETSC_INTERN PetscErrorCode SceneParseReals(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneParseInts(SceneKeys, const char key[], const char text[], PetscInt n, PetscInt[]);
+PETSC_INTERN PetscBool      SceneIsName(const char[]);
 PETSC_INTERN PetscErrorCode SceneGetNames(SceneKeys, const char key[], PetscBool required, PetscInt *n, char ***names);
 
 PETSC_INTERN PetscErrorCode SceneReadBodies(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadDisplacements(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadPressures(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadBodyForces(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadContact(SceneKeys, Scene);
-PETSC_INTERN PetscErrorCode SceneReadLoad(SceneKeys, Scene);
-PETSC_INTERN PetscErrorCode SceneSetUniformLoad(Scene, PetscInt nsteps);
+PETSC_INTERN PetscErrorCode SceneReadRamps(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadRampName(SceneKeys, Scene, const char list[], const char name[], PetscInt *ramp);
+PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
+PETSC_INTERN PetscErrorCode SceneReadSolver(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneSetOptions(Scene);
+PETSC_INTERN PetscErrorCode SceneDestroyOptions(Scene);
 
-/* A face of a box: the side of one axis */
-typedef struct {
-  PetscInt body;
-  PetscInt axis;  /* 0, 1, 2 */
-  PetscInt upper; /* 0 at lower[axis], 1 at upper[axis] */
-} SceneFace;
+/* Shape, level 0 and mesh file of a body, and how they are shown; a body's parts of faces */
+PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
+PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDestroyShape(SceneBody *);
+PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer);
+/* name: [values], and one value, every number such that it reads back the same */
+PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
+PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 
-/* found is false when the body, or the face of it, does not exist; body is PETSC_DECIDE in the first case */
-PETSC_INTERN PetscErrorCode SceneFindFace(Scene, const char name[], SceneFace *, PetscBool *found);
-PETSC_INTERN PetscErrorCode SceneFaceCorners(Scene, SceneFace, PetscReal corners[4][3]);
-
+/* Collective; what and owner name the thing that refers to the face, as in: displacement "bottom" */
+PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[], const char name[]);
 PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
-PETSC_INTERN PetscErrorCode SceneCheckSupport(MPI_Comm, const char file[], Scene);
 
 #endif

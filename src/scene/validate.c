@@ -1,5 +1,6 @@
 /* What a scene must satisfy beyond its grammar. Every rank holds the same scene, so every rank finds the same error. */
 #include "sceneimpl.h"
+#include <mesh.h>
 
 #define SceneRequire(cond, ...) PetscCheck(cond, comm, PETSC_ERR_USER_INPUT, __VA_ARGS__)
 
@@ -10,38 +11,27 @@ static PetscErrorCode ValidateBodies(MPI_Comm comm, const char file[], Scene sce
     const SceneBody *body = &scene->bodies[b];
     const PetscReal  E = body->material.young, nu = body->material.poisson;
 
-    for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt i = 0; i < 3 && body->shape == SHAPE_BOX; ++i) {
       SceneRequire(body->lower[i] < body->upper[i], "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i], (double)body->lower[i], "xyz"[i], (double)body->upper[i]);
       SceneRequire(body->cells[i] >= 1, "%s: body \"%s\" has %" PetscInt_FMT " cells along %c, it needs at least 1", file, body->name, body->cells[i], "xyz"[i]);
     }
+    PetscCall(MeshCheckBody(comm, body));
     SceneRequire(E > 0, "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)E);
     SceneRequire(nu > -1 && nu < 0.5, "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file, body->name, (double)nu);
   }
   PetscFunctionReturn(0);
 }
 
-/* what and owner name the thing that refers to the face, as in: displacement "bottom" */
-static PetscErrorCode ValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[], const char name[], SceneFace *face)
-{
-  PetscBool found;
-
-  PetscFunctionBegin;
-  PetscCall(SceneFindFace(scene, name, face, &found));
-  SceneRequire(face->body >= 0, "%s: %s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>", file, what, owner, name);
-  SceneRequire(found, "%s: %s \"%s\" names the face \"%s\", which does not exist; a box has xmin, xmax, ymin, ymax, zmin and zmax", file, what, owner, name);
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode ValidateDisplacements(MPI_Comm comm, const char file[], Scene scene)
 {
-  SceneFace face;
   PetscBool same;
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     const SceneDisplacement *here = &scene->displacements[d];
 
-    PetscCall(ValidateFace(comm, file, scene, "displacement", here->name, here->face, &face));
+    PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
+    SceneRequire(here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 
@@ -52,17 +42,23 @@ static PetscErrorCode ValidateDisplacements(MPI_Comm comm, const char file[], Sc
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ValidatePressures(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SceneValidateFace(comm, file, scene, "pressure", scene->pressures[p].name, scene->pressures[p].face));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
-  SceneFace face;
-
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *here = &scene->pairs[p];
     PetscBool               same, straight[2], crossed[2];
 
-    PetscCall(ValidateFace(comm, file, scene, "contact pair", here->name, here->mortar, &face));
-    PetscCall(ValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar, &face));
+    PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
+    PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
+    SceneRequire(here->distance >= 0, "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the faces", file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name, here->mortar);
     for (PetscInt q = 0; q < p; ++q) {
@@ -82,10 +78,10 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
   SceneRequire(scene->refine >= 0, "%s: refine = %" PetscInt_FMT ", which must be at least 0", file, scene->refine);
-  SceneRequire(scene->nsteps >= 1, "%s: %" PetscInt_FMT " load steps, which must be at least 1", file, scene->nsteps);
+  SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file, scene->contact_updates);
   PetscCall(ValidateBodies(comm, file, scene));
   PetscCall(ValidateDisplacements(comm, file, scene));
+  PetscCall(ValidatePressures(comm, file, scene));
   PetscCall(ValidateContact(comm, file, scene));
-  PetscCall(SceneCheckSupport(comm, file, scene));
   PetscFunctionReturn(0);
 }

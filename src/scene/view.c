@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 /* The shortest decimal that reads back as the same number */
-static PetscErrorCode ViewReal(PetscViewer viewer, PetscReal value)
+PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
 {
   char text[64];
 
@@ -17,22 +17,32 @@ static PetscErrorCode ViewReal(PetscViewer viewer, PetscReal value)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewReals(PetscViewer viewer, const char label[], PetscInt n, const PetscReal values[])
+static PetscErrorCode ViewList(PetscViewer viewer, PetscInt n, const PetscReal values[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: [", label));
-  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "["));
   for (PetscInt i = 0; i < n; ++i) {
     if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
-    PetscCall(ViewReal(viewer, values[i]));
+    PetscCall(SceneViewReal(viewer, values[i]));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "]\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewReals(PetscViewer viewer, const char label[], PetscInt n, const PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", label));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(ViewList(viewer, n, values));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewBody(PetscViewer viewer, const SceneBody *body)
+static PetscErrorCode ViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
+  const SceneBody *body        = &scene->bodies[b];
   const PetscReal constants[] = {body->material.young, body->material.poisson};
   const char     *labels[]    = {"young", "poisson"};
 
@@ -40,35 +50,123 @@ static PetscErrorCode ViewBody(PetscViewer viewer, const SceneBody *body)
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "shape: %s\n", BodyShapes[body->shape]));
-  PetscCall(ViewReals(viewer, "lower", 3, body->lower));
-  PetscCall(ViewReals(viewer, "upper", 3, body->upper));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "cells: [%" PetscInt_FMT ", %" PetscInt_FMT ", %" PetscInt_FMT "]\n", body->cells[0], body->cells[1], body->cells[2]));
+  PetscCall(SceneViewShape(body, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
   for (PetscInt i = 0; i < 2; ++i) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", labels[i]));
     PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-    PetscCall(ViewReal(viewer, constants[i]));
+    PetscCall(SceneViewReal(viewer, constants[i]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewDisplacement(PetscViewer viewer, const SceneDisplacement *displacement)
+/* The end of an entry: the ramp it follows if that is not the load itself, and its bracket */
+static PetscErrorCode ViewRampName(Scene scene, PetscViewer viewer, PetscInt ramp)
 {
+  PetscFunctionBegin;
+  if (ramp) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[ramp].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewDisplacement(Scene scene, PetscViewer viewer, PetscInt d)
+{
+  const SceneDisplacement *displacement = &scene->displacements[d];
+
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: [", displacement->name, displacement->face));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   for (PetscInt i = 0; i < 3; ++i) {
     if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
-    if (displacement->fixed[i]) PetscCall(ViewReal(viewer, displacement->value[i]));
+    if (displacement->fixed[i]) PetscCall(SceneViewReal(viewer, displacement->value[i]));
     else PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "]}\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  PetscCall(ViewRampName(scene, viewer, displacement->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewPressure(Scene scene, PetscViewer viewer, PetscInt p)
+{
+  const ScenePressure *pressure = &scene->pressures[p];
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: ", pressure->name, pressure->face));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(SceneViewReal(viewer, pressure->value));
+  PetscCall(ViewRampName(scene, viewer, pressure->ramp));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewBodyForce(Scene scene, PetscViewer viewer, PetscInt f)
+{
+  const SceneBodyForce *force = &scene->forces[f];
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", force->name));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  if (force->body >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %s, ", scene->bodies[force->body].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "value: "));
+  PetscCall(ViewList(viewer, 3, force->value));
+  PetscCall(ViewRampName(scene, viewer, force->ramp));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewPair(Scene scene, PetscViewer viewer, PetscInt p)
+{
+  const SceneContactPair *pair = &scene->pairs[p];
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {mortar: %s, nonmortar: %s, gap: %s", pair->name, pair->mortar, pair->nonmortar, GapTypes[pair->gap]));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  if (pair->distance > 0) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", distance: "));
+    PetscCall(SceneViewReal(viewer, pair->distance));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {factors: ", scene->ramps[1 + r].name));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(ViewList(viewer, scene->nsteps, scene->ramps[1 + r].factor));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* In double quotes: a value may hold what YAML takes for its own */
+static PetscErrorCode ViewOption(Scene scene, PetscViewer viewer, PetscInt o)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: \"", scene->options[o].name));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  for (const char *c = scene->options[o].value; *c; ++c) PetscCall(PetscViewerASCIIPrintf(viewer, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\"\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewEntries(Scene scene, PetscViewer viewer, const char key[], PetscInt n, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
+{
+  PetscFunctionBegin;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s:\n", key));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(view(scene, viewer, i));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
 
@@ -88,22 +186,22 @@ static PetscErrorCode ViewDisplacement(PetscViewer viewer, const SceneDisplaceme
 PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "problem: %s\nbodies:\n", scene->name));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(ViewBody(viewer, &scene->bodies[b]));
-  PetscCall(PetscViewerASCIIPopTab(viewer));
-  if (scene->ndisplacements) PetscCall(PetscViewerASCIIPrintf(viewer, "displacements:\n"));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(ViewDisplacement(viewer, &scene->displacements[d]));
-  PetscCall(PetscViewerASCIIPopTab(viewer));
-  if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "contact:\n"));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
-  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {mortar: %s, nonmortar: %s}\n", scene->pairs[p].name, scene->pairs[p].mortar, scene->pairs[p].nonmortar));
-  PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "problem: %s\n", scene->name));
+  PetscCall(ViewEntries(scene, viewer, "bodies", scene->nbodies, ViewBody));
+  PetscCall(SceneViewFaces(scene, viewer));
+  PetscCall(ViewEntries(scene, viewer, "displacements", scene->ndisplacements, ViewDisplacement));
+  PetscCall(ViewEntries(scene, viewer, "pressures", scene->npressures, ViewPressure));
+  PetscCall(ViewEntries(scene, viewer, "body_forces", scene->nforces, ViewBodyForce));
+  PetscCall(ViewEntries(scene, viewer, "contact", scene->npairs, ViewPair));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(ViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));
+  PetscCall(SceneViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));
   PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscCall(ViewEntries(scene, viewer, "ramps", scene->nramps - 1, ViewRamp));
   PetscCall(PetscViewerASCIIPrintf(viewer, "refine: %" PetscInt_FMT "\n", scene->refine));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "model: %s\n", StepModels[scene->model]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "contact_updates: %" PetscInt_FMT "\n", scene->contact_updates));
+  if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "displacement_bounds: %" PetscInt_FMT "\n", scene->displacement_bounds));
+  PetscCall(ViewEntries(scene, viewer, "solver", scene->noptions, ViewOption));
   PetscFunctionReturn(0);
 }

@@ -35,7 +35,7 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
   PetscCall(ContactLinearize(sim->contact, sim->path.u, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
-  PetscCall(PrescribedZero(&sim->prescribed, pressure));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, pressure));
   PetscCall(VecNorm(load, NORM_2, &size));
   PetscCall(VecNorm(pressure, NORM_2, &contact));
   if (contact > 0.0) PetscCall(VecAXPY(load, -(size > 0.0 ? size : 1.0) / contact, pressure));
@@ -65,19 +65,20 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 PetscErrorCode SimulationContactFree(Simulation sim)
 {
   RunReport         *report = &sim->report;
-  QuadraticModel     model;
+  StepProblem        problem;
   KSP                ksp;
   KSPConvergedReason reason;
   PetscReal          emax, emin;
   PetscLogDouble     t0, t1;
 
   PetscFunctionBegin;
-  PetscCall(QuadraticCreate(sim, sim->scene->ramps[0].factor[0], &model));
-  PetscCall(ContactFreeLoad(sim, model.force));
+  PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP, "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
+  PetscCall(StepProblemCreate(sim, 1.0, &problem));
+  PetscCall(ContactFreeLoad(sim, problem.force));
   PetscCall(ContactFreeKSP(sim, &ksp));
   PetscCall(KSPSetComputeSingularValues(ksp, PETSC_TRUE));
   PetscCall(PetscTime(&t0));
-  PetscCall(KSPSolve(ksp, model.force, model.w));
+  PetscCall(KSPSolve(ksp, problem.force, problem.w));
   PetscCall(PetscTime(&t1));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   if (reason > 0) {
@@ -91,6 +92,6 @@ PetscErrorCode SimulationContactFree(Simulation sim)
     report->contact_free.solve_time = t1 - t0;
   }
   PetscCall(KSPDestroy(&ksp));
-  PetscCall(QuadraticDestroy(&model));
+  PetscCall(StepProblemDestroy(&problem));
   PetscFunctionReturn(0);
 }

@@ -57,6 +57,32 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   PetscFunctionReturn(0);
 }
 
+/*
+   How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under pressure, and
+   as penetration over the others, whose open gap does not matter.
+*/
+PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization lin, PetscReal *change)
+{
+  const PetscReal    negligible = 1e-3; /* of the largest pressure */
+  const PetscScalar *g;
+  PetscReal          largest = 0.0, worst = 0.0;
+  MPI_Comm           comm = PetscObjectComm((PetscObject)lin->g);
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < lin->nlocal; ++i) largest = PetscMax(largest, m->pressure[ContactMemoryIndex(m, lin, i)]);
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCall(VecGetArrayRead(lin->g, &g));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    const PetscInt  k   = ContactMemoryIndex(m, lin, i);
+    const PetscReal gap = PetscRealPart(g[i]);
+
+    worst = PetscMax(worst, m->pressure[k] > negligible * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+  }
+  PetscCall(VecRestoreArrayRead(lin->g, &g));
+  PetscCall(MPIU_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ContactMemoryDestroy(ContactMemory *m)
 {
   PetscFunctionBegin;

@@ -3,8 +3,28 @@
 #include <petsctime.h>
 #include <sys/resource.h>
 
-/* Iterations, and what the preconditioner did for them: amgf counts for itself, any other PC is applied once an iteration */
-PetscErrorCode ReportPreconditioner(KSP ksp, StepReport *report)
+/* The last solve's end is the load step's */
+PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])
+{
+  PetscFunctionBegin;
+  report->converged = converged;
+  PetscCall(PetscFree(*(char **)&report->reason));
+  PetscCall(PetscStrallocpy(reason, (char **)&report->reason));
+  PetscFunctionReturn(0);
+}
+
+/* Appends */
+PetscErrorCode ReportIterations(StepReport *report, PetscInt n, const PetscInt iterations[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((report->nksp + n) * sizeof(PetscInt), &report->ksp_iterations));
+  PetscCall(PetscArraycpy(report->ksp_iterations + report->nksp, iterations, n));
+  report->nksp += n;
+  PetscFunctionReturn(0);
+}
+
+/* What the preconditioner did since `before`: amgf counts for itself, any other PC is applied once an iteration of the whole step */
+PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepReport *report)
 {
   PC           pc;
   PetscBool    isamgf;
@@ -16,9 +36,10 @@ PetscErrorCode ReportPreconditioner(KSP ksp, StepReport *report)
   if (isamgf) {
     PetscCall(PCAMGFGetCounts(pc, &counts));
     PetscCall(PCAMGFGetFilterSize(pc, &report->filter_dofs));
-    report->amg_applications = counts.amg_applies;
-    report->amg_setups       = counts.amg_setups;
+    report->amg_applications += counts.amg_applies - before->amg_applies;
+    report->amg_setups += counts.amg_setups - before->amg_setups;
   } else {
+    report->amg_applications = 0;
     for (PetscInt i = 0; i < report->nksp; ++i) report->amg_applications += report->ksp_iterations[i];
     report->amg_setups = report->nksp;
   }
@@ -32,6 +53,7 @@ static PetscErrorCode ReportContactForce(Simulation sim, Vec q, StepReport *repo
   PetscInt           rstart;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(report->contact_force, 3));
   PetscCall(VecGetOwnershipRange(q, &rstart, NULL));
   PetscCall(VecGetArrayRead(q, &a));
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
@@ -70,18 +92,26 @@ static PetscErrorCode ReportGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Reaction = internal force - contact force on the prescribed rows; both taken from the elements, not from the solver */
-PetscErrorCode ReportStepForces(Simulation sim, const QuadraticModel *q, Vec u, const ContactSolution *sol, StepReport *report)
+/*
+   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
+   = internal - contact - dead force on the prescribed rows
+*/
+PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
-  Vec force, contact, weighted;
+  Simulation sim = p->sim;
+  Vec        force, contact, weighted;
+  PetscReal  size, residual;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(q->base, &force));
+  PetscCall(VecDuplicate(p->base, &force));
+  PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
+  PetscCall(VecNorm(force, NORM_2, &size));
+  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
   if (sol->pressure) {
     PetscCall(ReportGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
-    PetscCall(VecDuplicate(q->base, &contact));
+    PetscCall(VecDuplicate(p->base, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(ReportContactForce(sim, contact, report));
@@ -90,6 +120,9 @@ PetscErrorCode ReportStepForces(Simulation sim, const QuadraticModel *q, Vec u, 
     PetscCall(VecDestroy(&contact));
   }
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
+  PetscCall(VecNorm(force, NORM_2, &residual));
+  report->equilibrium = size > 0.0 ? residual / size : residual;
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
@@ -167,6 +200,8 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
   PetscCall(ReportTimes(sim, &sim->report));
+  for (PetscInt b = 0; b < sim->report.nbodies; ++b) PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
+  PetscCall(EffectsSetTimes(sim, &sim->report));
   PetscCall(ReportMemory(sim->comm, &sim->report.peak_memory_bytes));
   *report = sim->report;
   PetscFunctionReturn(0);

@@ -22,22 +22,30 @@ static PetscErrorCode SimulationRegisterEvents(void)
 
 static PetscErrorCode SimulationCreateElasticity(Simulation sim)
 {
-  Scene     scene = sim->scene;
-  Material *materials;
-  IS        rows;
+  Scene        scene = sim->scene;
+  Material    *materials;
+  ElementType *elements;
+  PetscBool    linear;
+  IS           rows;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &materials));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) materials[b] = scene->bodies[b].material;
-  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, NULL, &sim->elasticity));
-  PetscCall(PetscFree(materials));
-  PetscCall(PrescribedCreate(sim->dm, scene->ndisplacements, scene->displacements, &sim->prescribed));
+  PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    materials[b] = scene->bodies[b].material;
+    elements[b]  = scene->bodies[b].element;
+  }
+  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, elements, &sim->elasticity));
+  PetscCall(PetscFree2(materials, elements));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
+  PetscCall(PrescribedCreate(sim->dm, scene, &sim->prescribed));
   PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
+  PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
-  PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
+  if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
@@ -51,10 +59,7 @@ static PetscErrorCode SimulationCreateContact(Simulation sim)
   PetscFunctionBegin;
   if (!scene->npairs) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(scene->npairs, &pairs));
-  for (PetscInt p = 0; p < scene->npairs; ++p) {
-    pairs[p].mortar    = scene->pairs[p].mortar;
-    pairs[p].nonmortar = scene->pairs[p].nonmortar;
-  }
+  for (PetscInt p = 0; p < scene->npairs; ++p) pairs[p] = (ContactPair){scene->pairs[p].mortar, scene->pairs[p].nonmortar, scene->pairs[p].gap, scene->pairs[p].distance};
   PetscCall(ContactCreate(sim->dm, scene->npairs, pairs, &sim->contact));
   PetscCall(PetscFree(pairs));
   PetscCall(ContactSetFromOptions(sim->contact));
@@ -65,16 +70,41 @@ static PetscErrorCode SimulationCreateContact(Simulation sim)
 static PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
-  sim->warm = PETSC_TRUE;
+  sim->warm       = PETSC_TRUE;
+  sim->maxcuts    = 5;
+  sim->update_tol = 1e-6;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
   PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
+  PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->update_tol, &sim->update_tol, NULL));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SimulationCreateReport(Simulation sim)
+{
+  RunReport *report = &sim->report;
+  Scene      scene  = sim->scene;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(sim->comm, &report->ranks));
+  PetscCall(VecGetSize(sim->path.u, &report->dofs));
+  report->problem   = scene->name;
+  report->refine    = scene->refine;
+  report->converged = PETSC_TRUE;
+  report->reason    = "all load steps converged";
+  report->nbodies   = scene->nbodies;
+  PetscCall(PetscCalloc1(scene->nsteps, &report->steps));
+  PetscCall(PetscMalloc2(scene->nbodies, &report->bodies, scene->nbodies, &report->assemblies));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b] = scene->bodies[b].name;
+  PetscCall(EffectsCreate(sim, report));
+  PetscFunctionReturn(0);
+}
+
 /*@C
-   SimulationCreate - Builds what a scene calls for: mesh, elastic bodies and their tangent, and the contact pairs if
-   it names any.
+   SimulationCreate - Builds what a scene calls for: mesh, elastic bodies and their tangent, dead loads, and the contact
+   pairs if it names any.
 
    Collective
 
@@ -83,10 +113,13 @@ static PetscErrorCode SimulationSetFromOptions(Simulation sim)
 -  scene - the scene; must outlive the simulation
 
    Output Parameter:
-.  sim - the simulation, at load 0 with zero displacement
+.  sim - the simulation, at time 0 with zero displacement
 
-   Options Database Key:
-.  -load_warm_start <bool> - start a load step from the path and the pressures of the last one; default true
+   Options Database Keys:
++  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one; default true
+.  -load_max_cuts <5>         - how often a load step that fails is halved
+.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
+-  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
 
    Level: beginner
 
@@ -113,13 +146,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   PetscCall(VecSet(s->path.previous_u, 0.0));
   PetscCall(SimulationCreateElasticity(s));
   PetscCall(SimulationCreateContact(s));
-  PetscCallMPI(MPI_Comm_size(comm, &s->report.ranks));
-  PetscCall(VecGetSize(s->path.u, &s->report.dofs));
-  s->report.problem   = scene->name;
-  s->report.refine    = scene->refine;
-  s->report.converged = PETSC_TRUE;
-  s->report.reason    = "all load steps converged";
-  PetscCall(PetscCalloc1(scene->nsteps, &s->report.steps));
+  PetscCall(SimulationCreateReport(s));
   *sim = s;
   PetscFunctionReturn(0);
 }
@@ -138,51 +165,6 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationLinearizeContact(Simulation sim)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactLinearizationDestroy(&sim->linearization));
-  if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(PetscLogEventBegin(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->linearization));
-  PetscCall(PetscLogEventEnd(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
-/* The step's displacement becomes the state; it is refused when the solve failed, so the last good state stays */
-static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal load, Vec *u)
-{
-  Vec oldest = sim->path.previous_u;
-
-  PetscFunctionBegin;
-  sim->path.previous_u    = sim->path.u;
-  sim->path.previous_load = sim->path.load;
-  sim->path.u             = *u;
-  sim->path.load          = load;
-  *u                      = oldest;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SimulationKeepSurface(Simulation sim, const ContactSolution *sol)
-{
-  const PetscInt     n = sim->linearization ? sim->linearization->nlocal : 0;
-  const PetscScalar *z, *g;
-
-  PetscFunctionBegin;
-  PetscCall(PetscFree2(sim->pressure, sim->gap));
-  if (!sol->pressure) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(n, &sim->pressure, n, &sim->gap));
-  PetscCall(VecGetArrayRead(sol->pressure, &z));
-  PetscCall(VecGetArrayRead(sol->gap, &g));
-  for (PetscInt i = 0; i < n; ++i) {
-    sim->pressure[i] = PetscRealPart(z[i]);
-    sim->gap[i]      = PetscRealPart(g[i]);
-  }
-  PetscCall(VecRestoreArrayRead(sol->gap, &g));
-  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *report, StepState *state)
 {
   PetscFunctionBegin;
@@ -198,6 +180,20 @@ static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *repor
   PetscFunctionReturn(0);
 }
 
+/* Half of what was tried; false when the step has been cut often enough */
+static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
+{
+  const PetscBool nothing = (PetscBool)(sim->quadratic && !sim->contact); /* a linear system does not get easier */
+
+  PetscFunctionBegin;
+  *again = (PetscBool)(!nothing && report->cuts < sim->maxcuts);
+  if (!*again) PetscFunctionReturn(0);
+  ++report->cuts;
+  *increment *= 0.5;
+  if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step, (double)(sim->path.time + *increment), report->reason));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationStep - Solves the next load step.
 
@@ -209,47 +205,45 @@ static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *repor
 
    Output Parameter:
 .  state - what the step left, borrowed until the next step. Look at state->report->converged: where it is false the
-           displacement is that of the last converged step
+           displacement is that of the last converged solve
 
    Level: beginner
 
    Notes:
-   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals. A scene without contact
-   pairs costs one PCG solve (options prefix -elasticity_) and neither search nor optimizer.
+   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at what
+   was found as the scene's contact_updates allow, until it is true. Linear bodies, and the scene's `model quadratic`, make the
+   step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG solve
+   (options prefix -elasticity_) and neither search nor optimizer.
+
+   A step that fails is halved, tried again from the last good state, and doubled after each success.
 
 .seealso: `SimulationCreate()`, `SimulationGetReport()`, `TAOIPFILTER`
 @*/
 PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
-  StepReport     *report = &sim->report.steps[step];
-  QuadraticModel  model;
-  ContactSolution solution = {NULL, NULL};
-  Vec             u;
+  StepReport     *report    = &sim->report.steps[step];
+  const PetscReal end       = (PetscReal)(step + 1);
+  PetscReal       increment = end - sim->path.time;
+  PetscBool       again     = PETSC_TRUE;
 
   PetscFunctionBegin;
-  report->step = step + 1;
-  report->load = sim->scene->ramps[0].factor[step];
-  PetscCall(SimulationLinearizeContact(sim));
-  PetscCall(QuadraticCreate(sim, report->load, &model));
-  PetscCall(VecDuplicate(sim->path.u, &u));
-  PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
-  if (sim->linearization) {
-    PetscCall(QuadraticSetContact(&model, &sim->prescribed, sim->linearization, sim->path.u));
-    PetscCall(QuadraticSolveContact(sim, &model, u, report, &solution));
-  } else PetscCall(QuadraticSolveFree(&model, u, report));
-  PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
-  PetscCall(ReportStepForces(sim, &model, u, &solution, report));
-  PetscCall(SimulationKeepSurface(sim, &solution));
+  report->step       = step + 1;
+  report->load       = sim->scene->ramps[0].factor[step];
   sim->report.nsteps = step + 1;
-  if (report->converged) PetscCall(SimulationAdvance(sim, report->load, &u));
-  else {
+  while (again && sim->path.time < end) {
+    const PetscReal left = end - sim->path.time;
+
+    if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
+    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
+    if (report->converged) {
+      ++report->substeps;
+      increment *= 2.0;
+    } else PetscCall(SimulationCut(sim, report, &increment, &again));
+  }
+  if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
   }
-  PetscCall(VecDestroy(&u));
-  PetscCall(VecDestroy(&solution.pressure));
-  PetscCall(VecDestroy(&solution.gap));
-  PetscCall(QuadraticDestroy(&model));
   PetscCall(SimulationGetState(sim, report, state));
   PetscFunctionReturn(0);
 }
@@ -272,12 +266,17 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));
+  PetscCall(PetscFree2(s->report.bodies, s->report.assemblies));
+  PetscCall(PetscFree(s->report.effects));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree(s->stress));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
+  PetscCall(ContactLinearizationDestroy(&s->upcoming));
   PetscCall(ContactMemoryDestroy(&s->memory));
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
+  PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(KSPDestroy(&s->ksp));
   PetscCall(ElasticityDestroy(&s->elasticity));
   PetscCall(MatDestroy(&s->K));
   PetscCall(VecDestroy(&s->mass));

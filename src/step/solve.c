@@ -1,144 +1,219 @@
-/* Solving the quadratic model of a load step: by PCG without contact, by TAO with it. */
-#include "quadratic.h"
+/* Solving the problem of a load step: by PCG where it is linear, by TAO where it is not. */
+#include "stepimpl.h"
 #include <petsctime.h>
 
-/* One Newton step is exact: K w = -force */
-PetscErrorCode QuadraticSolveFree(QuadraticModel *q, Vec u, StepReport *report)
+static PetscErrorCode SimulationGetKSP(Simulation sim, KSP *ksp)
 {
-  KSP                ksp;
-  PC                 pc;
+  PC pc;
+
+  PetscFunctionBegin;
+  if (!sim->ksp) {
+    PetscCall(KSPCreate(sim->comm, &sim->ksp));
+    PetscCall(KSPSetOptionsPrefix(sim->ksp, "elasticity_"));
+    PetscCall(KSPSetType(sim->ksp, KSPCG));
+    PetscCall(KSPSetTolerances(sim->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    PetscCall(KSPGetPC(sim->ksp, &pc));
+    PetscCall(PCSetType(pc, PCAMGF));
+    PetscCall(KSPSetFromOptions(sim->ksp));
+    PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
+  }
+  *ksp = sim->ksp;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode KSPGetAMGFCounts(KSP ksp, PCAMGFCounts *counts)
+{
+  PC        pc;
+  PetscBool isamgf;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(counts, sizeof(*counts)));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &isamgf));
+  if (isamgf) PetscCall(PCAMGFGetCounts(pc, counts));
+  PetscFunctionReturn(0);
+}
+
+/* A quadratic step without contact or bounds: one Newton step, K w = -force, is exact */
+PetscErrorCode SolveLinear(StepProblem *p, Vec u, StepReport *report)
+{
+  KSP                ksp = NULL;
   KSPConvergedReason reason;
-  PetscReal          f, residual, scale;
+  PCAMGFCounts       before;
+  PetscInt           its;
+  PetscReal          residual, scale;
   PetscLogDouble     t0, t1;
 
   PetscFunctionBegin;
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)u), &ksp));
-  PetscCall(KSPSetOptionsPrefix(ksp, "elasticity_"));
-  PetscCall(KSPSetOperators(ksp, q->K, q->K));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
-  PetscCall(KSPSetFromOptions(ksp));
+  PetscCall(SimulationGetKSP(p->sim, &ksp));
+  PetscCall(KSPGetAMGFCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
-  PetscCall(KSPSolve(ksp, q->force, q->w));
+  PetscCall(KSPSolve(ksp, p->force, p->w));
   PetscCall(PetscTime(&t1));
-  PetscCall(VecWAXPY(u, -1.0, q->w, q->base));
+  report->solve_time += t1 - t0;
+  PetscCall(VecWAXPY(u, -1.0, p->w, p->base));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
-  report->solve_time = t1 - t0;
-  report->converged  = (PetscBool)(reason > 0);
-  PetscCall(PetscStrallocpy(KSPConvergedReasons[reason], (char **)&report->reason));
-  report->nksp       = 1;
-  PetscCall(PetscMalloc1(1, &report->ksp_iterations));
-  PetscCall(KSPGetIterationNumber(ksp, report->ksp_iterations));
-  PetscCall(ReportPreconditioner(ksp, report));
-  PetscCall(QuadraticEnergy(q, u, &f));
-  PetscCall(VecAXPY(q->Kw, 1.0, q->force));
-  PetscCall(VecNorm(q->Kw, NORM_2, &residual));
-  PetscCall(VecNorm(q->force, NORM_2, &scale));
-  report->energy             = f;
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), KSPConvergedReasons[reason]));
+  PetscCall(KSPGetIterationNumber(ksp, &its));
+  PetscCall(ReportIterations(report, 1, &its));
+  PetscCall(ReportPreconditioner(ksp, &before, report));
+  PetscCall(QuadraticEnergy(p, u, &report->potential));
+  PetscCall(VecAXPY(p->Kw, 1.0, p->force));
+  PetscCall(VecNorm(p->Kw, NORM_2, &residual));
+  PetscCall(VecNorm(p->force, NORM_2, &scale));
   report->kkt_error_unscaled = residual;
   report->kkt_error          = scale > 0.0 ? residual / scale : residual;
-  PetscCall(KSPDestroy(&ksp));
   PetscFunctionReturn(0);
 }
 
-/*
-   Later steps start from the path of the last two states continued to this step's load, and from pressures scaled with
-   it: for proportional loading of linear bodies only the edge of the contact area changes.
-*/
-static PetscErrorCode ContactStart(Simulation sim, PetscReal load, ContactLinearization lin, Tao tao, Vec u)
+static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
 {
-  const LoadPath *path  = &sim->path;
-  const PetscReal span  = path->load - path->previous_load;
-  const PetscReal ratio = span != 0.0 ? (load - path->load) / span : 0.0;
-  Vec             slack, pressure;
-  PetscBool       any;
-
-  PetscFunctionBegin;
-  if (!sim->warm) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(lin->g, &slack));
-  PetscCall(VecDuplicate(lin->g, &pressure));
-  PetscCall(ContactMemoryRecall(&sim->memory, lin, path->load != 0.0 ? load / path->load : 1.0, slack, pressure, &any));
-  if (any) {
-    PetscCall(VecCopy(path->u, u));
-    PetscCall(VecAXPY(u, ratio, path->u));
-    PetscCall(VecAXPY(u, -ratio, path->previous_u));
-    PetscCall(PrescribedApply(&sim->prescribed, load, u));
-    PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
-  }
-  PetscCall(VecDestroy(&slack));
-  PetscCall(VecDestroy(&pressure));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode QuadraticCreateTao(Simulation sim, QuadraticModel *q, Tao *tao)
-{
-  Vec c;
+  Simulation sim = p->sim;
+  Vec        c;
 
   PetscFunctionBegin;
   PetscCall(TaoCreate(sim->comm, tao));
   PetscCall(TaoSetType(*tao, TAOIPFILTER));
-  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, QuadraticObjectiveAndGradient, q));
-  PetscCall(TaoSetHessian(*tao, q->K, q->K, QuadraticHessian, q));
-  PetscCall(VecDuplicate(q->g, &c));
-  PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, QuadraticConstraint, q));
-  PetscCall(TaoSetJacobianInequalityRoutine(*tao, q->J, q->J, QuadraticJacobian, q));
-  PetscCall(VecDestroy(&c));
-  PetscCall(TaoIPFilterSetSlackMass(*tao, sim->linearization->mass));
+  if (sim->quadratic) {
+    PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, QuadraticObjectiveAndGradient, p));
+    PetscCall(TaoSetHessian(*tao, p->K, p->K, StepConstant, p));
+  } else {
+    PetscCall(TaoSetObjective(*tao, EnergyObjective, p));
+    PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, EnergyObjectiveAndGradient, p));
+    PetscCall(TaoSetHessian(*tao, p->K, p->K, EnergyHessian, p));
+  }
+  if (p->J) {
+    PetscCall(VecDuplicate(p->g, &c));
+    PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, StepConstraint, p));
+    PetscCall(TaoSetJacobianInequalityRoutine(*tao, p->J, p->J, StepConstant, p));
+    PetscCall(VecDestroy(&c));
+    PetscCall(TaoIPFilterSetSlackMass(*tao, sim->linearization->mass));
+  }
+  if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetFromOptions(*tao));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReportTao(Tao tao, StepReport *report)
+/* Pressures and slacks of the last solve, where any row had a pressure */
+static PetscErrorCode SolveRecallContact(StepProblem *p, PetscReal scale, Tao tao, PetscBool *any)
 {
-  TaoConvergedReason reason;
-  const char        *sentence;
-  const PetscInt    *its;
-  KSP                ksp;
+  Vec slack, pressure;
 
   PetscFunctionBegin;
-  PetscCall(TaoGetConvergedReason(tao, &reason));
-  report->converged = (PetscBool)(reason > 0);
-  PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(PetscStrallocpy(sentence ? sentence : TaoConvergedReasons[reason], (char **)&report->reason));
-  PetscCall(TaoGetIterationNumber(tao, &report->ip_iterations));
-  PetscCall(TaoIPFilterGetKSPIterations(tao, &report->nksp, &its));
-  PetscCall(PetscMalloc1(report->nksp, &report->ksp_iterations));
-  PetscCall(PetscArraycpy(report->ksp_iterations, its, report->nksp));
-  PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
-  PetscCall(TaoGetKSP(tao, &ksp));
-  if (ksp) PetscCall(ReportPreconditioner(ksp, report));
+  PetscCall(VecDuplicate(p->g, &slack));
+  PetscCall(VecDuplicate(p->g, &pressure));
+  PetscCall(ContactMemoryRecall(&p->sim->memory, p->sim->linearization, scale, slack, pressure, any));
+  if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
+  PetscCall(VecDestroy(&slack));
+  PetscCall(VecDestroy(&pressure));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode QuadraticSolveContact(Simulation sim, QuadraticModel *q, Vec u, StepReport *report, ContactSolution *sol)
+/*
+   A solve resumes from u when only the gap was linearized again. A new load step starts from the path continued to it
+   once there is contact to continue (for proportional loading of linear bodies only the edge of the contact area then
+   changes), else from base; either only if no element is turned inside out there.
+*/
+static PetscErrorCode SolveStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
 {
-  ContactLinearization lin = sim->linearization;
-  Tao                  tao;
-  Vec                  slack, multipliers;
-  PetscLogDouble       t0, t1;
+  Simulation sim   = p->sim;
+  PetscReal  f     = 0.0, scale;
+  PetscBool  moved = resume;
 
   PetscFunctionBegin;
-  PetscCall(QuadraticCreateTao(sim, q, &tao));
-  PetscCall(VecCopy(q->base, u));
-  PetscCall(ContactStart(sim, report->load, lin, tao, u));
-  PetscCall(TaoSetSolution(tao, u));
-  PetscCall(PetscTime(&t0));
-  PetscCall(TaoSolve(tao));
-  PetscCall(PetscTime(&t1));
-  report->solve_time = t1 - t0;
-  PetscCall(ReportTao(tao, report));
-  PetscCall(QuadraticEnergy(q, u, &report->energy));
+  *valid = PETSC_TRUE;
+  if (p->J && (resume || sim->warm)) {
+    if (resume) scale = 1.0;
+    else PetscCall(PathPressureScale(sim, p->time, &scale));
+    PetscCall(SolveRecallContact(p, scale, tao, &moved));
+  }
+  if (resume) PetscFunctionReturn(0);
+  if (!p->J) moved = sim->warm;
+  if (moved) {
+    PetscCall(PathContinue(sim, p->time, u));
+    if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &f));
+    if (EnergyIsFinite(f)) PetscFunctionReturn(0);
+  }
+  PetscCall(VecCopy(p->base, u));
+  if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &f));
+  *valid = EnergyIsFinite(f);
+  PetscFunctionReturn(0);
+}
 
+static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
+{
+  static const PCAMGFCounts none = {0, 0, 0, 0};
+  TaoConvergedReason        reason;
+  const char               *sentence;
+  const PetscInt           *its;
+  PetscInt                  n, systems, filtered, indefinite;
+  KSP                       ksp;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
+  PetscCall(TaoGetIterationNumber(tao, &n));
+  report->ip_iterations += n;
+  PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
+  PetscCall(ReportIterations(report, n, its));
+  PetscCall(TaoIPFilterGetFilterUse(tao, &systems, &filtered));
+  report->systems += systems;
+  report->filtered_systems += filtered;
+  PetscCall(TaoIPFilterGetRegularizations(tao, &indefinite, NULL, NULL));
+  report->regularizations += indefinite;
+  PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
+  PetscCall(TaoGetKSP(tao, &ksp));
+  if (ksp) PetscCall(ReportPreconditioner(ksp, &none, report));
+  PetscCall(TaoComputeObjective(tao, u, &report->potential));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
+{
+  ContactLinearization lin = p->sim->linearization;
+  Vec                  slack, multipliers;
+
+  PetscFunctionBegin;
+  PetscCall(ContactSolutionDestroy(sol));
   PetscCall(VecDuplicate(lin->g, &sol->gap));
   PetscCall(VecDuplicate(lin->g, &sol->pressure));
-  PetscCall(QuadraticConstraint(tao, u, sol->gap, q));
+  PetscCall(StepConstraint(tao, u, sol->gap, p));
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&sim->memory, lin, sol, slack));
+  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack));
+  PetscFunctionReturn(0);
+}
+
+/* resume: start from u as it is, with the pressures of the last solve */
+PetscErrorCode SolveTao(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
+{
+  Tao            tao;
+  PetscBool      valid;
+  PetscLogDouble t0, t1;
+
+  PetscFunctionBegin;
+  PetscCall(StepCreateTao(p, &tao));
+  PetscCall(SolveStart(p, resume, tao, u, &valid));
+  if (valid) {
+    PetscCall(TaoSetSolution(tao, u));
+    PetscCall(PetscTime(&t0));
+    PetscCall(TaoSolve(tao));
+    PetscCall(PetscTime(&t1));
+    report->solve_time += t1 - t0;
+    PetscCall(SolveReport(tao, u, report));
+    if (p->J && report->converged) PetscCall(SolveKeepContact(p, tao, u, sol));
+  } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   PetscCall(TaoDestroy(&tao));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactSolutionDestroy(ContactSolution *sol)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&sol->pressure));
+  PetscCall(VecDestroy(&sol->gap));
   PetscFunctionReturn(0);
 }

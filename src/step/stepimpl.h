@@ -7,37 +7,36 @@
 #include <gap.h>
 #include <petscamgf.h>
 
-/* Prescribed displacements of the whole scene: owned global rows, ascending, and their values at load factor 1 */
+/* Prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
 typedef struct {
-  PetscInt   n;
-  PetscInt  *rows;
-  PetscReal *values; /* [length] */
+  PetscReal value; /* [length] */
+  PetscInt  ramp;
+} PrescribedValue;
+
+typedef struct {
+  Scene            scene;
+  PetscInt         n;
+  PetscInt        *rows;
+  PrescribedValue *values;
 } Prescribed;
 
-/*
-   min E(u) s.t. g + J (u - base) >= 0 about the state `base`, which holds the prescribed displacements of the step:
-   E(u) = energy + force^T w + 1/2 w^T K w, w = u - base. w vanishes on prescribed rows.
-*/
+/* Dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has no load */
 typedef struct {
-  Mat       K;
-  Vec       base;
-  Vec       force; /* dE/du at base, zero on prescribed rows [force] */
-  PetscReal energy;
-  Mat       J; /* NULL without contact; columns of prescribed rows are zero */
-  Vec       g;
-  Vec       w, Kw;
-} QuadraticModel;
+  Scene scene;
+  Vec  *force; /* nramps [force] */
+} DeadLoads;
 
-/* Pressure and slack of the last step by nonmortar vertex, for the next step's warm start */
+/* Pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
 typedef struct {
   PetscInt   npairs, vstart, vend;
   PetscReal *pressure, *slack; /* npairs x (vend - vstart); pressure 0 where no row was */
 } ContactMemory;
 
-/* The state at the end of the last two load steps */
+/* The last two states of equilibrium; load step k ends at time k */
 typedef struct {
-  PetscReal load, previous_load;
+  PetscReal time, previous_time;
   Vec       u, previous_u;
+  PetscReal largest_increment; /* of any component in any step so far [length] */
 } LoadPath;
 
 struct _n_Simulation {
@@ -47,18 +46,45 @@ struct _n_Simulation {
   Elasticity           elasticity;
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
+  DeadLoads            loads;
+  PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
+  KSP                  ksp; /* of a quadratic step without contact */
   LoadPath             path;
   ContactMemory        memory;
-  ContactLinearization linearization; /* of the last step */
+  ContactLinearization linearization; /* of the last solve */
+  ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;
-  PetscBool            warm; /* later load steps start from the path and pressures of the last */
+  PetscBool            warm;       /* later load steps start from the path and pressures of the last */
+  PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  PetscInt             maxcuts;    /* of one load step */
+  PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
   PetscLogDouble       start;
 };
 
-/* What a solved step left behind, beside the displacement */
+/*
+   min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
+
+   base is the last state with the prescribed displacements of this time. The quadratic model of E about it is
+   energy + force^T w + 1/2 w^T K w, w = u - base; w vanishes on prescribed rows.
+*/
+typedef struct {
+  Simulation sim;
+  PetscReal  time;
+  Mat        K;
+  Vec        base;
+  Vec        load;   /* dead load [force]; NULL if there is none */
+  Vec        force;  /* gradient at base, zero on prescribed rows [force] */
+  PetscReal  energy; /* objective at base; of the quadratic model only */
+  Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
+  Vec        g;
+  Vec        lower, upper; /* NULL without bounds */
+  Vec        w, Kw;
+} StepProblem;
+
+/* What a solve left behind, beside the displacement */
 typedef struct {
   Vec pressure; /* one a row */
   Vec gap;      /* linearized, one a row */
@@ -66,25 +92,58 @@ typedef struct {
 
 PETSC_INTERN PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
 
-PETSC_INTERN PetscErrorCode PrescribedCreate(DM, PetscInt, const SceneDisplacement[], Prescribed *);
-PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal load, Vec u);
-PETSC_INTERN PetscErrorCode PrescribedZero(const Prescribed *, Vec);
+PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, Prescribed *);
+PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
 
-PETSC_INTERN PetscErrorCode QuadraticCreate(Simulation, PetscReal load, QuadraticModel *);
-PETSC_INTERN PetscErrorCode QuadraticSetContact(QuadraticModel *, const Prescribed *, ContactLinearization, Vec u_linearized);
-PETSC_INTERN PetscErrorCode QuadraticDestroy(QuadraticModel *);
-PETSC_INTERN PetscErrorCode QuadraticSolveFree(QuadraticModel *, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode QuadraticSolveContact(Simulation, QuadraticModel *, Vec u, StepReport *, ContactSolution *);
+PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
+PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
+PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
+
+PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
+PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
+
+PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
+PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
+PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
+PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
+/* TAO callbacks, and TAO itself with them; the context is a StepProblem */
+PETSC_INTERN PetscErrorCode StepConstraint(Tao, Vec, Vec, void *);
+PETSC_INTERN PetscErrorCode StepConstant(Tao, Vec, Mat, Mat, void *);
+PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
+PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
+PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
+PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
+PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
+
+#define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
+
+/* PETSC_INFINITY is a finite number to IEEE arithmetic, and so to PetscIsInfOrNanReal() */
+static inline PetscBool EnergyIsFinite(PetscReal energy)
+{
+  return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
+}
+
+PETSC_INTERN PetscErrorCode SolveLinear(StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode SolveTao(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
+
+PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
 PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
 PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
+PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
 PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
 
-PETSC_INTERN PetscErrorCode ReportStepForces(Simulation, const QuadraticModel *, Vec u, const ContactSolution *, StepReport *);
-PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, StepReport *);
-PETSC_INTERN PetscErrorCode ReportTimes(Simulation, RunReport *);
+PETSC_INTERN PetscErrorCode ReportForces(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
+PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
+PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
+PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
+PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
+PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
 #endif

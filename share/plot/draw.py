@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Draws the deformed bodies of a finished run from the files contact -output BASE wrote, without a display.
+
+    share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises|contact_pressure|contact_gap|displacement|body]
+                       [--scale 1] [--view ELEVATION AZIMUTH] [--up x|y|z] [--only BODY,...] [--hide AXIS<VALUE] [--title TEXT]
+
+Only faces that look at the viewer are drawn, coloured by the mean of the field, shaded by their normal.
+"""
+import argparse
+import glob
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+# quadrilaterals of a VTK/XDMF hexahedron, outward
+FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+LABELS = {"von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "gap", "displacement": "displacement, norm", "body": "body"}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("base")
+    parser.add_argument("picture")
+    parser.add_argument("--step", type=int, default=0, help="load step; the last one by default")
+    parser.add_argument("--field", choices=LABELS, default="von_mises")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor of the displacement")
+    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"))
+    parser.add_argument("--up", choices="xyz", default="z")
+    parser.add_argument("--only", help="numbers of the bodies to draw, e.g. 0,2")
+    parser.add_argument("--hide", default="", help="leave out the cells whose centre is on this side, e.g. 'y<0'")
+    parser.add_argument("--title", default="")
+    parser.add_argument("--limit", type=float, help="upper end of the colours")
+    return parser.parse_args()
+
+
+def load(args):
+    """Cells, reference vertices, displacement, and a field by cell or by vertex."""
+    steps = sorted(glob.glob(glob.escape(args.base) + "_[0-9]*.h5"))
+    if not steps:
+        sys.exit("draw.py: no file %s_0001.h5; run contact with -output %s" % (args.base, args.base))
+    name = "%s_%04d.h5" % (args.base, args.step) if args.step else steps[-1]
+    with h5py.File(args.base + ".h5") as mesh, h5py.File(name) as step:
+        cells, vertices, body = mesh["cells"][:], mesh["vertices"][:], mesh["body"][:].ravel()
+        displacement = step["displacement"][:]
+        if args.field == "body":
+            field = body.astype(float)
+        elif args.field == "displacement":
+            field = np.linalg.norm(displacement, axis=1)
+        elif args.field in step:
+            field = step[args.field][:]
+        else:
+            sys.exit("draw.py: %s has no field %s" % (name, args.field))
+    return cells, vertices, body, displacement, field
+
+
+def selected(args, cells, vertices, body):
+    keep = np.ones(len(cells), bool)
+    if args.only:
+        keep &= np.isin(body, [int(b) for b in args.only.split(",")])
+    if args.hide:
+        axis, side, value = args.hide[0], args.hide[1], float(args.hide[2:])
+        centre = vertices[cells][:, :, "xyz".index(axis)].mean(axis=1)
+        keep &= ~((centre < value) if side == "<" else (centre > value))
+    return np.flatnonzero(keep)
+
+
+def boundary(cells, chosen):
+    """Quadrilaterals of the chosen cells that no second chosen cell shares, and the cell of each."""
+    quads = cells[chosen][:, FACES].reshape(-1, 4)
+    owner = np.repeat(chosen, len(FACES))
+    _, first, count = np.unique(np.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
+    alone = first[count == 1]
+    return quads[alone], owner[alone]
+
+
+def main():
+    args = arguments()
+    cells, vertices, body, displacement, field = load(args)
+    quads, owner = boundary(cells, selected(args, cells, vertices, body))
+    colour = field[owner] if len(field) == len(cells) else field[quads].mean(axis=1)
+    order = {"z": [0, 1, 2], "x": [1, 2, 0], "y": [2, 0, 1]}[args.up]
+    corners = (vertices + args.scale * displacement)[quads][:, :, order]
+
+    normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    elevation, azimuth = np.radians(args.view)
+    towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    front = normal @ towards > -0.05
+    corners, colour, shade = corners[front], colour[front], 0.75 + 0.25 * np.abs(normal[front] @ towards)
+
+    norm = plt.Normalize(min(0.0, colour.min()), args.limit or colour.max())
+    rgba = plt.get_cmap("viridis")(norm(colour))
+    rgba[:, :3] *= shade[:, None]
+    figure = plt.figure(figsize=(8, 6))
+    axes = figure.add_subplot(projection="3d", proj_type="ortho")
+    axes.add_collection3d(Poly3DCollection(corners, facecolors=rgba, edgecolors=(0, 0, 0, 0.25), linewidths=0.2))
+    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(high - low, zoom=1.0)
+    axes.view_init(*args.view)
+    axes.set_axis_off()
+    figure.colorbar(plt.cm.ScalarMappable(norm, "viridis"), ax=axes, shrink=0.6, label=LABELS[args.field])
+    if args.title:
+        axes.set_title(args.title)
+    figure.savefig(args.picture, dpi=110, bbox_inches="tight")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+/* The border of a face: edges that only one of its facets has, on whatever rank */
+#include <petscsf.h>
+#include "contactimpl.h"
+
+static PetscErrorCode ReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
+{
+  PetscInt nroots;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
+  if (nroots < 0) PetscFunctionReturn(0);
+  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, value, value, op));
+  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, value, value, op));
+  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, value, value, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, value, value, MPI_REPLACE));
+  PetscFunctionReturn(0);
+}
+
+/* The mesh's edge between two vertices of it */
+static PetscErrorCode FindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
+{
+  const PetscInt  vertices[2] = {v, w};
+  const PetscInt *edges;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
+  PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
+  *edge = edges[0];
+  PetscCall(DMPlexRestoreJoin(dm, 2, vertices, &n, &edges));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The border of s, kept there */
+PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
+{
+  PetscSF  sf;
+  PetscInt npoints, *count, *edge;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &count)); /* facets at an edge; 1 for a vertex on the border */
+  PetscCall(PetscMalloc1(4 * s->nfacets, &edge));
+  PetscCall(PetscCalloc1(s->nfacets, &s->border));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    PetscCall(FindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
+    ++count[edge[i]];
+  }
+  PetscCall(ReduceAndShare(sf, MPI_SUM, count));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    if (count[edge[i]] == 1) count[s->vertex[i]] = count[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
+  }
+  PetscCall(ReduceAndShare(sf, MPI_MAX, count));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    if (count[edge[i]] == 1) s->border[i / 4] |= 1 << (i % 4);
+    if (count[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);
+  }
+  s->bordered = PETSC_TRUE;
+  PetscCall(PetscFree(edge));
+  PetscCall(PetscFree(count));
+  PetscFunctionReturn(0);
+}

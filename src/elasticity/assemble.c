@@ -1,0 +1,201 @@
+/*
+   Assembly of the tangent. Bodies with a constant tangent are assembled into a matrix once: later assemblies zero the rows of
+   the other bodies and add those bodies again. No second copy of any value is kept.
+*/
+#include "elasticity_private.h"
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
+
+/* Sets marks[v] at the nodes of the bodies that are not kept, also where only another rank has a cell of theirs */
+static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks[])
+{
+  Vec                local, global;
+  PetscScalar       *l;
+  const PetscScalar *sum;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(DMGetGlobalVector(e->dm, &global));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecZeroEntries(global));
+  PetscCall(VecGetArray(local, &l));
+  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+    if (!e->bodies[e->cellbody[i / 8]].kept) l[3 * e->cellnodes[i]] = 1;
+  }
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, global));
+  PetscCall(DMGlobalToLocal(e->dm, global, INSERT_VALUES, local));
+  PetscCall(VecGetArrayRead(local, &sum));
+  for (PetscInt v = 0; v < e->nnodes; ++v) marks[v] = (PetscBool)(PetscRealPart(sum[3 * v]) > 0);
+  PetscCall(VecRestoreArrayRead(local, &sum));
+  PetscCall(DMRestoreGlobalVector(e->dm, &global));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
+/* A body stays kept only if none of its rows is zeroed for another; that may take the next body along */
+PetscErrorCode ElasticitySetUpKept(Elasticity e)
+{
+  PetscBool *marks;
+  PetscInt   nkept = 0, nlost, *lost;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    e->bodies[b].kept = e->bodies[b].material.law->constant;
+    if (e->bodies[b].kept) ++nkept;
+  }
+  if (nkept == e->nbodies) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(e->nnodes, &marks, e->nbodies, &lost));
+  do {
+    if (!nkept) break;
+    PetscCall(ElasticityMarkAssembledAgain(e, marks));
+    PetscCall(PetscArrayzero(lost, e->nbodies));
+    for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+      if (marks[e->cellnodes[i]] && e->bodies[e->cellbody[i / 8]].kept) lost[e->cellbody[i / 8]] = 1;
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lost, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
+    nlost = 0;
+    for (PetscInt b = 0; b < e->nbodies; ++b) {
+      if (!lost[b]) continue;
+      e->bodies[b].kept = PETSC_FALSE;
+      ++nlost;
+    }
+    nkept -= nlost;
+  } while (nlost);
+  PetscCall(PetscFree2(marks, lost));
+  PetscFunctionReturn(0);
+}
+
+/* Zeroes rows and columns of prescribed displacements; their diagonal keeps the stiffness's scale */
+static void HexMaskPrescribed(const unsigned char prescribed[], const PetscInt nodes[8], PetscScalar K[24][24])
+{
+  for (int a = 0; a < 8; ++a) {
+    if (!prescribed[nodes[a]]) continue;
+    for (int i = 0; i < 3; ++i) {
+      const int         r        = 3 * a + i;
+      const PetscScalar diagonal = K[r][r];
+
+      if (!(prescribed[nodes[a]] >> i & 1)) continue;
+      for (int s = 0; s < 24; ++s) K[r][s] = K[s][r] = 0;
+      K[r][r] = diagonal;
+    }
+  }
+}
+
+/* Whether the matrix still holds what the last assembly left in it */
+static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscBool *holds)
+{
+  PetscObjectId    id;
+  PetscObjectState state;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetId((PetscObject)tangent, &id));
+  PetscCall(PetscObjectStateGet((PetscObject)tangent, &state));
+  *holds = (PetscBool)(id == e->assembled.id && state == e->assembled.state);
+  PetscFunctionReturn(0);
+}
+
+/* Zeroes the rows of the bodies that are not kept; their columns are in the same rows */
+static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt global[], Mat tangent)
+{
+  PetscInt   n = 0, first, last, *rows;
+  PetscBool *seen;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(tangent, &first, &last));
+  PetscCall(PetscMalloc1(last - first, &rows));
+  PetscCall(PetscCalloc1(e->nnodes, &seen));
+  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+    const PetscInt node = e->cellnodes[i], row = 3 * global[node];
+
+    if (seen[node] || e->bodies[e->cellbody[i / 8]].kept || row < first || row >= last) continue;
+    seen[node] = PETSC_TRUE;
+    for (PetscInt d = 0; d < 3; ++d) rows[n++] = row + d;
+  }
+  PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
+  PetscCall(PetscFree(seen));
+  PetscCall(PetscFree(rows));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the cells of all bodies, or of those that are not kept */
+static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, const PetscInt global[], Mat tangent)
+{
+  Vec                local;
+  const PetscScalar *x, *ul;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt *nodes = e->cellnodes + 8 * c;
+    const Body     *body  = &e->bodies[e->cellbody[c]];
+    PetscInt        rows[8];
+    PetscReal       X[3][8], U[3][8];
+    PetscScalar     K[24][24];
+
+    if (body->kept && !all) continue;
+    ElasticityGatherCell(nodes, x, X);
+    ElasticityGatherCell(nodes, ul, U);
+    if (!body->element->stiffness(&e->basis, &body->material, X, U, K)) {
+      PetscReal rest[3][8] = {{0}};
+
+      (void)body->element->stiffness(&e->basis, &body->material, X, rest, K);
+    }
+    if (e->prescribed) HexMaskPrescribed(e->prescribed, nodes, K);
+    for (PetscInt a = 0; a < 8; ++a) rows[a] = global[nodes[a]];
+    PetscCall(MatSetValuesBlocked(tangent, 8, rows, 8, rows, &K[0][0], ADD_VALUES));
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCall(MatAssemblyBegin(tangent, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(tangent, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityTangent - Assembles the second derivative of the energy
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. u          - displacement, global, 3 components a vertex [length]; may be `NULL` (no displacement)
+- tangent    - matrix from `ElasticityCreateTangent()`
+
+  Output Parameter:
+. tangent - the tangent [force/length]; rows and columns of prescribed unknowns are zero apart from the diagonal
+
+  Level: beginner
+
+  Notes:
+  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with a constant
+  tangent are left as they are, unless they share vertices with a body that is assembled again. If every body's tangent is constant,
+  nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without `MatZeroRows()` (sbaij).
+
+  A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
+
+.seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `ElasticityForce()`, `ElasticityGetAssemblies()`
+@*/
+PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
+{
+  ISLocalToGlobalMapping map;
+  const PetscInt        *global;
+  PetscBool              holds = PETSC_FALSE, linear = PETSC_FALSE, again = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityHoldsAssembled(e, tangent, &holds));
+  PetscCall(ElasticityIsLinear(e, &linear));
+  if (holds && linear) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(ELASTICITY_Tangent, tangent, 0, 0, 0));
+  PetscCall(MatHasOperation(tangent, MATOP_ZERO_ROWS, &again));
+  if (!holds) again = PETSC_FALSE;
+  PetscCall(DMGetLocalToGlobalMapping(e->dm, &map));
+  PetscCall(ISLocalToGlobalMappingGetBlockIndices(map, &global));
+  if (again) PetscCall(ElasticityZeroAssembledAgain(e, global, tangent));
+  else PetscCall(MatZeroEntries(tangent));
+  PetscCall(ElasticityAddCells(e, u, (PetscBool)!again, global, tangent));
+  PetscCall(ISLocalToGlobalMappingRestoreBlockIndices(map, &global));
+  for (PetscInt b = 0; b < e->nbodies; ++b) e->bodies[b].assemblies += again && e->bodies[b].kept ? 0 : 1;
+  PetscCall(PetscObjectGetId((PetscObject)tangent, &e->assembled.id));
+  PetscCall(PetscObjectStateGet((PetscObject)tangent, &e->assembled.state));
+  PetscCall(PetscLogEventEnd(ELASTICITY_Tangent, tangent, 0, 0, 0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,20 @@
+/* The table of elements */
+#include "element.h"
+
+const char *const ElementTypes[] = {"full", "bbar", "ElementType", "ELEMENT_", NULL};
+
+PetscErrorCode ElementGet(ElementType type, const Element **element)
+{
+  PetscFunctionBegin;
+  switch (type) {
+  case ELEMENT_FULL:
+    *element = &ElementFull;
+    break;
+  case ELEMENT_BBAR:
+    *element = &ElementBbar;
+    break;
+  default:
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Unknown element type %d", (int)type);
+  }
+  PetscFunctionReturn(0);
+}

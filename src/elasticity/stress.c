@@ -1,0 +1,50 @@
+/* Stress of the cells */
+#include "elasticity_private.h"
+
+static PetscReal VonMises(const PetscReal s[6])
+{
+  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+/*@
+  ElasticityCellStress - Computes the Cauchy stress averaged over each cell, and the von Mises stress of that average
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameter:
+. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean dilatation. A cell
+  turned inside out has the value `PETSC_INFINITY`.
+
+.seealso: `ElasticityForce()`, `ElasticityCreate()`
+@*/
+PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(PetscMalloc1(7 * e->ncells, stress));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const Body *body = &e->bodies[e->cellbody[c]];
+    PetscReal   X[3][8], U[3][8], *s = *stress + 7 * c;
+
+    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
+    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
+    if (body->element->cauchy(&e->basis, &body->material, X, U, s)) s[6] = VonMises(s);
+    else {
+      for (int k = 0; k < 7; ++k) s[k] = PETSC_INFINITY;
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}

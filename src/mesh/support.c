@@ -1,0 +1,303 @@
+/*
+   Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
+   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar facets.
+   A mode outside the span of these rows moves freely, and the stiffness is singular for it.
+*/
+#include "mesh_private.h"
+
+typedef struct {
+  DM        dm;
+  PetscInt  nbodies, n; /* n: 6 modes a body */
+  PetscReal (*center)[3], *size;
+  PetscReal *gram, *row; /* n x n sum of the rows' outer products, on this rank's facets; one row */
+} Support;
+
+static PetscErrorCode SupportGetPlaces(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
+{
+  Vec                coordinates;
+  PetscSection       section;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
+    for (PetscInt d = 0; d < 3; ++d) places[i][d] = PetscRealPart(x[offset + d]);
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Middle and half the largest side of every body's bounding box */
+static PetscErrorCode SupportMeasureBodies(Support *support)
+{
+  MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
+  PetscInt   cstart, cend;
+  PetscReal *bounds; /* smallest of x, y, z, -x, -y, -z */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(support->n, &bounds));
+  for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
+  PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  b, vertices[8];
+    PetscReal x[8][3];
+
+    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
+    PetscCall(MeshGetCellVertices(support->dm, c, vertices));
+    PetscCall(SupportGetPlaces(support->dm, 8, vertices, x));
+    for (PetscInt i = 0; i < 24; ++i) {
+      bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
+      bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)support->n, MPIU_REAL, MPIU_MIN, comm));
+  for (PetscInt b = 0; b < support->nbodies; ++b) {
+    support->size[b] = 0;
+    for (PetscInt d = 0; d < 3; ++d) {
+      support->center[b][d] = (bounds[6 * b + d] - bounds[6 * b + 3 + d]) / 2;
+      support->size[b]      = PetscMax(support->size[b], -(bounds[6 * b + d] + bounds[6 * b + 3 + d]) / 2);
+    }
+  }
+  PetscCall(PetscFree(bounds));
+  PetscFunctionReturn(0);
+}
+
+/* Adds to the row the component along a direction of the body's rigid motion t + r x (x - center)/size at the point x */
+static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
+{
+  PetscReal arm[3], *row = support->row + 6 * b;
+
+  for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+    row[d] += sign * direction[d];
+    row[3 + d] += sign * (arm[s] * direction[t] - arm[t] * direction[s]);
+  }
+}
+
+/* Takes the row into account with a weight, and clears it */
+static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < support->n; ++i) {
+    for (PetscInt j = 0; support->row[i] != 0 && j < support->n; ++j) support->gram[i * support->n + j] += weight * support->row[i] * support->row[j];
+  }
+  PetscCall(PetscArrayzero(support->row, support->n));
+  PetscFunctionReturn(0);
+}
+
+/* Body of a face from its facets, and their number over all ranks; every face weighs the same */
+static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *facets, PetscInt *body, PetscInt *total)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)support->dm);
+  const PetscInt *f, *cells;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(support->dm, face, facets));
+  PetscCall(ISGetLocalSize(*facets, &n));
+  PetscCall(ISGetIndices(*facets, &f));
+  *body = PETSC_DECIDE;
+  if (n) {
+    PetscCall(DMPlexGetSupport(support->dm, f[0], &cells));
+    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, cells[0], body));
+  }
+  PetscCall(ISRestoreIndices(*facets, &f));
+  PetscCallMPI(MPI_Allreduce(&n, total, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, 1, MPIU_INT, MPI_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     facets;
+  const PetscInt        *f;
+  PetscInt               n, b, total;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(SupportGetPlaces(support->dm, 4, vertices, x));
+    for (PetscInt k = 0; k < 12; ++k) {
+      if (!displacement->fixed[k % 3]) continue;
+      SupportAddMotion(support, b, axes[k % 3], x[k / 3], 1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *pair)
+{
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        n, mortar, nonmortar, total;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], normal[3], length = 0;
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(SupportGetPlaces(support->dm, 4, vertices, x));
+    for (PetscInt d = 0; d < 3; ++d) {
+      const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+      normal[d] = (x[2][s] - x[0][s]) * (x[3][t] - x[1][t]) - (x[2][t] - x[0][t]) * (x[3][s] - x[1][s]);
+      length += PetscSqr(normal[d]);
+    }
+    for (PetscInt d = 0; d < 3; ++d) normal[d] /= PetscSqrtReal(length);
+    for (PetscInt a = 0; a < 4; ++a) {
+      SupportAddMotion(support, nonmortar, normal, x[a], 1);
+      SupportAddMotion(support, mortar, normal, x[a], -1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* Takes the component along a unit vector out of a row */
+static void Orthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
+{
+  PetscReal dot = 0;
+
+  for (PetscInt i = 0; i < n; ++i) dot += unit[i] * row[i];
+  for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
+}
+
+/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram matrix.
+   Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
+static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
+{
+  const PetscInt n    = support->n;
+  PetscReal     *gram = support->gram, first = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
+  for (PetscInt k = 0; k < n; ++k) outside[k] = 1;
+  for (PetscInt rank = 0; rank < n; ++rank) {
+    PetscReal *pivot = gram + rank * n, largest = 0;
+
+    for (PetscInt r = rank; r < n; ++r) {
+      PetscReal norm = 0;
+
+      /* Twice, for orthogonality to rounding */
+      for (PetscInt q = 0; q < 2 * rank; ++q) Orthogonalize(n, gram + (q % rank) * n, gram + r * n);
+      for (PetscInt i = 0; i < n; ++i) norm += PetscSqr(gram[r * n + i]);
+      if (norm > largest) {
+        for (PetscInt i = 0; r != rank && i < n; ++i) {
+          const PetscReal swap = pivot[i];
+
+          pivot[i]        = gram[r * n + i];
+          gram[r * n + i] = swap;
+        }
+        largest = norm;
+      }
+    }
+    if (!rank) first = PetscSqrtReal(largest);
+    if (PetscSqrtReal(largest) <= 1e-9 * first) break;
+    for (PetscInt i = 0; i < n; ++i) {
+      pivot[i] /= PetscSqrtReal(largest);
+      outside[i] -= PetscSqr(pivot[i]);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
+{
+  static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z", "a rotation about x", "a rotation about y", "a rotation about z"};
+  MPI_Comm                 comm    = PetscObjectComm((PetscObject)support->dm);
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    PetscReal freest = 1e-6;
+    PetscInt  mode = PETSC_DECIDE, nfree = 0;
+
+    for (PetscInt k = 0; k < 6; ++k) {
+      if (outside[6 * b + k] > 1 - 1e-6) ++nfree;
+      if (outside[6 * b + k] > freest + 1e-6) {
+        freest = outside[6 * b + k];
+        mode   = k;
+      }
+    }
+    PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT, "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name, scene->bodies[b].name);
+    PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name, scene->bodies[b].name, modes[mode]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A surface of a Gmsh file need not bound the body whose face it is said to be */
+static PetscErrorCode CheckFacets(DM dm, const char what[], const char owner[], const char face[])
+{
+  IS       facets;
+  PetscInt n, total;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISDestroy(&facets));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+  PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is held
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, by `MeshCreate()`
+- scene - the scene
+
+  Level: intermediate
+
+  Notes:
+  A body is held if none of its rigid motions is free. Contact pairs count as if they were closed.
+
+.seealso: `MeshCreate()`, `SceneLoad()`
+@*/
+PetscErrorCode MeshCheckScene(DM dm, Scene scene)
+{
+  Support    support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
+  PetscReal *outside;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(CheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(CheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    PetscCall(CheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
+    PetscCall(CheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
+  }
+  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
+  PetscCall(SupportMeasureBodies(&support));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
+  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(SupportAddPair(&support, &scene->pairs[p]));
+  PetscCall(SupportGetFree(&support, outside));
+  PetscCall(SupportRaise(&support, scene, outside));
+  PetscCall(PetscFree5(support.center, support.size, support.gram, support.row, outside));
+  PetscFunctionReturn(0);
+}

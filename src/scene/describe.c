@@ -1,0 +1,293 @@
+/* What a scene will simulate, in words: for a look before the solve */
+#include "sceneimpl.h"
+#include <mesh.h>
+#include <petscbt.h>
+#include <petscviewer.h>
+#include <string.h>
+
+/* A body as it is meshed, of all ranks */
+typedef struct {
+  PetscInt  ncells, nvertices;
+  PetscReal lower[3], upper[3]; /* [length] */
+} BodyMesh;
+
+/* Vertices are counted where they are owned; bodies share none */
+static PetscErrorCode BodyMeshAddCell(DM dm, Vec coordinates, PetscInt cell, PetscBT met, BodyMesh *mesh)
+{
+  PetscInt           vertices[8], vstart, offset;
+  PetscSection       global, section;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  mesh->ncells++;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, NULL));
+  PetscCall(DMGetGlobalSection(dm, &global));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(MeshGetCellVertices(dm, cell, vertices));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt a = 0; a < 8; ++a) {
+    if (PetscBTLookupSet(met, vertices[a] - vstart)) continue;
+    PetscCall(PetscSectionGetOffset(global, vertices[a], &offset));
+    if (offset >= 0) mesh->nvertices++;
+    PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+    for (PetscInt i = 0; i < 3; ++i) {
+      mesh->lower[i] = PetscMin(mesh->lower[i], PetscRealPart(x[offset + i]));
+      mesh->upper[i] = PetscMax(mesh->upper[i], PetscRealPart(x[offset + i]));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Bounds that are 0 up to rounding are printed as 0 */
+static void CleanBounds(BodyMesh *mesh)
+{
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscReal tiny = 1e-12 * (mesh->upper[i] - mesh->lower[i]);
+
+    if (PetscAbsReal(mesh->lower[i]) < tiny) mesh->lower[i] = 0;
+    if (PetscAbsReal(mesh->upper[i]) < tiny) mesh->upper[i] = 0;
+  }
+}
+
+static PetscErrorCode MeasureBodies(DM dm, PetscInt nbodies, BodyMesh meshes[])
+{
+  MPI_Comm comm = PetscObjectComm((PetscObject)dm);
+  PetscInt start, end, vstart, vend, body;
+  PetscBT  met;
+  Vec      coordinates;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < nbodies; ++b) meshes[b] = (BodyMesh){0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(PetscBTCreate(vend - vstart, &met));
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  for (PetscInt c = start; c < end; ++c) {
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &body));
+    PetscCall(BodyMeshAddCell(dm, coordinates, c, met, &meshes[body]));
+  }
+  PetscCall(PetscBTDestroy(&met));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    PetscInt counts[2] = {meshes[b].ncells, meshes[b].nvertices};
+
+    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
+    meshes[b].ncells    = counts[0];
+    meshes[b].nvertices = counts[1];
+    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
+    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
+    CleanBounds(&meshes[b]);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
+{
+  BodyMesh *meshes;
+  PetscInt  ncells = 0, nvertices = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &meshes));
+  PetscCall(MeasureBodies(dm, scene->nbodies, meshes));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Bodies, refined %" PetscInt_FMT " times\n", scene->refine));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body = &scene->bodies[b];
+    const BodyMesh  *mesh = &meshes[b];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " cells, %" PetscInt_FMT " vertices, %" PetscInt_FMT " unknowns\n", mesh->ncells, mesh->nvertices, 3 * mesh->nvertices));
+    ncells += mesh->ncells;
+    nvertices += mesh->nvertices;
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " vertices, %" PetscInt_FMT " unknowns\n", ncells, nvertices, 3 * nvertices));
+  PetscCall(PetscFree(meshes));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MeasureFace(DM dm, const char face[], PetscInt *nfacets, PetscReal *area)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  IS              facets;
+  const PetscInt *f;
+
+  PetscFunctionBegin;
+  *area = 0;
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, nfacets));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < *nfacets; ++i) {
+    PetscReal part;
+
+    PetscCall(DMPlexComputeCellGeometryFVM(dm, f[i], &part, NULL, NULL));
+    *area += part;
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, nfacets, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, area, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Faces are the labels with a dot, by name */
+static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
+{
+  PetscInt     nlabels, n = 0, nfacets, *order;
+  const char **faces;
+  PetscReal    area;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetNumLabels(dm, &nlabels));
+  PetscCall(PetscMalloc2(nlabels, &faces, nlabels, &order));
+  for (PetscInt l = 0; l < nlabels; ++l) {
+    PetscCall(DMGetLabelName(dm, l, &faces[n]));
+    order[n] = n;
+    if (strchr(faces[n], '.')) ++n;
+  }
+  PetscCall(PetscSortStrWithPermutation(n, faces, order));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(MeasureFace(dm, faces[order[i]], &nfacets, &area));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
+  }
+  PetscCall(PetscFree2(faces, order));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Loads, at factor 1\n"));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    const SceneDisplacement *here = &scene->displacements[d];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  displacement %s: %s", here->name, here->face));
+    for (PetscInt i = 0; i < 3; ++i) {
+      if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here->value[i]));
+    }
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
+  }
+  for (PetscInt p = 0; p < scene->npressures; ++p) {
+    const ScenePressure *here = &scene->pressures[p];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g, follows %s\n", here->name, here->face, (double)here->value, scene->ramps[here->ramp].name));
+  }
+  for (PetscInt f = 0; f < scene->nforces; ++f) {
+    const SceneBodyForce *here = &scene->forces[f];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  body force %s: %s, (%.6g, %.6g, %.6g), follows %s\n", here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name, (double)here->value[0], (double)here->value[1], (double)here->value[2], scene->ramps[here->ramp].name));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribePairs(Scene scene, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "Contact pairs\n"));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *here = &scene->pairs[p];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar, here->nonmortar, GapTypes[here->gap]));
+    if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, "facets within a distance chosen from the size of the faces\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* One line a step, one column a ramp */
+static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Load steps, and the factors at the end of each\n  step"));
+  for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(PetscViewerASCIIPrintf(viewer, " %12s", scene->ramps[r].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  for (PetscInt i = 0; i < scene->nsteps; ++i) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %4" PetscInt_FMT, i + 1));
+    for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(PetscViewerASCIIPrintf(viewer, " %12.6g", (double)scene->ramps[r].factor[i]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Bodies that have an effect, as: on, slab block */
+static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[], PetscBool (*has)(const SceneBody *), const char off[])
+{
+  PetscBool on = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) on = on || has(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s", effect, on ? "on, in" : "off: "));
+  if (!on) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", off));
+  for (PetscInt b = 0; on && b < scene->nbodies; ++b) {
+    if (has(&scene->bodies[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool BodyIsFinite(const SceneBody *body)
+{
+  return body->material.type == MATERIAL_LINEAR ? PETSC_FALSE : PETSC_TRUE;
+}
+
+static PetscBool BodyIsBbar(const SceneBody *body)
+{
+  return body->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
+{
+  PetscFunctionBegin;
+  if (n) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, %" PetscInt_FMT "\n", effect, n));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: %s\n", effect, off));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
+{
+  PetscBool finite = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || BodyIsFinite(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
+  PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, "no contact; one linear solve a step where every body is linear"));
+  if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations", scene->contact_updates));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", BodyIsFinite, "every material is linear"));
+  if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", BodyIsBbar, "every element is full"));
+  PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
+  PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
+  if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: no displacement_bounds\n", "displacement bounds"));
+  for (PetscInt o = 0; o < scene->noptions; ++o) PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name, scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file wins)"));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneDescribe - Prints what a scene will simulate: bodies and their meshes, faces, loads, contact pairs, steps and
+   ramps, and the effects that are on and off
+
+   Collective on the viewer
+
+   Input Parameters:
++  scene  - the scene
+.  dm     - its mesh, by `MeshCreate()`
+-  viewer - an ASCII viewer
+
+   Level: beginner
+
+.seealso: `SceneLoad()`, `SceneView()`
+@*/
+PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Scene %s\n", scene->name));
+  PetscCall(DescribeBodies(scene, dm, viewer));
+  PetscCall(DescribeFaces(dm, viewer));
+  PetscCall(DescribeLoads(scene, viewer));
+  PetscCall(DescribePairs(scene, viewer));
+  PetscCall(DescribeSteps(scene, viewer));
+  PetscCall(DescribeEffects(scene, viewer));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,121 @@
+/*
+   symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a built-in
+   shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}.
+   Symmetry planes become prescribed displacements, after those of the scene.
+*/
+#include "sceneimpl.h"
+#include <string.h>
+
+static const char *const axes[] = {"x", "y", "z", "Axis", "", NULL};
+
+static PetscBool IsOneOf(const char name[], const char a[], const char b[])
+{
+  return !strcmp(name, a) || !strcmp(name, b) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* xmin, xmax, x0, ymin, ... */
+static PetscInt BoxOrOctantAxis(const char face[])
+{
+  if (face[0] < 'x' || face[0] > 'z') return PETSC_DECIDE;
+  return IsOneOf(face + 1, "min", "max") || !strcmp(face + 1, "0") ? face[0] - 'x' : PETSC_DECIDE;
+}
+
+static PetscInt TubeArcAxis(const SceneTubeArc *tube, const char face[])
+{
+  PetscReal quarters;
+
+  if (IsOneOf(face, "lmin", "lmax")) return tube->axis;
+  if (!IsOneOf(face, "amin", "amax")) return PETSC_DECIDE;
+  quarters = tube->angles[!strcmp(face, "amax")] / 90;
+  if (quarters != PetscFloorReal(quarters)) return PETSC_DECIDE;
+  return (tube->axis + (PetscFmodReal(quarters, 2) == 0 ? 2 : 1)) % 3;
+}
+
+static PetscInt HalfEllipseAxis(const SceneHalfEllipse *ellipse, const char face[])
+{
+  if (IsOneOf(face, "lmin", "lmax")) return ellipse->axis;
+  if (!strcmp(face, "flat")) return ellipse->depth % 3;
+  return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
+}
+
+/* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
+static PetscErrorCode SceneFaceAxis(Scene scene, const char face[], PetscInt *axis)
+{
+  const char *name = strchr(face, '.') + 1;
+
+  PetscFunctionBegin;
+  *axis = PETSC_DECIDE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body   = &scene->bodies[b];
+    const size_t     length = strlen(body->name);
+
+    if (length != (size_t)(name - 1 - face) || strncmp(face, body->name, length)) continue;
+    if (body->shape == SHAPE_TUBE_ARC) *axis = TubeArcAxis(&body->tube, name);
+    else if (body->shape == SHAPE_HALF_ELLIPSE) *axis = HalfEllipseAxis(&body->ellipse, name);
+    else if (body->shape != SHAPE_GMSH) *axis = BoxOrOctantAxis(name);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis is unknown */
+static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
+{
+  char     name[SCENE_KEY_LENGTH];
+  PetscInt axis;
+
+  PetscFunctionBegin;
+  PetscCall(SceneFaceAxis(scene, face, &axis));
+  if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "symmetry_%s", face));
+  *strchr(name, '.') = '_';
+  PetscCall(PetscStrallocpy(name, &displacement->name));
+  PetscCall(PetscStrallocpy(face, &displacement->face));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], SceneDisplacement *displacement)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscInt    axis = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(name, &displacement->name));
+  if (!SceneIsName(name)) PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "symmetry_%s_face", name));
+  PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+  if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
+  displacement->fixed[axis] = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* After bodies and displacements */
+PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
+{
+  const char *text;
+  char      **words;
+  PetscInt    n     = PETSC_DECIDE;
+  size_t      given = (size_t)scene->ndisplacements;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "symmetry"));
+  if (!text) PetscFunctionReturn(0);
+  PetscCall(SceneParseList(keys, "symmetry", text, &n, &words));
+  PetscCall(PetscRealloc((given + (size_t)n) * sizeof(*scene->displacements), &scene->displacements));
+  PetscCall(PetscArrayzero(scene->displacements + given, n));
+  for (PetscInt i = 0; i < n; ++i) {
+    SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
+    PetscBool          same;
+
+    if (strchr(words[i], '.')) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
+    else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
+    for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
+      PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
+      if (same) PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is also the name of another displacement or symmetry plane", words[i]));
+    }
+  }
+  PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,128 @@
+/* One try to reach a time: solve, and linearize the gap again until it is true. */
+#include "stepimpl.h"
+
+static PetscErrorCode LinearizeGap(Simulation sim, Vec u, ContactLinearization *lin)
+{
+  PetscFunctionBegin;
+  *lin = NULL;
+  if (!sim->contact) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(SIM_Contact, NULL, NULL, NULL, NULL));
+  PetscCall(ContactLinearize(sim->contact, u, lin));
+  PetscCall(PetscLogEventEnd(SIM_Contact, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
+  if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
+  else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(SolveLinear(p, u, report));
+  else PetscCall(SolveTao(p, resume, u, report, sol));
+  PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* The true gap at u, and whether the linearized one that u was found with differs from it by more than the tolerance */
+static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *is_true)
+{
+  PetscReal size;
+  PetscInt  nrows;
+
+  PetscFunctionBegin;
+  report->gap_true = 0.0;
+  PetscCall(VecGetSize(at_u->g, &nrows));
+  if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
+  PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  *is_true = (PetscBool)(report->gap_change <= sim->update_tol * size);
+  PetscFunctionReturn(0);
+}
+
+/* sim->linearization is the one u was found with; `at_u` on exit the one at u */
+static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
+{
+  Simulation sim          = p->sim;
+  Vec        u_linearized = sim->path.u;
+  PetscBool  is_true      = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  report->contact_updates = 0;
+  for (PetscInt k = 0; k < sim->scene->contact_updates && !is_true; ++k) {
+    PetscCall(StepProblemSetContact(p, sim->linearization, u_linearized));
+    PetscCall(AttemptSolve(p, (PetscBool)(k > 0), u, report, sol));
+    if (!report->converged) break;
+    ++report->contact_updates;
+    PetscCall(LinearizeGap(sim, u, at_u));
+    PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
+    if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Gap linearized %" PetscInt_FMT " times: smallest true gap %g, off the linearized one by %g\n", k + 1, (double)report->gap_true, (double)report->gap_change));
+    if (is_true || k + 1 == sim->scene->contact_updates) break;
+    PetscCall(ContactLinearizationDestroy(&sim->linearization));
+    sim->linearization = *at_u;
+    *at_u              = NULL;
+    if (u_linearized == sim->path.u) PetscCall(VecDuplicate(u, &u_linearized));
+    PetscCall(VecCopy(u, u_linearized));
+  }
+  if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *sol)
+{
+  const PetscInt     n = sim->linearization->nlocal;
+  const PetscScalar *z, *g;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(sim->pressure, sim->gap));
+  PetscCall(PetscMalloc2(n, &sim->pressure, n, &sim->gap));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(sol->gap, &g));
+  for (PetscInt i = 0; i < n; ++i) {
+    sim->pressure[i] = PetscRealPart(z[i]);
+    sim->gap[i]      = PetscRealPart(g[i]);
+  }
+  PetscCall(VecRestoreArrayRead(sol->gap, &g));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscFunctionReturn(0);
+}
+
+/*
+   The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures and gaps
+   of the last good solve stay with it.
+*/
+PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
+{
+  const PetscInt       first = sim->scene->displacement_bounds;
+  StepProblem          p;
+  ContactSolution      sol  = {NULL, NULL};
+  ContactLinearization good = sim->linearization, at_u = NULL;
+  Vec                  u;
+
+  PetscFunctionBegin;
+  if (sim->contact && !sim->upcoming) PetscCall(LinearizeGap(sim, sim->path.u, &sim->upcoming));
+  PetscCall(StepProblemCreate(sim, time, &p));
+  PetscCall(VecDuplicate(sim->path.u, &u));
+  if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0) PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
+  if (sim->contact) {
+    sim->linearization = sim->upcoming;
+    sim->upcoming      = NULL;
+    PetscCall(AttemptContact(&p, u, report, &sol, &at_u));
+  } else PetscCall(AttemptSolve(&p, PETSC_FALSE, u, report, &sol));
+
+  if (report->converged) {
+    PetscCall(ReportForces(&p, u, &sol, report));
+    if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
+    PetscCall(PathAdvance(&sim->path, time, &u));
+    PetscCall(ContactLinearizationDestroy(&good));
+    sim->upcoming = at_u;
+  } else if (sim->contact) {
+    if (report->contact_updates) PetscCall(ContactLinearizationDestroy(&sim->linearization));
+    else sim->upcoming = sim->linearization;
+    sim->linearization = good;
+    PetscCall(ContactLinearizationDestroy(&at_u));
+  }
+  PetscCall(VecDestroy(&u));
+  PetscCall(ContactSolutionDestroy(&sol));
+  PetscCall(StepProblemDestroy(&p));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,76 @@
+/* The effects of a scene: which are on, why, and what each costs. */
+#include "stepimpl.h"
+
+typedef enum {
+  EFFECT_CONTACT,
+  EFFECT_UPDATES,
+  EFFECT_FILTER,
+  EFFECT_FINITE_STRAIN,
+  EFFECT_BBAR,
+  EFFECT_PRESSURE,
+  EFFECT_BODY_FORCE,
+  EFFECT_BOUNDS,
+  EFFECT_COUNT
+} EffectType;
+
+static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "pressure", "body force", "displacement bounds"};
+
+static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
+
+static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...)
+{
+  RunEffect *effect = &report->effects[type];
+  va_list    args;
+
+  PetscFunctionBegin;
+  effect->name = EffectNames[type];
+  effect->on   = on;
+  effect->time = -1.0;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(effect->why, sizeof(effect->why), format, NULL, args));
+  va_end(args);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
+{
+  Scene    scene  = sim->scene;
+  PetscInt finite = 0, mean = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (scene->bodies[b].material.type == MATERIAL_NEOHOOKEAN) ++finite;
+    if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
+  }
+  report->neffects = EFFECT_COUNT;
+  PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
+  PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
+  PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1), "contact_updates is %" PetscInt_FMT, scene->contact_updates));
+  PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0), scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
+  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies neo-Hookean%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step" : ", true energy"));
+  PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
+  PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures", scene->npressures));
+  PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
+  if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
+  else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));
+  PetscFunctionReturn(0);
+}
+
+/* The filter's use is known after the solve: it is built for the first system that needs it */
+PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
+{
+  PetscInt systems = 0, filtered = 0;
+
+  PetscFunctionBegin;
+  report->effects[EFFECT_CONTACT].time = report->time.contact;
+  report->effects[EFFECT_FILTER].time  = report->time.filter_setup + report->time.filter_apply;
+  if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
+  if (!sim->contact) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    systems += report->steps[s].systems;
+    filtered += report->steps[s].filtered_systems;
+  }
+  if (systems) PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(filtered > 0), "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
+  report->effects[EFFECT_FILTER].time = report->time.filter_setup + report->time.filter_apply;
+  PetscFunctionReturn(0);
+}

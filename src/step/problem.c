@@ -1,0 +1,111 @@
+/* The optimization problem of one load step: what both models of the energy share. */
+#include "stepimpl.h"
+
+/*
+   Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does not
+   hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble theirs.
+*/
+PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
+{
+  PetscScalar work = 0.0;
+  PetscBool   linear;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(p, sizeof(*p)));
+  p->sim  = sim;
+  p->time = time;
+  PetscCall(PetscObjectReference((PetscObject)sim->K));
+  p->K = sim->K;
+  PetscCall(VecDuplicate(sim->path.u, &p->base));
+  PetscCall(VecDuplicate(sim->path.u, &p->w));
+  PetscCall(VecCopy(sim->path.u, p->base));
+  PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
+  PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
+  if (!sim->quadratic) PetscFunctionReturn(0);
+
+  PetscCall(VecDuplicate(sim->path.u, &p->force));
+  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
+  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  if (!linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
+  PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
+  PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
+  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  if (p->load) {
+    PetscCall(VecDot(p->load, p->base, &work));
+    PetscCall(VecAXPY(p->force, -1.0, p->load));
+  }
+  p->energy -= PetscRealPart(work);
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
+  PetscFunctionReturn(0);
+}
+
+/* g + J_full (u - u_linearized) = [g + J_full (base - u_linearized)] + J (u - base), J without prescribed columns */
+PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, Vec u_linearized)
+{
+  Vec mask;
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->g));
+  PetscCall(MatDestroy(&p->J));
+  PetscCall(VecDuplicate(lin->g, &p->g));
+  PetscCall(VecWAXPY(p->w, -1.0, u_linearized, p->base));
+  PetscCall(MatMultAdd(lin->J, p->w, lin->g, p->g));
+  PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &p->J));
+  PetscCall(VecDuplicate(p->base, &mask));
+  PetscCall(VecSet(mask, 1.0));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
+  PetscCall(MatDiagonalScale(p->J, NULL, mask));
+  PetscCall(VecDestroy(&mask));
+  PetscFunctionReturn(0);
+}
+
+/* |u - base| <= increment; prescribed rows are held by the problem itself and need no bound */
+PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(p->base, &p->lower));
+  PetscCall(VecDuplicate(p->base, &p->upper));
+  PetscCall(VecCopy(p->base, p->lower));
+  PetscCall(VecCopy(p->base, p->upper));
+  PetscCall(VecShift(p->lower, -increment));
+  PetscCall(VecShift(p->upper, increment));
+  PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_NINFINITY, p->lower));
+  PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_INFINITY, p->upper));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepProblemDestroy(StepProblem *p)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&p->K));
+  PetscCall(MatDestroy(&p->J));
+  PetscCall(VecDestroy(&p->g));
+  PetscCall(VecDestroy(&p->base));
+  PetscCall(VecDestroy(&p->load));
+  PetscCall(VecDestroy(&p->force));
+  PetscCall(VecDestroy(&p->lower));
+  PetscCall(VecDestroy(&p->upper));
+  PetscCall(VecDestroy(&p->w));
+  PetscCall(VecDestroy(&p->Kw));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepConstraint(Tao tao, Vec u, Vec c, void *ctx)
+{
+  StepProblem *p = (StepProblem *)ctx;
+
+  PetscFunctionBegin;
+  (void)tao;
+  PetscCall(VecWAXPY(p->w, -1.0, p->base, u));
+  PetscCall(MatMultAdd(p->J, p->w, p->g, c));
+  PetscFunctionReturn(0);
+}
+
+/* A matrix that is assembled and does not change: its object state tells the optimizer so */
+PetscErrorCode StepConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
+{
+  PetscFunctionBegin;
+  (void)tao, (void)u, (void)A, (void)Apre, (void)ctx;
+  PetscFunctionReturn(0);
+}
