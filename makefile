@@ -64,13 +64,13 @@ check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
 
 install: all
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options)
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options share/amgf/gmsh)
 	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
 	install -m 755 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib
 	install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib
 	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
 	install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact
-	$(foreach kind,scenes options,$(if $(wildcard share/$(kind)/*),install -m 644 $(wildcard share/$(kind)/*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
+	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*),install -m 644 $(wildcard share/$(kind)/*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
 
 clean:

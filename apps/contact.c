@@ -116,6 +116,7 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
   *converged = PETSC_TRUE;
   if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(SimulationCatchSignals());
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {

@@ -19,7 +19,8 @@ PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Materia
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
 /* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, marked symmetric */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
-/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not */
+/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not, and
+   the matrix is the one of the last call and unchanged since */
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
 /* Whether no body's tangent depends on u; how often a body has been assembled into a tangent */
 PETSC_EXTERN PetscErrorCode ElasticityIsLinear(Elasticity, PetscBool *);
@@ -28,7 +29,8 @@ PETSC_EXTERN PetscErrorCode ElasticityGetAssemblies(Elasticity, PetscInt body, P
 PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
 /* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
 PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
-/* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body */
+/* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body
+   (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
 /* Row-sum lumped mass: integral of each vertex's shape function, for each of its 3 components [length^3] */

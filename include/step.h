@@ -25,6 +25,7 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
+PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);
 PETSC_EXTERN PetscErrorCode SimulationDestroy(Simulation *);

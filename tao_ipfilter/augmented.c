@@ -46,19 +46,19 @@ static PetscErrorCode CreateAugmented(Tao tao)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AssembleAugmented(Tao tao)
+/* K with A in its first block */
+static PetscErrorCode AssembleAugmented(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug = &ip->aug;
-  Mat           blocks[4], nest, JE;
+  Mat           blocks[4], nest;
 
   PetscFunctionBegin;
   PetscCall(VecSet(ip->cetrial, -ip->delta_c));
   PetscCall(MatDiagonalSet(aug->shift, ip->cetrial, INSERT_VALUES));
-  PetscCall(MatConvert(ip->cond.A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
-  PetscCall(IPFixedJacobian(tao, tao->jacobian_equality, &JE));
-  PetscCall(MatTranspose(JE, MAT_INITIAL_MATRIX, &blocks[1]));
-  blocks[2] = JE;
+  PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
+  PetscCall(MatTranspose(ip->JE, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = ip->JE;
   blocks[3] = aug->shift;
   PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
   PetscCall(MatDestroy(&aug->K));
@@ -67,7 +67,6 @@ static PetscErrorCode AssembleAugmented(Tao tao)
   PetscCall(MatDestroy(&nest));
   PetscCall(MatDestroy(&blocks[0]));
   PetscCall(MatDestroy(&blocks[1]));
-  PetscCall(MatDestroy(&JE));
   if (!aug->rhs) {
     PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
     PetscCall(VecDuplicate(aug->rhs, &aug->sol2));
@@ -84,8 +83,12 @@ static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
   PCFailedReason failed;
   Mat            F;
   PetscInt       negative, zero, positive, n;
+  PetscReal      norm;
 
   PetscFunctionBegin;
+  *singular = *inertia = PETSC_FALSE;
+  PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
+  if (PetscIsInfOrNanReal(norm)) PetscFunctionReturn(0); /* MUMPS takes none */
   PetscCall(KSPReset(aug->ksp));
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
@@ -138,11 +141,11 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
   PetscCall(CreateAugmented(tao));
   if (matrix) {
-    PetscCall(AssembleAugmented(tao));
+    PetscCall(AssembleAugmented(tao, ip->cond.A));
     PetscCall(Factor(tao, &inertia, &singular));
     if (singular && ip->delta_c == 0.0) {
       ip->delta_c = ip->delta_equality;
-      PetscCall(AssembleAugmented(tao));
+      PetscCall(AssembleAugmented(tao, ip->cond.A));
       PetscCall(Factor(tao, &inertia, &singular));
     }
   }
@@ -164,5 +167,40 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscCall(VecAXPY(aug->sol2, -1.0, aug->rhs));
   PetscCall(VecNorm(aug->sol2, NORM_2, &ip->linear_residual));
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0). Zero where the gradients
+   of the constraints are so nearly dependent that it would be huge (Waechter and Biegler 2006, section 3.6). */
+PetscErrorCode IPEstimateMultipliers(Tao tao)
+{
+  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal most = 1e3;
+  Mat             identity;
+  PetscBool       inertia, singular;
+  PetscReal       y, g, j;
+  PetscInt        n, N;
+
+  PetscFunctionBegin;
+  PetscCall(CreateAugmented(tao));
+  PetscCall(VecSet(ip->y, 0.0));
+  PetscCall(IPStationarity(tao, ip->lambda, ip->rx));
+  PetscCall(VecGetLocalSize(ip->rx, &n));
+  PetscCall(VecGetSize(ip->rx, &N));
+  PetscCall(MatCreateConstantDiagonal(PetscObjectComm((PetscObject)tao), n, n, N, N, 1.0, &identity));
+  ip->delta_c = 0.0;
+  PetscCall(AssembleAugmented(tao, identity));
+  PetscCall(MatDestroy(&identity));
+  PetscCall(Factor(tao, &inertia, &singular));
+  if (!inertia) PetscFunctionReturn(0);
+  PetscCall(VecScale(ip->rx, -1.0));
+  PetscCall(VecSet(ip->cetrial, 0.0));
+  PetscCall(Join(ip->aug.rhs, ip->rx, ip->cetrial, PETSC_FALSE));
+  PetscCall(KSPSolve(ip->aug.ksp, ip->aug.rhs, ip->aug.sol));
+  PetscCall(Join(ip->aug.sol, ip->rx, ip->y, PETSC_TRUE));
+  PetscCall(VecNorm(ip->y, NORM_INFINITY, &y));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &g));
+  PetscCall(MatNorm(ip->JE, NORM_INFINITY, &j));
+  if (!(y * j <= most * g)) PetscCall(VecSet(ip->y, 0.0));
   PetscFunctionReturn(0);
 }

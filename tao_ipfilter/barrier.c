@@ -89,6 +89,29 @@ static PetscBool Progress(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
+/* Leaves Mehrotra's method for the monotone one, with a mu near the present products */
+static PetscErrorCode Hold(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->free_mu = PETSC_FALSE;
+  PetscCall(IPBarrierAverage(tao, &ip->mu));
+  ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The same for some iterations at least, whatever progress there is */
+PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
+{
+  PetscFunctionBegin;
+  ((TAO_IPFILTER *)tao->data)->hold = iterations;
+  PetscCall(Hold(tao));
+  PetscFunctionReturn(0);
+}
+
 /* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is left for the monotone one
    while the KKT error does not fall. */
 PetscErrorCode IPBarrierUpdate(Tao tao)
@@ -102,13 +125,10 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscFunctionReturn(0);
   }
   was_free    = ip->free_mu;
-  ip->free_mu = Progress(ip);
+  ip->free_mu = (PetscBool)(Progress(ip) && ip->hold == 0);
+  if (ip->hold > 0) ip->hold--;
   if (ip->free_mu) PetscFunctionReturn(0);
-  if (was_free) {
-    PetscCall(IPBarrierAverage(tao, &ip->mu));
-    ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
-    PetscCall(IPFilterSetReset(&ip->filter));
-    PetscCall(IPComputeKKT(tao));
-  } else PetscCall(Monotone(tao));
+  if (was_free) PetscCall(Hold(tao));
+  else PetscCall(Monotone(tao));
   PetscFunctionReturn(0);
 }

@@ -7,6 +7,12 @@ static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
   return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
 }
 
+/* x - b, or b - x, that rounding has not made zero or negative */
+static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign)
+{
+  return PetscMax(sign * (x - b), PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
+}
+
 /* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
 static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, Vec t)
 {
@@ -20,7 +26,7 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign,
   PetscCall(VecGetArrayRead(bound, &ba));
   if (other) PetscCall(VecGetArrayRead(other, &oa));
   PetscCall(VecGetArrayWrite(t, &ta));
-  for (PetscInt i = 0; i < n; i++) ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? sign * (xa[i] - ba[i]) : PETSC_INFINITY;
+  for (PetscInt i = 0; i < n; i++) ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign) : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(t, &ta));
   if (other) PetscCall(VecRestoreArrayRead(other, &oa));
   PetscCall(VecRestoreArrayRead(bound, &ba));

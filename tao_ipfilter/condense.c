@@ -24,7 +24,7 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscFunctionReturn(0);
 }
 
-/* Takes over the inequality Jacobian: an AIJ view of it without fixed variables, and the filter's unknowns. Keeps the IS while its entries stay. */
+/* Takes over the inequality Jacobian: an AIJ view of it, scaled and without fixed variables, and the filter's unknowns. Keeps the IS while its entries stay. */
 PetscErrorCode IPCondenseJacobian(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
@@ -47,7 +47,7 @@ PetscErrorCode IPCondenseJacobian(Tao tao)
     PetscCall(PetscObjectReference((PetscObject)user));
     J = user;
   } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, &J));
-  PetscCall(IPFixedJacobian(tao, J, &cond->J));
+  PetscCall(IPScalingJacobian(tao, J, ip->cscale, &cond->J));
   PetscCall(MatDestroy(&J));
   PetscCall(IPSubspaceFind(tao, &filter));
   if (cond->filter) {

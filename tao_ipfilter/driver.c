@@ -7,12 +7,13 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     norm, size = 0.0;
-  PetscBool     alone;
+  PetscBool     alone, scaled;
 
   PetscFunctionBegin;
   *finite = PETSC_FALSE;
   PetscCall(TaoComputeVariableBounds(tao));
   PetscCall(IPFixedSetUp(tao));
+  PetscCall(IPScalingReset(tao));
   PetscCall(IPBoundsSetUp(tao));
   PetscCall(IPBoundsPush(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->xsize0));
@@ -20,16 +21,20 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->f));
   if (alone && IPUndefined(ip->f)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->c, ip->ce));
-  if (ip->mi) {
-    PetscCall(VecSet(ip->lambda, 0.0));
-    PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
-  }
-  if (ip->me) {
-    PetscCall(VecSet(ip->y, 0.0));
-    PetscCall(VecNorm(ip->ce, NORM_INFINITY, &ip->equality0));
-  }
+  if (ip->mi) PetscCall(VecSet(ip->lambda, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->y, 0.0));
   PetscCall(IPEvaluateDerivatives(tao));
-  if (ip->mi) PetscCall(MatNorm(ip->cond.J, NORM_INFINITY, &ip->jnorm));
+  PetscCall(IPScalingSetUp(tao, &scaled));
+  if (scaled) {
+    PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->c, ip->ce));
+    if (ip->cscale) PetscCall(IPCondensedDestroy(&ip->cond));
+    PetscCall(IPEvaluateDerivatives(tao));
+  }
+  if (ip->mi) {
+    PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
+    PetscCall(MatNorm(ip->cond.J, NORM_INFINITY, &ip->jnorm));
+  }
+  if (ip->me) PetscCall(VecNorm(ip->ce, NORM_INFINITY, &ip->equality0));
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   ip->gradient0 = norm;
   ip->f0        = ip->f;
@@ -50,6 +55,8 @@ static PetscErrorCode ResetRecord(Tao tao)
   ip->equality0    = 0.0;
   ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
   ip->nacceptable  = 0;
+  ip->hold         = 0;
+  ip->nrestored    = 0;
   ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
   ip->nregularized = ip->nretried = 0;
   ip->theta0       = -1.0;
@@ -160,28 +167,51 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then the violation is
+   reduced by itself. */
+static PetscErrorCode Recover(Tao tao, PetscBool solved)
+{
+  TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
+  const PetscInt  hold = 10;
+  const PetscBool violated = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (ip->kkt.error <= ip->acceptable_tol) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
+    PetscFunctionReturn(0);
+  }
+  if (ip->free_mu) {
+    PetscCall(IPBarrierHold(tao, hold));
+    PetscFunctionReturn(0);
+  }
+  if (violated && ip->theta0 >= 0.0) {
+    PetscCall(IPRestore(tao, &ok, &infeasible));
+    if (!ok) PetscCall(IPComputeKKT(tao));
+  }
+  if (ok) {
+    ip->step_tag = 'R';
+    tao->niter++;
+  } else if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g, with the Hessian shifted by up to %g", KSPConvergedReasons[ip->ksp_reason], (double)ip->linear_residual, (double)ip->delta));
+  else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
+  PetscFunctionReturn(0);
+}
+
 /* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
 static PetscErrorCode Step(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscBool     ok;
+  PetscBool solved = PETSC_FALSE, ok = PETSC_FALSE;
 
   PetscFunctionBegin;
   tao->ksp_its = 0;
   PetscCall(IPBarrierUpdate(tao));
-  if (tao->niter) PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
-  PetscCall(IPComputeDirection(tao, &ok));
+  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPComputeDirection(tao, &solved));
+  if (solved) PetscCall(IPLineSearch(tao, &ok));
   if (!ok) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g, with the Hessian shifted by up to %g", KSPConvergedReasons[ip->ksp_reason], (double)ip->linear_residual, (double)ip->delta));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(IPLineSearch(tao, &ok));
-  if (!ok) {
-    const PetscBool infeasible = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
-
-    if (ip->kkt.error <= ip->acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
-    else if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g: the constraints may be infeasible", (double)ip->kkt.inf_pr));
-    else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
+    PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
   }
   tao->niter++;
@@ -213,6 +243,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   }
   PetscCall(RestoreBest(tao));
   PetscCall(IPSetMultipliers(tao));
+  if (ip->mi) PetscCall(IPScalingPair(tao, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z, PETSC_TRUE));
   tao->fc       = ip->f;
   tao->residual = ip->kkt.error;
   tao->cnorm    = ip->kkt.inf_pr;

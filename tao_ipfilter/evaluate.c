@@ -4,7 +4,7 @@
 /* Largest problem whose Hessian is differenced column by column */
 #define IP_FD_MAX 1000
 
-/* c_I - I_l with the lower bounds of TaoSetInequalityBounds(), and c_E */
+/* c_I - I_l with the lower bounds of TaoSetInequalityBounds(), and c_E, scaled */
 PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -13,8 +13,10 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
   if (ip->mi) {
     PetscCall(TaoComputeInequalityConstraints(tao, x, c));
     if (tao->IL) PetscCall(VecAXPY(c, -1.0, tao->IL));
+    if (ip->cscale) PetscCall(VecPointwiseMult(c, c, ip->cscale));
   }
   if (ip->me) PetscCall(TaoComputeEqualityConstraints(tao, x, ce));
+  if (ip->cescale) PetscCall(VecPointwiseMult(ce, ce, ip->cescale));
   PetscFunctionReturn(0);
 }
 
@@ -29,7 +31,11 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   if (alone) PetscCall(TaoComputeGradient(tao, tao->solution, tao->gradient));
   else PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->f, tao->gradient));
   PetscCall(IPFixedZero(tao, tao->gradient));
-  if (ip->me) PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
+  if (ip->me) {
+    PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
+    PetscCall(MatDestroy(&ip->JE));
+    PetscCall(IPScalingJacobian(tao, tao->jacobian_equality, ip->cescale, &ip->JE));
+  }
   if (ip->mi) {
     PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
     PetscCall(IPCondenseJacobian(tao));
@@ -37,14 +43,16 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* tao->DI = M lambda and tao->DE = y: the multipliers of f + DE^T c_E - DI^T c_I, whose Hessian is asked for */
+/* tao->DI = M lambda and tao->DE = y, scaled back: the multipliers of f + DE^T c_E - DI^T c_I, whose Hessian is asked for */
 PetscErrorCode IPSetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   if (ip->mi) PetscCall(VecPointwiseMult(tao->DI, ip->lambda, ip->pair[IP_SLACK].w));
+  if (ip->cscale) PetscCall(VecPointwiseMult(tao->DI, tao->DI, ip->cscale));
   if (ip->me) PetscCall(VecCopy(ip->y, tao->DE));
+  if (ip->cescale) PetscCall(VecPointwiseMult(tao->DE, tao->DE, ip->cescale));
   PetscFunctionReturn(0);
 }
 

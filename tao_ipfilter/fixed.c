@@ -78,24 +78,6 @@ PetscErrorCode IPFixedZero(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the columns of fixed variables in a copy of a Jacobian, which is only referenced where nothing is fixed */
-PetscErrorCode IPFixedJacobian(Tao tao, Mat J, Mat *copy)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  if (!ip->fixed) {
-    PetscCall(PetscObjectReference((PetscObject)J));
-    *copy = J;
-    PetscFunctionReturn(0);
-  }
-  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, copy));
-  PetscCall(VecSet(ip->xwork, 1.0));
-  PetscCall(IPFixedZero(tao, ip->xwork));
-  PetscCall(MatDiagonalScale(*copy, NULL, ip->xwork));
-  PetscFunctionReturn(0);
-}
-
 /* Cuts the fixed variables out of A: rows and columns zero, a diagonal of the Hessian's size */
 PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
 {

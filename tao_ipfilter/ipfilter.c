@@ -113,6 +113,9 @@ static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
   PetscCall(IPCondensedDestroy(&ip->cond));
   PetscCall(ISDestroy(&ip->fixed));
+  PetscCall(MatDestroy(&ip->JE));
+  PetscCall(VecDestroy(&ip->cscale));
+  PetscCall(VecDestroy(&ip->cescale));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->ksp_iterations));
@@ -176,6 +179,7 @@ static const RealOption real_options[] = {
   IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
   IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
+  IP_REAL("row_ratio", row_ratio, 100.0, "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
   IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };

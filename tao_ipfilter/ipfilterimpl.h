@@ -116,7 +116,9 @@ typedef struct {
   Vec       dx, dlambda;
   PetscReal f;
   Vec       ce, y, dy;          /* c_E, its multipliers and their direction; NULL without equality constraints */
+  Mat       JE;                 /* their Jacobian as the iteration sees it */
   PetscInt  me;                 /* equality constraints, all ranks */
+  Vec       cscale, cescale;    /* scales of the rows of c_I and c_E; NULL: 1 */
   Vec       xtrial, ctrial, cetrial;
   Vec       xbest, sbest, zbest, lambdabest, ybest; /* iterate of smallest KKT error */
   Vec       dxfirst, dyfirst, rcsoc, cesoc;         /* second-order correction: the direction before it, its residuals */
@@ -145,6 +147,7 @@ typedef struct {
   PetscBool free_mu;                 /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
   PetscReal error_history[4];        /* KKT errors that the free mode must improve on */
   PetscInt  nerror;
+  PetscInt  hold;                    /* mehrotra: iterations left in the monotone mode that a failed line search called for */
 
   /* line search */
   PetscReal theta, phi, theta0, theta_ref, phi_ref;
@@ -153,6 +156,10 @@ typedef struct {
   PetscReal alpha_primal, alpha_dual;
   PetscInt  nls;
   char      step_tag;                /* how the step was accepted: f, h, F, H (second-order correction), T */
+
+  /* restoration */
+  PetscReal zeta;                    /* weight of the distance from the last point against the violation */
+  PetscInt  nrestored;               /* restorations in this solve */
 
   /* regularization */
   PetscReal delta, delta_last, hscale;
@@ -190,7 +197,7 @@ typedef struct {
   PetscReal    kappa_soc;
   PetscReal    forcing_max, forcing_reduce, forcing_last;
   PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal    filter_threshold, filter_switch;
+  PetscReal    filter_threshold, filter_switch, row_ratio;
   PetscReal    bound_push, unbounded_factor;
 } TAO_IPFILTER;
 
@@ -221,8 +228,14 @@ PETSC_INTERN PetscErrorCode IPPairMoveTrial(IPPair *, PetscReal);
 PETSC_INTERN PetscBool      IPIsFixed(PetscScalar, PetscScalar);
 PETSC_INTERN PetscErrorCode IPFixedSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
-PETSC_INTERN PetscErrorCode IPFixedJacobian(Tao, Mat, Mat *);
 PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
+
+/* scaling.c */
+PETSC_INTERN PetscErrorCode IPScalingSetUp(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPScalingReset(Tao);
+PETSC_INTERN PetscErrorCode IPScalingJacobian(Tao, Mat, Vec, Mat *);
+PETSC_INTERN PetscErrorCode IPScalingPair(Tao, Vec, Vec, PetscBool);
+PETSC_INTERN PetscErrorCode IPScalingNorm(Vec, Vec, Vec, PetscReal *);
 
 /* bounds.c */
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
@@ -231,6 +244,7 @@ PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool);
 
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
+PETSC_INTERN PetscErrorCode IPCentralPair(Vec, Vec, PetscReal, Vec, Vec);
 
 /* evaluate.c */
 PETSC_INTERN PetscErrorCode IPEvaluateConstraints(Tao, Vec, Vec, Vec);
@@ -260,14 +274,21 @@ PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *)
 
 /* augmented.c */
 PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool, PetscBool *);
+PETSC_INTERN PetscErrorCode IPEstimateMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
 
 /* regularize.c */
 PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
+PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *), PetscBool *);
+PETSC_INTERN PetscErrorCode IPSetTargets(Tao, PetscReal, PetscReal);
+
+/* restore.c */
+PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
 
 /* barrier.c */
 PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
+PETSC_INTERN PetscErrorCode IPBarrierHold(Tao, PetscInt);
 PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
 PETSC_INTERN PetscErrorCode IPBarrierAverage(Tao, PetscReal *);
 
@@ -279,6 +300,8 @@ PETSC_INTERN PetscErrorCode IPFilterSetDestroy(IPFilterSet *);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPFilterAdd(Tao);
+PETSC_INTERN PetscErrorCode IPMeasureTrial(Tao, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscReal, PetscReal *, PetscReal *);
 
 /* monitor.c */

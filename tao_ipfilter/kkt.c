@@ -13,7 +13,7 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
     PetscCall(VecScale(ip->cwork, -1.0));
     PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, r, r));
   }
-  if (ip->me) PetscCall(MatMultTransposeAdd(tao->jacobian_equality, ip->y, r, r));
+  if (ip->me) PetscCall(MatMultTransposeAdd(ip->JE, ip->y, r, r));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecPointwiseMult(ip->xwork2, ip->pair[b].w, ip->pair[b].z));
@@ -137,7 +137,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   xsize = PetscMax(Within(xsize, IP_MOST * ip->xsize0), ip->xsize0);
   if (ip->mi) PetscCall(InequalityScale(tao, xsize));
   if (ip->me) {
-    PetscCall(MatMult(tao->jacobian_equality, tao->solution, ip->cetrial));
+    PetscCall(MatMult(ip->JE, tao->solution, ip->cetrial));
     PetscCall(VecNorm(ip->cetrial, NORM_INFINITY, &norm));
     s->equality = PetscMax(ip->equality0, norm);
   }
@@ -204,14 +204,16 @@ PetscErrorCode IPComputeKKT(Tao tao)
   k->inf_pr = k->primal = 0.0;
   if (ip->mi) {
     PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->c));
-    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &k->inf_pr));
-    k->primal = k->inf_pr / ip->scale.length;
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &k->primal));
+    k->primal /= ip->scale.length;
+    PetscCall(IPScalingNorm(ip->rc, ip->cscale, ip->cwork, &k->inf_pr));
   }
   if (ip->me) {
     PetscReal equality;
 
     PetscCall(VecNorm(ip->ce, NORM_INFINITY, &equality));
     k->primal = PetscMax(k->primal, equality / ip->scale.equality);
+    PetscCall(IPScalingNorm(ip->ce, ip->cescale, ip->cetrial, &equality));
     k->inf_pr = PetscMax(k->inf_pr, equality);
   }
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {

@@ -127,9 +127,19 @@ static PetscErrorCode TrialPoint(Tao tao, PetscReal alpha, PetscReal *theta, Pet
   *finite = PETSC_FALSE;
   if (IPUndefined(ip->ftrial)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
+  PetscCall(IPMeasureTrial(tao, theta, phi));
+  *finite = (PetscBool)(!IPUndefined(*theta) && !IPUndefined(*phi));
+  PetscFunctionReturn(0);
+}
+
+/* theta and phi of the constraint values, objective and trial vectors at hand */
+PetscErrorCode IPMeasureTrial(Tao tao, PetscReal *theta, PetscReal *phi)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
   PetscCall(Violation(tao, ip->ctrial, ip->pair[IP_SLACK].trial, ip->cetrial, theta));
   PetscCall(BarrierFunction(tao, ip->ftrial, PETSC_TRUE, phi));
-  *finite = (PetscBool)(!IPUndefined(*theta) && !IPUndefined(*phi));
   PetscFunctionReturn(0);
 }
 
@@ -198,13 +208,23 @@ static PetscErrorCode TakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   PetscFunctionReturn(0);
 }
 
-/* Puts the iterate left behind into the filter, unless Armijo decided, and takes the step */
+/* Puts the present iterate, with its margins, into the filter */
+PetscErrorCode IPFilterAdd(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->gamma_theta) * ip->theta, ip->phi - ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta));
+  PetscFunctionReturn(0);
+}
+
+/* Takes the step, and puts the iterate left behind into the filter, unless Armijo decided */
 static PetscErrorCode Accept(Tao tao, PetscReal alpha, PetscReal dual, PetscBool objective, PetscBool corrected)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (!objective) PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->gamma_theta) * ip->theta, ip->phi - ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta));
+  if (!objective) PetscCall(IPFilterAdd(tao));
   ip->step_tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
   PetscCall(TakeStep(tao, alpha, dual));
   PetscFunctionReturn(0);

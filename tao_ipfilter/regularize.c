@@ -95,7 +95,7 @@ static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetTargets(Tao tao, PetscReal mu, PetscReal most)
+PetscErrorCode IPSetTargets(Tao tao, PetscReal mu, PetscReal most)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -125,13 +125,13 @@ static PetscErrorCode SolveSystem(Tao tao, PetscBool *usable)
   PetscFunctionBegin;
   PetscCall(VecSet(ip->dx, 0.0));
   if (ip->free_mu) {
-    PetscCall(SetTargets(tao, 0.0, 0.0));
+    PetscCall(IPSetTargets(tao, 0.0, 0.0));
     PetscCall(SolveDirection(tao, ip->rc, ip->ce, PETSC_TRUE, usable));
     if (!*usable) PetscFunctionReturn(0);
     PetscCall(IPBarrierFromAffine(tao));
     matrix = PETSC_FALSE;
   }
-  PetscCall(SetTargets(tao, ip->mu, ip->free_mu ? ip->corrector_max : 0.0));
+  PetscCall(IPSetTargets(tao, ip->mu, ip->free_mu ? ip->corrector_max : 0.0));
   PetscCall(SolveDirection(tao, ip->rc, ip->ce, matrix, usable));
   PetscFunctionReturn(0);
 }
@@ -170,8 +170,8 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* The shift below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve there,
-   and nothing that an AMG could be built from. Zero where the present A, not shifted, has none. */
+/* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve
+   there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. */
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -181,35 +181,51 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
   PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork));
   if (ip->primal_mass) PetscCall(VecPointwiseDivide(ip->xwork, ip->xwork, ip->primal_mass));
   PetscCall(VecMin(ip->xwork, NULL, &smallest));
-  *least = PetscMax(-smallest, 0.0);
+  *least = ip->delta - smallest;
   PetscFunctionReturn(0);
 }
 
-/* The direction, with delta raised until the linear solve and the curvature (or the inertia) are in order */
-PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+/* Solves with delta raised, from first times its unit on, until the caller's solve calls its solution usable, and tells
+   whether that was reached */
+PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)(Tao), PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  PetscReal     unit = 1.0, least = 0.0;
+  PetscReal     unit = 1.0, least = PETSC_NINFINITY;
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
   *ok       = PETSC_FALSE;
-  ip->delta = ip->delta_c = 0.0;
+  ip->delta = first * unit;
   while (ip->delta <= ip->delta_max * unit) {
-    PetscBool usable = PETSC_FALSE;
-
-    PetscCall(AssembleSystem(tao));
-    if (ip->delta == 0.0 && !ip->me) PetscCall(LeastDelta(tao, &least));
-    if (ip->delta > least || least == 0.0) {
-      PetscCall(SolveSystem(tao, &usable));
-      if (usable && ip->me) *ok = PETSC_TRUE;
-      else if (usable) PetscCall(CurvatureTest(tao, ok));
+    PetscCall((*assemble)(tao));
+    if (least == PETSC_NINFINITY && !ip->me) PetscCall(LeastDelta(tao, &least));
+    if (ip->delta > least) {
+      PetscCall((*solve)(tao, ok));
       if (*ok) break;
       ip->nretried++;
     }
-    ip->delta = NextDelta(ip, unit);
-    while (ip->delta <= least) ip->delta = NextDelta(ip, unit);
+    do ip->delta = NextDelta(ip, unit);
+    while (ip->delta <= least);
   }
+  PetscFunctionReturn(0);
+}
+
+/* The Newton direction, whose curvature (or, with equality constraints, whose matrix's inertia) is in order */
+static PetscErrorCode SolveNewton(Tao tao, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(SolveSystem(tao, usable));
+  if (*usable && !((TAO_IPFILTER *)tao->data)->me) PetscCall(CurvatureTest(tao, usable));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->delta_c = 0.0;
+  PetscCall(IPRegularize(tao, 0.0, AssembleSystem, SolveNewton, ok));
   if (!*ok || ip->delta == 0.0) PetscFunctionReturn(0);
   ip->delta_last    = ip->delta;
   ip->delta_largest = PetscMax(ip->delta_largest, ip->delta);

@@ -17,7 +17,7 @@ static PetscErrorCode Cold(Tao tao)
 }
 
 /* The point of the central path of one constraint that a penalty of stiffness rho bends: s z = mu and s - q = z/rho */
-static PetscErrorCode CentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
+PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
 {
   const PetscScalar *qa, *ra;
   PetscScalar       *sa, *za;
@@ -91,7 +91,8 @@ static PetscErrorCode MeanMagnitudes(Tao tao, Vec c, Vec z, PetscReal *length, P
   PetscFunctionReturn(0);
 }
 
-/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit */
+/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of no use
+   along a direction in which it is not convex */
 static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -121,6 +122,15 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
     if (ip->linear_residual <= ip->forcing_start * force || force == 0.0) break;
     target = force;
   }
+  if (*usable) {
+    PetscScalar curvature;
+    PetscReal   size;
+
+    PetscCall(MatMult(ip->cond.A, ip->dx, ip->xwork));
+    PetscCall(VecDot(ip->dx, ip->xwork, &curvature));
+    PetscCall(VecNorm(ip->dx, NORM_2, &size));
+    *usable = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->hscale * PetscSqr(size));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -142,8 +152,32 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, Vec c, PetscReal *value)
   PetscFunctionReturn(0);
 }
 
+/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic program always */
+static PetscErrorCode ModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal some = 0.1;
+  PetscScalar     gd, dHd;
+  PetscReal       change, error, f;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(tao->hessian, ip->dx, ip->xwork));
+  PetscCall(VecDot(ip->xwork, ip->dx, &dHd));
+  PetscCall(VecDot(tao->gradient, ip->dx, &gd));
+  f = alpha * (PetscRealPart(gd) + 0.5 * alpha * PetscRealPart(dHd));
+  PetscCall(MatMult(ip->cond.J, ip->dx, ip->cwork));
+  PetscCall(VecScale(ip->cwork, alpha));
+  PetscCall(VecNorm(ip->cwork, NORM_2, &change));
+  PetscCall(VecAXPY(ip->cwork, 1.0, ip->c));
+  PetscCall(VecAXPY(ip->cwork, -1.0, ip->ctrial));
+  PetscCall(VecNorm(ip->cwork, NORM_2, &error));
+  *hold = (PetscBool)(error <= some * change && PetscAbsReal(ip->f + f - ip->ftrial) <= some * (alpha * PetscAbsScalar(gd) + alpha * alpha * PetscAbsScalar(dHd)));
+  PetscFunctionReturn(0);
+}
+
 /* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the penalized
-   objective; *moved is false where it does not, or where equality constraints stand against it */
+   objective; *moved is false where it does not, where the problem's models do not reach so far, or where equality constraints
+   stand against it */
 static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -168,6 +202,7 @@ static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
     PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
     PetscCall(PenaltyObjective(tao, ip->xtrial, ip->ctrial, &after));
     *moved = (PetscBool)(!IPUndefined(after) && after <= before);
+    if (*moved) PetscCall(ModelsHold(tao, alpha, moved));
   }
   if (!*moved) PetscFunctionReturn(0);
   PetscCall(VecCopy(ip->xtrial, tao->solution));
@@ -208,7 +243,7 @@ static PetscErrorCode Predict(Tao tao)
   PetscCall(MeanProduct(tao, ip->c, &mean));
   ip->mu = moved ? ip->mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
   if (!(ip->mu > 0.0)) ip->mu = ip->mu0;
-  PetscCall(CentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
+  PetscCall(IPCentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
   PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->lambda));
   PetscFunctionReturn(0);
 }
@@ -243,6 +278,7 @@ static PetscErrorCode Warm(Tao tao)
   PetscFunctionBegin;
   PetscCall(VecCopy(ip->warm_s, slack->t));
   PetscCall(VecCopy(ip->warm_z, slack->z));
+  PetscCall(IPScalingPair(tao, slack->t, slack->z, PETSC_FALSE));
   PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
@@ -250,7 +286,7 @@ static PetscErrorCode Warm(Tao tao)
   PetscCall(VecAYPX(ip->ctrial, -1.0, slack->t));
   PetscCall(MeanProduct(tao, ip->ctrial, &mean));
   ip->mu = PetscMax(average, mismatch * ip->mu_warm * (mean > 0.0 ? mean : 1.0));
-  PetscCall(CentralPair(ip->ctrial, ip->stiffness, ip->mu, slack->t, slack->z));
+  PetscCall(IPCentralPair(ip->ctrial, ip->stiffness, ip->mu, slack->t, slack->z));
   PetscCall(VecCopy(slack->z, ip->lambda));
   PetscFunctionReturn(0);
 }
@@ -281,6 +317,7 @@ PetscErrorCode IPStartPoint(Tao tao)
     PetscCall(IPPairDualDirection(p));
     PetscCall(VecCopy(p->dz, p->z));
   }
+  if (ip->me) PetscCall(IPEstimateMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

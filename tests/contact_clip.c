@@ -566,6 +566,7 @@ enum {
   PAIR_SLIVER,    /* one or both are squeezed, in directions of their own */
   PAIR_TRIANGLE,  /* two vertices coincide, in one or both */
   PAIR_REFLEX,    /* one or both have a reflex corner, or nearly a straight one */
+  PAIR_FOLDED,    /* an edge crosses the one opposite: the fold's area is negative */
   PAIR_WARPED,    /* out of plane, from rounding to much */
   PAIR_KINDS
 };
@@ -645,8 +646,8 @@ static void AdversarialPair(PetscRandom r, PetscInt kind, PetscReal p[4][2], Pet
     if (!(which >> side & 1)) continue;
     if (kind == PAIR_SLIVER) Squeeze(r, x);
     if (kind == PAIR_REFLEX) Dent(r, x);
-    if (kind == PAIR_TRIANGLE) {
-      const PetscReal part = PetscAbsReal(Noise(r));
+    if (kind == PAIR_TRIANGLE || kind == PAIR_FOLDED) {
+      const PetscReal part = kind == PAIR_FOLDED ? -Random(r, 0, 0.3) : PetscAbsReal(Noise(r));
 
       for (PetscInt d = 0; d < 2; ++d) x[a][d] = x[(a + 1) % 4][d] + part * (x[a][d] - x[(a + 1) % 4][d]);
     }
@@ -669,7 +670,7 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
 {
   const ContactOverlapLimits all = {-1e-3, 0.0, 1e30, 1e30};
   const PetscReal            normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-  PetscReal                  n1[3], n2[3], exact, size, sum[2] = {0, 0};
+  PetscReal                  n1[3], n2[3], exact, size, weights = 0.0, sum[2] = {0, 0};
   Extended                   p[4][2], q[4][2];
   ContactOverlap             o;
   ContactIntegrals           m;
@@ -690,7 +691,8 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
     sum[1] += m.M[i / 4][i % 4];
   }
   error[0] = PetscMax(error[0], PetscAbsReal(o.area - exact) / size);
-  for (PetscInt k = 0; k < 2; ++k) error[1 + k] = PetscMax(error[1 + k], PetscAbsReal(sum[k] - o.area) / o.area);
+  for (PetscInt k = 0; k < o.n; ++k) weights += PetscAbsReal(o.weight[k]);
+  for (PetscInt k = 0; k < 2; ++k) error[1 + k] = PetscMax(error[1 + k], PetscAbsReal(sum[k] - o.area) / weights);
   for (PetscInt k = 0; k < 4; ++k) sum[0] += m.gap[k];
   if (PetscIsInfOrNanReal(sum[0] + sum[1] + exact)) error[0] = PETSC_MAX_REAL;
 }
@@ -698,7 +700,7 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
 /* Pairs of every kind, turned in space or not; split over the ranks */
 static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
 {
-  static const char *const names[PAIR_KINDS] = {"random", "collinear edges", "touching vertices", "nearly the same", "slivers", "triangles", "reflex corners", "warped"};
+  static const char *const names[PAIR_KINDS] = {"random", "collinear edges", "touching vertices", "nearly the same", "slivers", "triangles", "reflex corners", "folded", "warped"};
   PetscMPIInt              rank, size;
 
   PetscFunctionBeginUser;

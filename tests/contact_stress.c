@@ -112,6 +112,7 @@ static PetscErrorCode CopyPart(Vec x, IS part, PetscBool to, Vec v)
 /* A x = b by MUMPS and iterative refinement; the residual must be rounding */
 static PetscErrorCode SolveDirectly(Mat A, Vec b, Vec x)
 {
+  Mat       F;
   Vec       r;
   KSP       ksp;
   PC        pc;
@@ -125,6 +126,9 @@ static PetscErrorCode SolveDirectly(Mat A, Vec b, Vec x)
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCSetType(pc, PCLU));
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(PCFactorSetUpMatSolverType(pc));
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsSetIcntl(F, 14, 500)); /* work space beyond the estimate [%], for pivoting */
   PetscCall(KSPSolve(ksp, b, x));
   PetscCall(VecDuplicate(b, &r));
   PetscCall(MatMult(A, x, r));
@@ -210,6 +214,7 @@ static PetscErrorCode Solve(const Patch *patch, const ContactPair *pair, const P
   PetscCall(VecSet(u, 0.0));
   PetscCall(ElasticityTangent(e, u, K));
   PetscCall(ContactCreate(dm, 1, pair, &contact));
+  PetscCall(ContactSetFromOptions(contact));
   PetscCall(ContactLinearize(contact, u, &lin));
   PetscCall(VecDuplicate(u, &f));
   PetscCall(SetField(dm, ExactField, patch, f));
@@ -306,16 +311,23 @@ static PetscErrorCode TestKnownFailure(void)
   PetscFunctionReturn(0);
 }
 
-/* A curved interface under pressure from all sides: nodal normals are exact but for what the facets turn from one to the next */
-static PetscErrorCode TestCurved(void)
+/* A curved interface under pressure from all sides: exact along the facets' normals; along nodal ones as good as the facets are small */
+static PetscErrorCode TestCurved(const char normals[], PetscReal E2)
 {
-  Patch     patch = {.p = 0.01, .young = {1, 10}, .poisson = {0.3, 0.2}, .hydrostatic = PETSC_TRUE, .amplitude = 0.1};
-  PetscReal stress[3], pressure[3];
+  Patch     patch = {.p = 0.01, .young = {1, E2}, .poisson = {0.3, 0.499}, .hydrostatic = PETSC_TRUE, .amplitude = 0.1};
+  PetscReal stress[3], pressure[3], worst = 0.0;
 
   PetscFunctionBeginUser;
   SetRotation(0.0, 0.0, &patch);
-  for (PetscInt refine = 0; refine < 3; ++refine) PetscCall(Solve(&patch, &mortar, matching, refine, &stress[refine], &pressure[refine]));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "curved matching interface: error of the stress by the pressure %.2g, %.2g, %.2g on three meshes\n", (double)stress[0], (double)stress[1], (double)stress[2]));
+  PetscCall(PetscOptionsSetValue(NULL, "-contact_normals", normals));
+  for (PetscInt refine = 0; refine < 3; ++refine) {
+    PetscCall(Solve(&patch, &mortar, matching, refine, &stress[refine], &pressure[refine]));
+    worst = PetscMax(worst, PetscMax(stress[refine], pressure[refine]) / PetscMax(1.0, E2));
+  }
+  PetscCall(PetscOptionsClearValue(NULL, "-contact_normals"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "curved matching interface, E2/E1 %g, %s normals, error of the stress by the pressure: ", (double)E2, normals));
+  if (worst < 1e-11) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "none\n"));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%.2g, %.2g, %.2g on three meshes\n", (double)stress[0], (double)stress[1], (double)stress[2]));
   PetscFunctionReturn(0);
 }
 
@@ -327,7 +339,9 @@ int main(int argc, char **argv)
   PetscCall(TestUniform(0.7, 1.1, &mortar, different, "mortar, the same rotated"));
   PetscCall(TestUniform(0.7, 1.1, &node, matching, "node to segment, matching meshes, rotated"));
   PetscCall(TestKnownFailure());
-  PetscCall(TestCurved());
+  PetscCall(TestCurved("facet", 1.0));
+  PetscCall(TestCurved("facet", 1e6));
+  PetscCall(TestCurved("nodal", 1.0));
   PetscCall(PetscFinalize());
   return 0;
 }

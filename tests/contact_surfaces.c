@@ -334,39 +334,61 @@ static void WavyField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
   u[2] = a * PetscSinReal(0.9 * x[0] + x[1] * x[1] + (body ? 0.3 : 0.0));
 }
 
-/* Touching bodies: g(u + t v) - g(u) - t J v falls with the square of t */
-static PetscErrorCode TestTaylor(DM dm)
+/* Touching bodies: g(u + t v) - g(u) - t J v falls with the square of t where J is the derivative */
+static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const ContactPair pairs[], const char what[])
 {
-  const ContactPair    pairs[2] = {{"slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}};
   const PetscReal      none = 0.0, one = 1.0;
-  PetscReal            remainder[3];
+  PetscReal            remainder[3], norm;
   ContactLinearization lin, moved;
   Vec                  v, Jv;
 
   PetscFunctionBeginUser;
   PetscCall(DMCreateGlobalVector(dm, &v));
   PetscCall(SetField(dm, WavyField, &one, v));
-  PetscCall(LinearizeAt(dm, 2, pairs, WavyField, &none, &lin));
+  PetscCall(LinearizeAt(dm, npairs, pairs, WavyField, &none, &lin));
   PetscCall(VecDuplicate(lin->g, &Jv));
   for (PetscInt k = 0; k < 3; ++k) {
     const PetscReal t = PetscPowRealInt(10.0, -(int)k - 2);
 
-    PetscCall(LinearizeAt(dm, 2, pairs, WavyField, &t, &moved));
+    PetscCall(LinearizeAt(dm, npairs, pairs, WavyField, &t, &moved));
     PetscCall(MatMult(lin->J, v, Jv));
+    PetscCall(VecNorm(Jv, NORM_INFINITY, &norm));
     PetscCall(VecAYPX(Jv, -t, moved->g));
     PetscCall(VecAXPY(Jv, -1.0, lin->g));
     PetscCall(VecNorm(Jv, NORM_INFINITY, &remainder[k]));
     PetscCall(ContactLinearizationDestroy(&moved));
   }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "remainder of the linearized gap, %s:", what));
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal order = PetscLog10Real(remainder[k] / remainder[k + 1]);
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "remainder of the linearized gap, step %g to %g: order %s\n", (double)PetscPowRealInt(10.0, -(int)k - 2), (double)PetscPowRealInt(10.0, -(int)k - 3), order > 1.9 ? "2" : "TOO SMALL"));
-    if (!(order > 1.9)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  order %g, remainders %g %g\n", (double)order, (double)remainder[k], (double)remainder[k + 1]));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " order %s", order > 1.9 ? "2" : order > 0.9 ? "1" : "0"));
   }
+  PetscCall(PetscInfo(NULL, "remainders %g %g %g beside %g\n", (double)remainder[0], (double)remainder[1], (double)remainder[2], (double)norm));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   PetscCall(VecDestroy(&Jv));
   PetscCall(VecDestroy(&v));
   PetscCall(ContactLinearizationDestroy(&lin));
+  PetscFunctionReturn(0);
+}
+
+/* On planes, and on curved faces of the same vertices */
+static PetscErrorCode TestTaylorAll(DM dm)
+{
+  const ContactPair pairs[2] = {{"slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}}, bent = {"inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
+  Bend              bend = {.radius = 2.0};
+  Box               box[2] = {
+    {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
+    {"outer", {-0.3, -0.6, 0.0},  {0.3, 0.6, 0.3}, {6, 4, 1} }
+  };
+  DM curved;
+
+  PetscFunctionBeginUser;
+  PetscCall(TestTaylor(dm, 2, pairs, "planes"));
+  PetscCall(CreateBoxes(PETSC_COMM_WORLD, 2, box, 0, &curved));
+  PetscCall(SetPlaces(curved, BendField, &bend));
+  PetscCall(TestTaylor(curved, 1, &bent, "curved matching faces"));
+  PetscCall(DMDestroy(&curved));
   PetscFunctionReturn(0);
 }
 
@@ -383,7 +405,7 @@ int main(int argc, char **argv)
   PetscCall(TestSeveral(dm));
   PetscCall(TestAway(dm));
   PetscCall(TestOverlap(dm));
-  PetscCall(TestTaylor(dm));
+  PetscCall(TestTaylorAll(dm));
   PetscCall(DMDestroy(&dm));
   PetscCall(TestBent(PETSC_FALSE, 0.0));
   PetscCall(TestBent(PETSC_TRUE, 0.0));
@@ -400,6 +422,12 @@ int main(int argc, char **argv)
       nsize: {{1 2 3}}
       args: -contact_gap mortar
       output_file: output/contact_surfaces_mortar.out
+
+   test:
+      suffix: facet
+      nsize: {{1 3}}
+      args: -contact_gap mortar -contact_normals facet
+      output_file: output/contact_surfaces_facet.out
 
    test:
       suffix: node

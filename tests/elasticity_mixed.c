@@ -1,6 +1,7 @@
 static char help[] = "Linear and neo-Hookean bodies in one mesh: how often each is assembled, and cells turned inside out.\n\n";
 
 #include "elasticity_problem.h"
+#include <petsc/private/petscimpl.h> /* PetscObjectStateSet() */
 
 #define NBODIES 4
 
@@ -132,10 +133,11 @@ static PetscErrorCode CheckAgainstFresh(DM dm, const MaterialType types[NBODIES]
 /* Assemblies into one matrix, after a change of it, and into another */
 static PetscErrorCode CheckAssemblies(DM dm, const char name[], const MaterialType types[NBODIES])
 {
-  Elasticity e;
-  Mat        K, other;
-  Vec        u, v;
-  PetscBool  linear;
+  Elasticity       e;
+  Mat              K, other;
+  Vec              u, v;
+  PetscBool        linear;
+  PetscObjectState state;
 
   PetscFunctionBeginUser;
   PetscCall(ProblemInterpolate(dm, Smooth, &u));
@@ -157,6 +159,8 @@ static PetscErrorCode CheckAssemblies(DM dm, const char name[], const MaterialTy
   PetscCall(PrintAssemblies("changed by someone else", e));
   PetscCall(CheckAgainstFresh(dm, types, v, K));
   PetscCall(ElasticityCreateTangent(e, &other));
+  PetscCall(PetscObjectStateGet((PetscObject)K, &state));
+  PetscCall(PetscObjectStateSet((PetscObject)other, state));
   PetscCall(ElasticityTangent(e, v, other));
   PetscCall(PrintAssemblies("another matrix", e));
   PetscCall(CheckAgainstFresh(dm, types, v, other));

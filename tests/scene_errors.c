@@ -97,7 +97,7 @@ static const Mistake mistakes[] = {
   {"symmetry of a word",                "refine: 0",                       "symmetry: [left]"                      },
   {"symmetry without a normal",         "refine: 0",                       "symmetry: [left: {face: slab.xmin}]"   },
   {"symmetry of no axis",               "refine: 0",                       "symmetry: [left: {face: slab.xmin, normal: w}]"},
-  {"symmetry of a round face",          "slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2],", "arc: {shape: tube_arc, axis: x, radii: [1, 2], angles: [0, 80], extent: [0, 1], cells: [1, 2, 1], young: 1, poisson: 0}\n  - slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2],"},
+  {"symmetry of a plane along no axis",  "bodies:\n",                       "symmetry: [arc.amax]\nbodies:\n  - arc: {shape: tube_arc, axis: x, radii: [1, 2], angles: [0, 80], extent: [0, 1], cells: [1, 2, 1], young: 1, poisson: 0}\n"},
   {"symmetry of a plane held already",  "refine: 0",                       "symmetry: [slab.zmin]"                 },
   {"symmetry of a displacement's name", "refine: 0",                       "symmetry: [top: {face: slab.xmin, normal: x}]"},
   {"solver without options",            "refine: 0",                       "solver: fast"                          },

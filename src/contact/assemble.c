@@ -8,24 +8,26 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(as, sizeof(*as)));
+  as->dim = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[])
+PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3])
 {
   PetscFunctionBegin;
   if (as->n + n > as->size) {
     as->size = 2 * as->size + 1024;
     PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->row));
     PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->node));
-    PetscCall(PetscRealloc(as->size * sizeof(PetscScalar), &as->value));
+    for (PetscInt c = 0; c < as->dim; ++c) PetscCall(PetscRealloc(as->size * sizeof(PetscScalar), &as->value[c]));
   }
   for (PetscInt b = 0; b < n; ++b) {
-    as->row[as->n]     = row;
-    as->node[as->n]    = node[b];
-    as->value[as->n++] = value[b];
+    as->row[as->n]  = row;
+    as->node[as->n] = node[b];
+    for (PetscInt c = 0; c < as->dim; ++c) as->value[c][as->n] = as->dim == 1 ? value[b] : value[b] * normal[c];
+    ++as->n;
   }
   PetscFunctionReturn(0);
 }
@@ -35,31 +37,78 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscFunctionBegin;
   PetscCall(PetscFree(as->row));
   PetscCall(PetscFree(as->node));
-  PetscCall(PetscFree(as->value));
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
   PetscCall(VecDestroy(&as->gap));
   PetscFunctionReturn(0);
 }
 
-/* The coupling of all rows with vertices; the sums over facets and ranks are made here */
-static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Mat *coupling)
+/* The couplings of all rows with vertices, one or three matrices of the same pattern */
+typedef struct {
+  PetscInt dim;
+  Mat      mat[3];
+} Coupling;
+
+/* A row of them; factor: what each value is to be multiplied by */
+typedef struct {
+  PetscInt           n;
+  const PetscInt    *node;
+  const PetscScalar *value[3];
+  PetscReal          factor[3];
+} CouplingRow;
+
+/* The sums over facets and ranks are made here */
+static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
-  Vec      u;
-  PetscInt n;
+  Vec       u;
+  PetscInt  n, *row = as->row, *node = as->node;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(contact->dm, &u));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(DMRestoreGlobalVector(contact->dm, &u));
-  PetscCall(MatCreate(contact->comm, coupling));
-  PetscCall(MatSetSizes(*coupling, contact->rows.nlocal, n / 3, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(*coupling, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(*coupling, as->n, as->row, as->node));
-  PetscCall(MatSetValuesCOO(*coupling, as->value, INSERT_VALUES));
+  coupling->dim = as->dim;
+  if (as->dim > 1) PetscCall(PetscMalloc2(as->n, &row, as->n, &node));
+  for (PetscInt c = 0; c < as->dim; ++c) {
+    if (as->dim > 1) { /* the preallocation sorts them */
+      PetscCall(PetscArraycpy(row, as->row, as->n));
+      PetscCall(PetscArraycpy(node, as->node, as->n));
+    }
+    PetscCall(MatCreate(contact->comm, &coupling->mat[c]));
+    PetscCall(MatSetSizes(coupling->mat[c], contact->rows.nlocal, n / 3, PETSC_DETERMINE, PETSC_DETERMINE));
+    PetscCall(MatSetType(coupling->mat[c], MATAIJ));
+    PetscCall(MatSetPreallocationCOO(coupling->mat[c], as->n, row, node));
+    PetscCall(MatSetValuesCOO(coupling->mat[c], as->value[c], INSERT_VALUES));
+  }
+  if (as->dim > 1) PetscCall(PetscFree2(row, node));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CouplingDestroy(Coupling *coupling)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatDestroy(&coupling->mat[c]));
+  PetscFunctionReturn(0);
+}
+
+/* Component c of the row's vectors is value[c], or value[0] for all, times factor[c] */
+static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass, CouplingRow *r)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatGetRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  for (PetscInt c = coupling->dim; c < 3; ++c) r->value[c] = r->value[0];
+  for (PetscInt c = 0; c < 3; ++c) r->factor[c] = (coupling->dim == 1 ? normal[c] : 1.0) / mass;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row, CouplingRow *r)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatRestoreRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
   PetscFunctionReturn(0);
 }
 
 /* kept[k]: local rows whose 1-norm, divided by the mass, is not below row_drop of the largest of all ranks */
-static PetscErrorCode KeepRows(Contact contact, Mat coupling, PetscInt *nkept, PetscInt kept[])
+static PetscErrorCode KeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
@@ -67,18 +116,17 @@ static PetscErrorCode KeepRows(Contact contact, Mat coupling, PetscInt *nkept, P
   PetscReal         *norm, largest = 0.0;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(coupling, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
   PetscCall(PetscCalloc1(rows->nlocal, &norm));
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
-    const PetscReal   *n = &rows->normal[3 * i];
-    const PetscScalar *value;
-    PetscInt           ncols;
+    CouplingRow r;
 
-    PetscCall(MatGetRow(coupling, rstart + i, &ncols, NULL, &value));
-    for (PetscInt k = 0; k < ncols; ++k) norm[i] += PetscAbsScalar(value[k]);
-    PetscCall(MatRestoreRow(coupling, rstart + i, &ncols, NULL, &value));
-    norm[i] *= (PetscAbsReal(n[0]) + PetscAbsReal(n[1]) + PetscAbsReal(n[2])) / PetscRealPart(mass[i]);
+    PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
+    for (PetscInt c = 0; c < 3; ++c) {
+      for (PetscInt k = 0; k < r.n; ++k) norm[i] += PetscAbsScalar(r.value[c][k] * r.factor[c]);
+    }
+    PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
     largest = PetscMax(largest, norm[i]);
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));
@@ -91,20 +139,23 @@ static PetscErrorCode KeepRows(Contact contact, Mat coupling, PetscInt *nkept, P
   PetscFunctionReturn(0);
 }
 
-/* One row of J: the coupling's row times the normal by the mass; entries that are zero but for rounding are left out */
-static PetscErrorCode ExpandRow(PetscInt ncols, const PetscInt node[], const PetscScalar value[], const PetscReal normal[3], PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+/* One row of J; entries that are zero but for rounding are left out */
+static PetscErrorCode ExpandRow(const CouplingRow *r, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
-  PetscReal largest = 0.0, component = 0.0;
+  PetscReal largest = 0.0;
 
   PetscFunctionBegin;
   *n = 0;
-  for (PetscInt k = 0; k < ncols; ++k) largest = PetscMax(largest, PetscAbsScalar(value[k]));
-  for (PetscInt c = 0; c < 3; ++c) component = PetscMax(component, PetscAbsReal(normal[c]));
-  for (PetscInt k = 0; k < ncols; ++k) {
+  for (PetscInt c = 0; c < 3; ++c) {
+    for (PetscInt k = 0; k < r->n; ++k) largest = PetscMax(largest, PetscAbsScalar(r->value[c][k] * r->factor[c]));
+  }
+  for (PetscInt k = 0; k < r->n; ++k) {
     for (PetscInt c = 0; c < 3; ++c) {
-      if (PetscAbsScalar(value[k] * normal[c]) <= ENTRY_DROP * largest * component) continue;
-      column[*n]  = 3 * node[k] + c;
-      entry[*n] = value[k] * normal[c] / mass;
+      const PetscScalar value = r->value[c][k] * r->factor[c];
+
+      if (PetscAbsScalar(value) <= ENTRY_DROP * largest) continue;
+      column[*n] = 3 * r->node[k] + c;
+      entry[*n]  = value;
       ++*n;
     }
   }
@@ -130,18 +181,18 @@ static PetscErrorCode LongestRow(Mat coupling, PetscInt *longest)
 }
 
 /* J of the kept rows: counts the entries of each row first, then puts them in */
-static PetscErrorCode CreateJacobian(Contact contact, Mat coupling, PetscInt nkept, const PetscInt kept[], Mat *J)
+static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, PetscInt nkept, const PetscInt kept[], Mat *J)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
-  PetscInt           rstart, jstart, nlocal, cstart, cend, longest, *column, *diagonal, *offdiagonal;
+  PetscInt           rstart, jstart = 0, nlocal, cstart, cend, longest, *column, *diagonal, *offdiagonal;
   PetscScalar       *entry;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(coupling, &rstart, NULL));
-  PetscCall(MatGetOwnershipRangeColumn(coupling, &cstart, &cend));
+  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
+  PetscCall(MatGetOwnershipRangeColumn(coupling->mat[0], &cstart, &cend));
   nlocal = 3 * (cend - cstart);
-  PetscCall(LongestRow(coupling, &longest));
+  PetscCall(LongestRow(coupling->mat[0], &longest));
   PetscCall(PetscMalloc4(3 * longest, &column, 3 * longest, &entry, nkept, &diagonal, nkept, &offdiagonal));
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   PetscCall(MatCreate(contact->comm, J));
@@ -153,14 +204,13 @@ static PetscErrorCode CreateJacobian(Contact contact, Mat coupling, PetscInt nke
       PetscCall(MatGetOwnershipRange(*J, &jstart, NULL));
     }
     for (PetscInt k = 0; k < nkept; ++k) {
-      const PetscInt     i = kept[k], row = pass ? jstart + k : 0;
-      const PetscInt    *node;
-      const PetscScalar *value;
-      PetscInt           ncols, n;
+      const PetscInt i = kept[k], row = jstart + k;
+      PetscInt       n;
+      CouplingRow    r;
 
-      PetscCall(MatGetRow(coupling, rstart + i, &ncols, &node, &value));
-      PetscCall(ExpandRow(ncols, node, value, &rows->normal[3 * i], PetscRealPart(mass[i]), &n, column, entry));
-      PetscCall(MatRestoreRow(coupling, rstart + i, &ncols, &node, &value));
+      PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
+      PetscCall(ExpandRow(&r, &n, column, entry));
+      PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
       if (pass) PetscCall(MatSetValues(*J, 1, &row, n, column, entry, INSERT_VALUES));
       else {
         diagonal[k] = 0;
@@ -212,7 +262,7 @@ static PetscErrorCode FillRows(Contact contact, const ContactAssembly *as, const
 /* Collective */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
-  Mat       coupling;
+  Coupling  coupling;
   PetscInt *kept;
 
   PetscFunctionBegin;
@@ -221,11 +271,11 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
-  PetscCall(KeepRows(contact, coupling, &(*lin)->nlocal, kept));
-  PetscCall(CreateJacobian(contact, coupling, (*lin)->nlocal, kept, &(*lin)->J));
+  PetscCall(KeepRows(contact, &coupling, &(*lin)->nlocal, kept));
+  PetscCall(CreateJacobian(contact, &coupling, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(FillRows(contact, as, kept, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
-  PetscCall(MatDestroy(&coupling));
+  PetscCall(CouplingDestroy(&coupling));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,4 @@
-/* Polygons in the plane: area, centroid, and clipping against a convex polygon */
+/* Polygons in the plane: area, and clipping against a convex polygon */
 #include "contactimpl.h"
 
 /* Relative to the first vertex, so that small polygons far from the origin keep their digits */
@@ -8,23 +8,6 @@ PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 
   for (PetscInt i = 1; i + 1 < n; ++i) area += 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
   return area;
-}
-
-/* Mean of the vertices where the polygon has no area */
-void ContactPolygonCentroid(PetscInt n, const PetscReal p[][2], PetscReal c[2])
-{
-  PetscReal mean[2] = {0.0, 0.0}, moment[2] = {0.0, 0.0}, area = 0.0;
-
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt d = 0; d < 2; ++d) mean[d] += p[i][d] / (PetscReal)n;
-  }
-  for (PetscInt i = 1; i + 1 < n; ++i) {
-    const PetscReal t = 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
-
-    area += t;
-    for (PetscInt d = 0; d < 2; ++d) moment[d] += t * ((p[i][d] - p[0][d]) + (p[i + 1][d] - p[0][d])) / 3.0;
-  }
-  for (PetscInt d = 0; d < 2; ++d) c[d] = area > 0.0 ? p[0][d] + moment[d] / area : mean[d];
 }
 
 /* Twice the signed area of the triangle (a, b, p): positive where p is left of the line a -> b */

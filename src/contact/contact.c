@@ -10,6 +10,8 @@ const char *const GapTypes[] = {"mortar", "node", "GapType", "GAP_", NULL};
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode}; /* by GapType */
 
+static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
+
 PetscLogEvent CONTACT_Search, CONTACT_Integrate;
 
 static PetscErrorCode ContactInitializePackage(void)
@@ -142,6 +144,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
 
   Options Database Keys:
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
+. -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the normals of the facets
 . -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area
 . -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner body, or the
                                        pair's own distance up to 0.9 of what both bodies are thick
@@ -163,6 +166,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
   PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes, (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
+  PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsReal("-contact_search_distance", "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth", "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)", "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
   PetscCall(PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this", "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
@@ -243,6 +247,15 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
   area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It is
   positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals fixed.
+  With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces slide, but
+  facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
+
+  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that face
+  it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and m_A is the
+  same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet, has no row.
+
+  Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on planes,
+  and on curved faces with -contact_normals facet.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite is an
   error.

@@ -56,12 +56,19 @@ typedef struct {
   Vec        mass;          /* int phi_A over the whole undeformed nonmortar face [length^2] */
 } ContactRows;
 
+/* Along what a mortar gap is measured */
+typedef enum {
+  CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
+  CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
+} ContactNormals;
+
 /* One linearization under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
-  Vec          gap;          /* int phi_A gap [length^3] */
-  PetscInt     n, size;      /* entries in use, and space for them */
-  PetscInt    *row, *node;   /* global row, global number of the vertex */
-  PetscScalar *value;        /* int phi_A (N2 - N1) [length^2]: times n_A, what the vertex's displacement adds to the gap */
+  Vec          gap;        /* int phi_A gap [length^3] */
+  PetscInt     n, size;    /* entries in use, and space for them */
+  PetscInt    *row, *node; /* global row, global number of the vertex */
+  PetscInt     dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
+  PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
 } ContactAssembly;
 
 struct _n_Contact {
@@ -70,6 +77,7 @@ struct _n_Contact {
   PetscInt         npairs;
   ContactPairData *pairs;
   ContactRows      rows;
+  ContactNormals   normals;
   PetscReal        depth;        /* 0: from the thickness of the bodies */
   PetscReal        cosine;       /* facets pair when n1.n2 is at most this */
   PetscReal        overlap_drop; /* relative to the smaller facet's area */
@@ -137,7 +145,6 @@ PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 /* clip.c: convex polygons in the plane, vertices counterclockwise */
 #define CONTACT_MAX_POLYGON 32
 PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
-PETSC_INTERN void      ContactPolygonCentroid(PetscInt n, const PetscReal p[][2], PetscReal c[2]);
 PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
 
 /* quadrature.c */
@@ -191,7 +198,7 @@ PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 
 /* assemble.c */
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
-PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[]);
+PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
 

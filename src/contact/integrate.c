@@ -25,10 +25,10 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
   }
 }
 
-/* One nonmortar facet against the candidates near it */
-static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const ContactPairData *pair, PetscInt f, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
+/* One nonmortar facet against the candidates near it; normal: at its vertices */
+static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
-  const PetscReal *x1 = &pair->nonmortar.x[12 * f], *normal = &pair->normal[12 * f];
+  const PetscReal *x1  = &pair->nonmortar.x[12 * f];
   const PetscInt  *row = &pair->row[4 * f];
   PetscReal        D[4][4] = {{0}};
   PetscScalar      gap[4]  = {0};
@@ -46,11 +46,11 @@ static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const Cont
     for (PetscInt a = 0; a < 4; ++a) {
       gap[a] += m.gap[a];
       for (PetscInt b = 0; b < 4; ++b) D[a][b] -= m.D[a][b];
-      PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &mortar->node[4 * near[k]], m.M[a]));
+      PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &mortar->node[4 * near[k]], m.M[a], &normal[3 * a]));
     }
   }
   if (n) {
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &pair->nonmortar.node[4 * f], D[a]));
+    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &pair->nonmortar.node[4 * f], D[a], &normal[3 * a]));
     PetscCall(VecSetValues(assembly->gap, 4, row, gap, ADD_VALUES));
   }
   *noverlaps += n;
@@ -88,8 +88,12 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     const PetscInt first = near.offset[f], n = near.offset[f + 1] - first;
+    PetscReal      normal[12];
 
-    PetscCall(MortarFacet(&limits, pair, f, mortar, n, near.facet + first, assembly, &pair->nfacing));
+    if (!n) continue;
+    PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
+    for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a) (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
+    PetscCall(MortarFacet(&limits, pair, f, normal, mortar, n, near.facet + first, assembly, &pair->nfacing));
   }
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactNearDestroy(&near));

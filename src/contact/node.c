@@ -64,12 +64,12 @@ static PetscErrorCode AddVertex(Contact contact, PetscInt i, PetscInt row, Petsc
   PetscFunctionBegin;
   ContactShape(nearest->xi, value);
   for (PetscInt b = 0; b < 4; ++b) value[b] *= mass;
-  PetscCall(ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value));
+  PetscCall(ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value, &contact->rows.normal[3 * i]));
   PetscCall(DMGetGlobalSection(contact->dm, &global));
   PetscCall(PetscSectionGetOffset(global, contact->rows.vertex[i], &offset));
   offset /= 3;
   value[0] = -mass;
-  PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value));
+  PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscFunctionReturn(0);
 }

@@ -33,18 +33,17 @@ static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal
   return reflex < 0 ? 1 : 2;
 }
 
-/* Adds the points of the fan of triangles about the polygon's centroid, with this sign */
+/* Adds the points of the fan of triangles about the polygon's first vertex, with this sign */
 static void AddPolygon(PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
-  PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], weight[CONTACT_TRIANGLE_POINTS], centre[2];
+  PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], weight[CONTACT_TRIANGLE_POINTS];
 
   ContactTriangleRule(barycentric, weight);
-  ContactPolygonCentroid(n, polygon, centre);
-  for (PetscInt t = 0; t < n; ++t) {
+  for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
-      {centre[0],                  centre[1]                 },
-      {polygon[t][0],              polygon[t][1]             },
-      {polygon[(t + 1) % n][0],    polygon[(t + 1) % n][1]   }
+      {polygon[0][0],     polygon[0][1]    },
+      {polygon[t][0],     polygon[t][1]    },
+      {polygon[t + 1][0], polygon[t + 1][1]}
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
@@ -99,13 +98,13 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     reversed[a][0] = p2[3 - a][0];
     reversed[a][1] = p2[3 - a][1];
   }
-  smaller = PetscMin(ContactPolygonArea(4, p1), ContactPolygonArea(4, reversed));
+  smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(4, reversed)));
   nparts  = ConvexParts(p1, size, part, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
     PetscReal      polygon[CONTACT_MAX_POLYGON][2];
     const PetscInt n = ContactClip(4, reversed, size[k], part[k], polygon);
 
-    if (n && ContactPolygonArea(n, polygon) > limits->overlap_drop * smaller) AddPolygon(sign[k], n, polygon, p1, p2, o);
+    if (n && PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller) AddPolygon(sign[k], n, polygon, p1, p2, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   gap = MeanGap(o, h1, h2);

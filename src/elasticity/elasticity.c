@@ -180,7 +180,8 @@ PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *as
   Level: beginner
 
   Notes:
-  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it.
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next tangent is
+  assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/

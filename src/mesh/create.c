@@ -66,7 +66,7 @@ static PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const Sc
       if (rank == 0) PetscCall(shape->create(&bodies[b], &mesh->grid));
     } else {
       PetscCall(GmshFileOpen(comm, &bodies[b], &file));
-      PetscCall(GmshFileGetGrid(comm, &file, &bodies[b], mesh->nfaces, mesh->faces, &mesh->grid));
+      PetscCall(GmshFileGetGrid(comm, &file, &bodies[b], &mesh->grid));
       size[0] = mesh->grid.ncells;
       size[1] = mesh->grid.nvertices;
       PetscCallMPI(MPI_Bcast(size, 2, MPIU_INT64, 0, comm));
@@ -199,6 +199,7 @@ static PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscCall(MeshLabelParts(*dm, nbodies, bodies, meshes, ncells));
   PetscCall(MeshCompleteFaceLabels(*dm, nbodies, bodies, meshes));
   PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_FALSE));
+  PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -325,7 +326,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   }
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(MeshCheckCells(*dm, nbodies, bodies));
+  PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(MeshSetSection(*dm));
   PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));
   PetscCall(DMViewFromOptions(*dm, NULL, "-dm_view"));

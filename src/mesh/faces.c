@@ -43,7 +43,7 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
     own = shape->faces(body);
     while (own[nown]) ++nown;
   } else {
-    PetscCall(GmshGetPhysicalNames(comm, body, 2, &nown, &surfaces));
+    PetscCall(GmshGetPhysicalNames(comm, body, 2, &nown, &surfaces, NULL));
     own = (const char *const *)surfaces;
   }
   *n = nown + body->nsubfaces;

@@ -2,6 +2,7 @@
 #include "mesh_private.h"
 #include <petscviewer.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define GMSH_SENTENCE 1024
@@ -25,37 +26,37 @@ static PetscErrorCode RaiseSentence(MPI_Comm comm, char sentence[GMSH_SENTENCE])
   PetscFunctionReturn(0);
 }
 
-/* The names of one dimension from the section $PhysicalNames, joined by new lines as no name can hold one */
-static PetscErrorCode ScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **joined)
+/* The entries of one dimension in the section $PhysicalNames, each as tag, blank, name, new line */
+static PetscErrorCode ScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
 {
-  char      line[PETSC_MAX_PATH_LEN];
+  char      line[PETSC_MAX_PATH_LEN], entry[PETSC_MAX_PATH_LEN];
   PetscBool within = PETSC_FALSE;
-  size_t    size   = 1;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(1, joined));
+  *length = 1;
+  PetscCall(PetscCalloc1(*length, entries));
   while (fgets(line, sizeof(line), stream) && strncmp(line, "$Nodes", 6) && strncmp(line, "$Entities", 9) && strncmp(line, "$EndPhysicalNames", 17)) {
-    char *begin = strchr(line, '"'), *end = strrchr(line, '"');
-    int   here;
+    char  *begin = strchr(line, '"'), *end = strrchr(line, '"');
+    int    here, tag;
+    size_t n;
 
     if (!strncmp(line, "$PhysicalNames", 14)) within = PETSC_TRUE;
-    if (!within || end == begin || sscanf(line, "%d", &here) != 1 || here != dim) continue;
-    *end = '\n';
-    end[1] = 0;
-    PetscCall(PetscRealloc(size + strlen(begin + 1), joined));
-    PetscCall(PetscArraycpy(*joined + size - 1, begin + 1, strlen(begin + 1) + 1));
-    size += strlen(begin + 1);
+    if (!within || end == begin || sscanf(line, "%d %d", &here, &tag) != 2 || here != dim) continue;
+    PetscCall(PetscSNPrintf(entry, sizeof(entry), "%d %.*s\n", tag, (int)(end - begin - 1), begin + 1));
+    n = strlen(entry);
+    PetscCall(PetscRealloc(*length + n, entries));
+    PetscCall(PetscArraycpy(*entries + *length - 1, entry, n + 1));
+    *length += n;
   }
-  *length = size;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscInt dim, PetscInt *n, char ***names)
+/* The entries of one dimension on all ranks, whoever the file belongs to */
+static PetscErrorCode GetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
 {
-  char        sentence[GMSH_SENTENCE] = "", *joined = NULL, **words;
+  char        sentence[GMSH_SENTENCE] = "";
   PetscMPIInt rank;
   PetscInt64  length = 0;
-  int         nwords;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -68,33 +69,58 @@ PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscI
     PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
     stream = exists ? fopen(body->gmsh.file, "r") : NULL;
     if (stream) {
-      PetscCall(ScanPhysicalNames(stream, dim, &size, &joined));
+      PetscCall(ScanPhysicalNames(stream, dim, &size, entries));
       (void)fclose(stream);
       length = (PetscInt64)size;
     } else PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": there is no readable mesh file \"%s\"", body->name, body->gmsh.file));
   }
   PetscCall(RaiseSentence(comm, sentence));
   PetscCallMPI(MPI_Bcast(&length, 1, MPIU_INT64, 0, comm));
-  if (rank) PetscCall(PetscMalloc1(length, &joined));
-  PetscCallMPI(MPI_Bcast(joined, (PetscMPIInt)length, MPI_CHAR, 0, comm));
-  PetscCall(PetscStrToArray(joined, '\n', &nwords, &words));
-  *n = nwords;
-  PetscCall(PetscMalloc1(*n, names));
-  for (PetscInt i = 0; i < *n; ++i) PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
-  PetscCall(PetscStrToArrayDestroy(nwords, words));
-  PetscCall(PetscFree(joined));
+  if (rank) PetscCall(PetscMalloc1(length, entries));
+  PetscCallMPI(MPI_Bcast(*entries, (PetscMPIInt)length, MPI_CHAR, 0, comm));
   PetscFunctionReturn(0);
 }
 
-/* On rank 0. PETSc's options are set on the viewer alone, so that the user's own meshes do not change */
+PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags)
+{
+  char *entries, **words;
+  int   nwords;
+
+  PetscFunctionBegin;
+  PetscCall(GetPhysicalEntries(comm, body, dim, &entries));
+  PetscCall(PetscStrToArray(entries, '\n', &nwords, &words));
+  *n = nwords;
+  PetscCall(PetscMalloc1(*n, names));
+  if (tags) PetscCall(PetscMalloc1(*n, tags));
+  for (PetscInt i = 0; i < *n; ++i) {
+    char      *end;
+    const long tag = strtol(words[i], &end, 10);
+
+    if (tags) (*tags)[i] = (PetscInt)tag;
+    PetscCall(PetscStrallocpy(end + 1, &(*names)[i]));
+  }
+  PetscCall(PetscStrToArrayDestroy(nwords, words));
+  PetscCall(PetscFree(entries));
+  PetscFunctionReturn(0);
+}
+
+/* On rank 0. PETSc labels cells and facets with their physical tags: in formats 4 these are the tags of their entities, in format 2
+   the first of their own, which the number of the entity follows. (Its labels by name would take that for a tag.)
+   The options are not the user's, whose own meshes must not change */
 static PetscErrorCode ReadFile(const char file[], DM *dm)
 {
   PetscErrorCode ierr;
   PetscOptions   options;
+  FILE          *stream = fopen(file, "r");
+  float          version = 0;
 
   PetscFunctionBegin;
+  if (stream) {
+    if (fscanf(stream, "$MeshFormat %f", &version) != 1) version = 0;
+    (void)fclose(stream);
+  }
   PetscCall(PetscOptionsCreate(&options));
-  PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_use_regions", "true"));
+  PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_multiple_tags", version >= 4 ? "true" : "false"));
   PetscCall(PetscOptionsPush(options));
   gmsh_complaint[0] = 0;
   PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
@@ -156,8 +182,19 @@ PetscErrorCode GmshFileClose(GmshFile *file)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode HasTag(DM dm, const char sets[], PetscInt tag, PetscInt point, PetscBool *has)
+{
+  DMLabel label;
+
+  PetscFunctionBegin;
+  *has = PETSC_FALSE;
+  PetscCall(DMGetLabel(dm, sets, &label));
+  if (label) PetscCall(DMLabelStratumHasPoint(label, tag, point, has));
+  PetscFunctionReturn(0);
+}
+
 /* The hexahedra of the body's volume with their vertices numbered anew; number: new number of each vertex, PETSC_DECIDE without one */
-static PetscErrorCode CutVolume(DM dm, const SceneBody *body, DMLabel volume, PetscInt number[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
+static PetscErrorCode CutVolume(DM dm, const SceneBody *body, PetscInt tag, PetscInt number[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
 {
   PetscInt           cstart, cend, vstart, vend;
   PetscSection       section;
@@ -171,10 +208,11 @@ static PetscErrorCode CutVolume(DM dm, const SceneBody *body, DMLabel volume, Pe
   for (PetscInt v = 0; v < vend - vstart; ++v) number[v] = PETSC_DECIDE;
   for (PetscInt c = cstart; c < cend && !sentence[0]; ++c) {
     DMPolytopeType type;
-    PetscInt       value, vertices[8];
+    PetscInt       vertices[8];
+    PetscBool      within;
 
-    PetscCall(DMLabelGetValue(volume, c, &value));
-    if (value < 0) continue;
+    PetscCall(HasTag(dm, "Cell Sets", tag, c, &within));
+    if (!within) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
     if (type != DM_POLYTOPE_HEXAHEDRON) PetscCall(PetscSNPrintf(sentence, GMSH_SENTENCE, "Body \"%s\": the volume \"%s\" of %s has cells of type %s; only hexahedra with 8 nodes are read", body->name, body->gmsh.volume, body->gmsh.file, DMPolytopeTypes[type]));
     else {
@@ -202,7 +240,7 @@ static PetscErrorCode CutVolume(DM dm, const SceneBody *body, DMLabel volume, Pe
 }
 
 /* A facet's vertices if it bounds the volume; a facet between two of its cells is inside */
-static PetscErrorCode GetBoundingFacet(DM dm, DMLabel volume, PetscInt facet, PetscInt vertices[4], PetscBool *bounds)
+static PetscErrorCode GetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, PetscInt vertices[4], PetscBool *bounds)
 {
   const PetscInt *cells;
   PetscInt        ncells, nwithin = 0, npoints, n = 0, vstart, vend, *closure = NULL;
@@ -212,10 +250,10 @@ static PetscErrorCode GetBoundingFacet(DM dm, DMLabel volume, PetscInt facet, Pe
   PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
   PetscCall(DMPlexGetSupport(dm, facet, &cells));
   for (PetscInt c = 0; c < ncells; ++c) {
-    PetscInt value;
+    PetscBool within;
 
-    PetscCall(DMLabelGetValue(volume, cells[c], &value));
-    if (value >= 0) ++nwithin;
+    PetscCall(HasTag(dm, "Cell Sets", volume, cells[c], &within));
+    if (within) ++nwithin;
   }
   if (nwithin != 1) PetscFunctionReturn(0);
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
@@ -229,35 +267,30 @@ static PetscErrorCode GetBoundingFacet(DM dm, DMLabel volume, PetscInt facet, Pe
 }
 
 /* A facet may be on several surfaces and is listed once for each */
-static PetscErrorCode CutSurfaces(DM dm, DMLabel volume, PetscInt nfaces, char *const faces[], const PetscInt number[], ShapeGrid *grid)
+static PetscErrorCode CutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
-  PetscInt       fstart, fend, nmax = 0;
+  PetscInt       fstart, fend;
   PetscSegBuffer facets, facetface;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, &fend));
-  PetscCall(PetscSegBufferCreate(4 * sizeof(PetscInt), 256, &facets));
+  PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 1024, &facets));
   PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 256, &facetface));
-  for (PetscInt face = 0; face < nfaces; ++face) {
-    DMLabel surface;
+  for (PetscInt face = 0; face < nsurfaces; ++face) {
+    for (PetscInt f = fstart; f < fend; ++f) {
+      PetscInt  vertices[4], *slot;
+      PetscBool has;
 
-    PetscCall(DMGetLabel(dm, faces[face], &surface));
-    for (PetscInt f = fstart; f < fend && surface; ++f) {
-      PetscInt  value, vertices[4], *slot;
-      PetscBool bounds;
-
-      PetscCall(DMLabelGetValue(surface, f, &value));
-      if (value < 0) continue;
-      PetscCall(GetBoundingFacet(dm, volume, f, vertices, &bounds));
-      if (!bounds) continue;
-      PetscCall(PetscSegBufferGetInts(facets, 1, &slot));
+      PetscCall(HasTag(dm, "Face Sets", surfaces[face], f, &has));
+      if (has) PetscCall(GetBoundingFacet(dm, volume, f, vertices, &has));
+      if (!has) continue;
+      PetscCall(PetscSegBufferGetInts(facets, 4, &slot));
       for (PetscInt a = 0; a < 4; ++a) slot[a] = number[vertices[a]];
       PetscCall(PetscSegBufferGetInts(facetface, 1, &slot));
       *slot = face;
-      ++nmax;
+      ++grid->nfacets;
     }
   }
-  grid->nfacets = nmax;
   PetscCall(PetscSegBufferExtractAlloc(facets, &grid->facets));
   PetscCall(PetscSegBufferExtractAlloc(facetface, &grid->facetface));
   PetscCall(PetscSegBufferDestroy(&facets));
@@ -299,52 +332,63 @@ static PetscErrorCode FindDuplicate(const SceneBody *body, const ShapeGrid *grid
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CutBody(DM dm, const SceneBody *body, PetscInt nfaces, char *const faces[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
+/* On rank 0; volume: its tag */
+static PetscErrorCode CutBody(DM dm, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
 {
-  DMLabel  volume;
   PetscInt vstart, vend, *number;
 
   PetscFunctionBegin;
-  PetscCall(DMGetLabel(dm, body->gmsh.volume, &volume));
-  if (volume) {
-    PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-    PetscCall(PetscMalloc1(vend - vstart, &number));
-    PetscCall(CutVolume(dm, body, volume, number, grid, sentence));
-    if (!sentence[0]) PetscCall(CutSurfaces(dm, volume, nfaces, faces, number, grid));
-    PetscCall(PetscFree(number));
-  }
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(PetscMalloc1(vend - vstart, &number));
+  PetscCall(CutVolume(dm, body, volume, number, grid, sentence));
   if (!sentence[0] && !grid->ncells) PetscCall(PetscSNPrintf(sentence, GMSH_SENTENCE, "Body \"%s\": the volume \"%s\" of %s has no cells", body->name, body->gmsh.volume, body->gmsh.file));
+  if (!sentence[0]) PetscCall(CutSurfaces(dm, volume, nsurfaces, surfaces, number, grid));
   if (!sentence[0]) PetscCall(FindDuplicate(body, grid, sentence));
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(0);
+}
+
+/* The tag of the body's volume */
+static PetscErrorCode GetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *tag)
+{
+  char      choices[GMSH_SENTENCE / 2], **volumes;
+  PetscInt  n, *tags;
+  PetscBool known = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no volume of its mesh file", body->name);
+  PetscCall(GmshGetPhysicalNames(comm, body, 3, &n, &volumes, &tags));
+  PetscCall(MeshListNames(n, volumes, sizeof(choices), choices));
+  for (PetscInt v = 0; v < n && !known; ++v) {
+    PetscCall(PetscStrcmp(volumes[v], body->gmsh.volume, &known));
+    if (known) *tag = tags[v];
+  }
+  PetscCall(MeshRestoreFaceNames(&n, &volumes));
+  PetscCall(PetscFree(tags));
+  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name, body->gmsh.file, body->gmsh.volume, choices);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode GmshCheckVolume(MPI_Comm comm, const SceneBody *body)
 {
-  char      choices[GMSH_SENTENCE / 2] = "", **volumes;
-  PetscInt  nvolumes;
-  PetscBool known = PETSC_FALSE;
+  PetscInt tag;
 
   PetscFunctionBegin;
-  PetscCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no volume of its mesh file", body->name);
-  PetscCall(GmshGetPhysicalNames(comm, body, 3, &nvolumes, &volumes));
-  for (PetscInt v = 0; v < nvolumes; ++v) {
-    PetscBool same;
-
-    PetscCall(PetscStrcmp(volumes[v], body->gmsh.volume, &same));
-    if (same) known = PETSC_TRUE;
-  }
-  PetscCall(MeshListNames(nvolumes, volumes, sizeof(choices), choices));
-  PetscCall(MeshRestoreFaceNames(&nvolumes, &volumes));
-  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name, body->gmsh.file, body->gmsh.volume, choices);
+  PetscCall(GetVolumeTag(comm, body, &tag));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *body, PetscInt nfaces, char *const faces[], ShapeGrid *grid)
+PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *body, ShapeGrid *grid)
 {
-  char sentence[GMSH_SENTENCE] = "";
+  char     sentence[GMSH_SENTENCE] = "", **surfaces;
+  PetscInt n, volume, *tags;
 
   PetscFunctionBegin;
-  if (file->dm) PetscCall(CutBody(file->dm, body, nfaces, faces, grid, sentence));
+  PetscCall(GetVolumeTag(comm, body, &volume));
+  PetscCall(GmshGetPhysicalNames(comm, body, 2, &n, &surfaces, &tags));
+  if (file->dm) PetscCall(CutBody(file->dm, body, volume, n, tags, grid, sentence));
   PetscCall(RaiseSentence(comm, sentence));
+  PetscCall(MeshRestoreFaceNames(&n, &surfaces));
+  PetscCall(PetscFree(tags));
   PetscFunctionReturn(0);
 }

@@ -68,30 +68,42 @@ static PetscReal CellQuality(PetscReal x[8][3])
   return longest > 0 ? smallest / (longest * longest * longest) : 0;
 }
 
-/* Raises the first of the bodies that have bad cells; count and place are this rank's, place is of the first bad cell */
+/* Is a before b along x, or else along y, or else along z? */
+static PetscBool IsBefore(const PetscReal a[3], const PetscReal b[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (a[d] != b[d]) return a[d] < b[d] ? PETSC_TRUE : PETSC_FALSE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are this rank's */
 static PetscErrorCode ReportBadCells(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[], PetscReal place[][3])
 {
-  PetscMPIInt rank;
-  PetscInt   *total;
+  PetscInt *total;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PetscMalloc1(nbodies, &total));
   PetscCallMPI(MPI_Allreduce(count, total, (PetscMPIInt)nbodies, MPIU_INT, MPI_SUM, comm));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscMPIInt owner = count[b] ? rank : PETSC_MPI_INT_MAX, first;
-    const char *from  = bodies[b].shape == SHAPE_GMSH ? bodies[b].gmsh.file : "";
+    PetscReal   first[3];
+    PetscBool   candidate = PETSC_TRUE;
+    const char *from      = bodies[b].shape == SHAPE_GMSH ? bodies[b].gmsh.file : "";
 
     if (!total[b]) continue;
-    PetscCallMPI(MPI_Allreduce(&owner, &first, 1, MPI_INT, MPI_MIN, comm));
-    PetscCallMPI(MPI_Bcast(place[b], 3, MPIU_REAL, first, comm));
-    SETERRQ(comm, PETSC_ERR_USER_INPUT, "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cells, one of them around (%g, %g, %g)", bodies[b].name, *from ? " of " : "", from, total[b], (double)place[b][0], (double)place[b][1], (double)place[b][2]);
+    for (PetscInt d = 0; d < 3; ++d) {
+      const PetscReal mine = candidate ? place[b][d] : PETSC_MAX_REAL;
+
+      PetscCallMPI(MPI_Allreduce(&mine, &first[d], 1, MPIU_REAL, MPIU_MIN, comm));
+      if (mine > first[d]) candidate = PETSC_FALSE;
+    }
+    SETERRQ(comm, PETSC_ERR_USER_INPUT, "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)", bodies[b].name, *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s", (double)first[0], (double)first[1], (double)first[2]);
   }
   PetscCall(PetscFree(total));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[])
+PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[], PetscBool mapped)
 {
   Vec                coordinates;
   PetscSection       section;
@@ -104,11 +116,16 @@ PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[])
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &section));
   PetscCall(PetscCalloc2(nbodies, &count, nbodies, &place));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) place[i / 3][i % 3] = PETSC_MAX_REAL;
   PetscCall(VecGetArrayRead(coordinates, &array));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt  b, vertices[8];
-    PetscReal x[8][3];
+    PetscInt     b, vertices[8];
+    PetscReal    x[8][3], center[3] = {0, 0, 0};
+    const Shape *shape;
 
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
+    PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[b], &shape));
+    if (!mapped && shape && shape->map && bodies[b].curved) continue;
     PetscCall(MeshGetCellVertices(dm, c, vertices));
     for (PetscInt a = 0; a < 8; ++a) {
       PetscInt offset;
@@ -117,10 +134,8 @@ PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[])
       for (PetscInt d = 0; d < 3; ++d) x[a][d] = PetscRealPart(array[offset + d]);
     }
     if (CellQuality(x) > 1e-12) continue;
-    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
-    for (PetscInt a = 0; a < 8 && !count[b]; ++a) {
-      for (PetscInt d = 0; d < 3; ++d) place[b][d] += x[a][d] / 8;
-    }
+    for (PetscInt i = 0; i < 24; ++i) center[i % 3] += x[i / 3][i % 3] / 8;
+    if (IsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
     ++count[b];
   }
   PetscCall(VecRestoreArrayRead(coordinates, &array));

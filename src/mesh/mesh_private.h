@@ -14,8 +14,8 @@ PETSC_INTERN PetscErrorCode MeshListNames(PetscInt n, char *const names[], size_
 
 /* Maps the vertices of bodies with curved refinement (or those without) from the shapes' parameters to space */
 PETSC_INTERN PetscErrorCode MeshMapVertices(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
-/* Collective error if a cell is inverted or flat at one of its corners */
-PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[]);
+/* Collective error if a cell is inverted or flat at one of its corners; mapped: also in bodies that are mapped after refinement */
+PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
 /* Labels of the faces' parts that bodies name, at level 0; not collective, on the rank that has the body. first: the first vertex.
    empty: index of a part without facets, or PETSC_DECIDE */
@@ -27,12 +27,12 @@ typedef struct {
   DM          dm; /* NULL on the other ranks */
 } GmshFile;
 
-/* All collective */
-PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names);
+/* All collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
+PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags);
 /* Error if the file has no physical volume of the body's name */
 PETSC_INTERN PetscErrorCode GmshCheckVolume(MPI_Comm, const SceneBody *);
 PETSC_INTERN PetscErrorCode GmshFileOpen(MPI_Comm, const SceneBody *, GmshFile *);
-PETSC_INTERN PetscErrorCode GmshFileGetGrid(MPI_Comm, GmshFile *, const SceneBody *, PetscInt nfaces, char *const faces[], ShapeGrid *);
+PETSC_INTERN PetscErrorCode GmshFileGetGrid(MPI_Comm, GmshFile *, const SceneBody *, ShapeGrid *);
 PETSC_INTERN PetscErrorCode GmshFileClose(GmshFile *);
 
 #endif

@@ -22,7 +22,7 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscCall(ShapeCheckCount(comm, body, "radially", n[0]));
   PetscCall(ShapeCheckCount(comm, body, "around the axis", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
-  PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": %" PetscInt_FMT " cells around the axis are too few for an arc of %g degrees, a cell must have less than 120", body->name, n[1], (double)angle);
+  PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of cells is %" PetscInt_FMT, body->name, (double)angle, n[1]);
   PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
   *ncells    = (PetscInt64)n[0] * n[1] * n[2];
   *nvertices = (PetscInt64)(n[0] + 1) * (n[1] + 1) * (n[2] + 1);

@@ -32,7 +32,7 @@ static const ShapeKey box_keys[] = {
   KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey tube_arc_keys[] = {
@@ -42,7 +42,7 @@ static const ShapeKey tube_arc_keys[] = {
   KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
   KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey half_ellipse_keys[] = {
@@ -54,7 +54,7 @@ static const ShapeKey half_ellipse_keys[] = {
   KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey sphere_shell_keys[] = {
@@ -70,7 +70,7 @@ static const ShapeKey sphere_shell_keys[] = {
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey spheroid_shell_keys[] = {
@@ -82,7 +82,7 @@ static const ShapeKey spheroid_shell_keys[] = {
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey ball_keys[] = {
@@ -93,13 +93,13 @@ static const ShapeKey ball_keys[] = {
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey gmsh_keys[] = {
   KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
   KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
-  {NULL}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys, spheroid_shell_keys, ball_keys, gmsh_keys};

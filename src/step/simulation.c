@@ -139,6 +139,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   PetscCall(PetscTime(&s->start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreate(comm, scene->nbodies, scene->bodies, scene->refine, &s->dm));
+  PetscCall(MeshCheckScene(s->dm, scene));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(DMCreateGlobalVector(s->dm, &s->path.u));
   PetscCall(VecSet(s->path.u, 0.0));
@@ -186,7 +187,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   const PetscBool nothing = (PetscBool)(sim->quadratic && !sim->contact); /* a linear system does not get easier */
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!nothing && report->cuts < sim->maxcuts);
+  *again = (PetscBool)(!nothing && !sim->interrupted && report->cuts < sim->maxcuts);
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
@@ -224,7 +225,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   StepReport     *report    = &sim->report.steps[step];
   const PetscReal end       = (PetscReal)(step + 1);
   PetscReal       increment = end - sim->path.time;
-  PetscBool       again     = PETSC_TRUE;
+  PetscBool       again     = PETSC_TRUE, stop;
 
   PetscFunctionBegin;
   report->step       = step + 1;
@@ -233,6 +234,11 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 
+    PetscCall(InterruptTest(sim, &stop));
+    if (stop) {
+      PetscCall(InterruptReport(sim, report));
+      break;
+    }
     if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
     PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
     if (report->converged) {

@@ -92,6 +92,7 @@ static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -190,6 +191,7 @@ static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSo
 /* resume: start from u as it is, with the pressures of the last solve */
 PetscErrorCode SolveTao(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
+  Simulation     sim = p->sim;
   Tao            tao;
   PetscBool      valid;
   PetscLogDouble t0, t1;
@@ -204,6 +206,7 @@ PetscErrorCode SolveTao(StepProblem *p, PetscBool resume, Vec u, StepReport *rep
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
     PetscCall(SolveReport(tao, u, report));
+    if (sim->interrupted) PetscCall(InterruptReport(sim, report));
     if (p->J && report->converged) PetscCall(SolveKeepContact(p, tao, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   PetscCall(TaoDestroy(&tao));

@@ -59,6 +59,7 @@ struct _n_Simulation {
   PetscBool            warm;       /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
   PetscInt             maxcuts;    /* of one load step */
+  int                  interrupted; /* the signal that asked for an end */
   PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
   PetscLogDouble       start;
@@ -132,6 +133,10 @@ PETSC_INTERN PetscErrorCode SolveTao(StepProblem *, PetscBool resume, Vec u, Ste
 PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
 
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
+
+PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
+PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
+PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 
 PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
 PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
