@@ -37,6 +37,8 @@ PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, co
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
+/* Discretization error in the energy norm, squared, estimated for each body; and for each local cell, unless cells is NULL [force length] */
+PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal bodies[], PetscReal *cells[]);
 PETSC_EXTERN PetscErrorCode ElasticityDestroy(Elasticity *);
 
 #endif

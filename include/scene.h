@@ -52,6 +52,7 @@ typedef struct {
   PetscReal   inner_axes[3];         /* spheroid_shell: semi-axes [length] */
   PetscReal   outer_axes[3];
   PetscReal   layer_grading;         /* thickness of the outermost layer over the innermost; 0 stands for 1 */
+  PetscInt    layer_even;            /* equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
 /* One volume of a Gmsh file */
@@ -76,7 +77,9 @@ typedef struct {
   PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
   Material         material;
   ElementType      element;
-  PetscReal        grading[3];         /* box, octants: size of the last cell over the first along each axis; 0 stands for 1 */
+  PetscReal        grading[3];         /* size of the last cell over the first: box, octants: along each axis; half_ellipse: of the
+                                          core along depth and across, of the ring to the arc; 0 stands for 1 */
+  PetscInt         even[3];            /* equal cells at the fine end of each grading; 0 stands for 1 */
   PetscInt         layers;             /* half_ellipse: cells along the axis; octants: cells across the shell */
   PetscBool        curved;             /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
   SceneTubeArc     tube;

@@ -1,19 +1,5 @@
 """Holds the summaries that step_models.sh wrote against exact values and against each other."""
-import json
-
-
-def load(name):
-    with open(name + ".json") as file:
-        return json.load(file)
-
-
-def say(what, good, seen):
-    print(what + (": yes" if good else ": NO, " + str(seen)))
-
-
-def within(value, target, tolerance):
-    return abs(value - target) <= tolerance * abs(target)
-
+from summaries import load, say, within
 
 # strain of the bar at height z: -(p + w (3 - z)) / E; its energy int E e^2 / 2 over area 2, of the piecewise linear
 # interpolant whose nodes are exact

@@ -1,23 +1,5 @@
 """Holds the summaries that two_block.sh wrote against the published figures of mesh 1 and against each other."""
-import json
-
-
-def load(name):
-    with open(name + ".json") as file:
-        return json.load(file)
-
-
-def say(what, good, seen):
-    print(what + (": yes" if good else ": NO, " + str(seen)))
-
-
-def within(value, target, tolerance):
-    return abs(value - target) <= tolerance * abs(target)
-
-
-def mean(values):
-    return sum(values) / len(values)
-
+from summaries import load, mean, say, within
 
 published, exact, amg = load("published"), load("exact"), load("amg")
 default = {ranks: load("default_%d" % ranks) for ranks in (1, 2, 3, 5)}

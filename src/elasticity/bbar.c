@@ -16,17 +16,6 @@ typedef struct {
   PetscReal volume, mean; /* V, Theta */
 } Dilatation;
 
-/* lambda of the isochoric part: kappa = lambda + 2 mu/3 = 0 */
-static inline PetscReal IsochoricLambda(const BodyMaterial *m)
-{
-  return -2 * m->mu / 3;
-}
-
-static inline PetscReal BulkModulus(const BodyMaterial *m)
-{
-  return m->lambda + 2 * m->mu / 3;
-}
-
 static void ElementDilatation(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], Dilatation *d)
 {
   PetscReal C[9], sum = 0;
@@ -131,4 +120,4 @@ static PetscBool ElementCauchy_Bbar(const HexBasis *basis, const BodyMaterial *m
   return PETSC_TRUE;
 }
 
-const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar};
+const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar, PETSC_TRUE};

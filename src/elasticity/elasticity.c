@@ -3,7 +3,7 @@
 #include <mesh.h>
 
 static PetscClassId ELASTICITY_CLASSID;
-PetscLogEvent       ELASTICITY_Tangent, ELASTICITY_Force;
+PetscLogEvent       ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
 
 static PetscErrorCode ElasticityInitializePackage(void)
 {
@@ -15,6 +15,7 @@ static PetscErrorCode ElasticityInitializePackage(void)
   PetscCall(PetscClassIdRegister("Elasticity", &ELASTICITY_CLASSID));
   PetscCall(PetscLogEventRegister("ElastTangent", ELASTICITY_CLASSID, &ELASTICITY_Tangent));
   PetscCall(PetscLogEventRegister("ElastForce", ELASTICITY_CLASSID, &ELASTICITY_Force));
+  PetscCall(PetscLogEventRegister("ElastError", ELASTICITY_CLASSID, &ELASTICITY_Error));
   PetscFunctionReturn(0);
 }
 

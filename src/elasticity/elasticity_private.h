@@ -2,6 +2,7 @@
 #define ELASTICITY_PRIVATE_H
 
 #include <elasticity.h>
+#include <petscsf.h>
 #include "element.h"
 
 typedef struct {
@@ -30,7 +31,7 @@ struct _n_Elasticity {
   AssembledTangent assembled;
 };
 
-PETSC_INTERN PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force;
+PETSC_INTERN PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
 
 /* Local values of a displacement (NULL: zero), and the coordinates */
 PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x);
@@ -41,6 +42,17 @@ PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);
 
 /* Allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
+
+/* What is recovered at a node: displacement gradient (9) and dilatation */
+#define ELASTICITY_RECOVERED 10
+
+typedef struct {
+  PetscReal n; /* polynomials that were continued to a node on the surface */
+  PetscReal value[ELASTICITY_RECOVERED];
+} RecoveredNode;
+
+PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
+PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
 /* Values of a local vector (3 a node) at a cell's nodes, component by component */
 static inline void ElasticityGatherCell(const PetscInt nodes[8], const PetscScalar local[], PetscReal values[3][8])

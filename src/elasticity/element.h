@@ -15,6 +15,17 @@ typedef struct {
   PetscReal          lambda, mu; /* [force/length^2] */
 } BodyMaterial;
 
+/* lambda of the isochoric part: kappa = lambda + 2 mu/3 = 0 */
+static inline PetscReal IsochoricLambda(const BodyMaterial *m)
+{
+  return -2 * m->mu / 3;
+}
+
+static inline PetscReal BulkModulus(const BodyMaterial *m)
+{
+  return m->lambda + 2 * m->mu / 3;
+}
+
 /*
    A cell with vertices X[d][a] displaced by U[d][a]. Where a point of it is turned inside out the energy is PETSC_INFINITY, and
    the others return PETSC_FALSE and what they wrote means nothing.
@@ -27,6 +38,7 @@ typedef struct {
   PetscBool (*stiffness)(const HexBasis *, const BodyMaterial *, PetscReal X[3][8], PetscReal U[3][8], PetscScalar K[24][24]);
   /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
   PetscBool (*cauchy)(const HexBasis *, const BodyMaterial *, PetscReal X[3][8], PetscReal U[3][8], PetscReal sigma[6]);
+  PetscBool mean_dilatation; /* the law's dilatation enters by its mean over the cell */
 } Element;
 
 PETSC_INTERN const Element ElementFull;

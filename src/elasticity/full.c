@@ -74,4 +74,4 @@ static PetscBool ElementCauchy_Full(const HexBasis *basis, const BodyMaterial *m
   return PETSC_TRUE;
 }
 
-const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full};
+const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full, PETSC_FALSE};

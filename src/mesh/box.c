@@ -19,7 +19,7 @@ static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscI
     PetscCheck(body->cells[d] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the box must have at least one cell along each axis, but has %" PetscInt_FMT " along %c", body->name, body->cells[d], "xyz"[d]);
     PetscCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has too many level 0 cells for this PETSc's integers: %" PetscInt_FMT " x %" PetscInt_FMT " x %" PetscInt_FMT, body->name,
                body->cells[0], body->cells[1], body->cells[2]);
-    PetscCall(ShapeCheckGrading(comm, body, body->grading[d]));
+    PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], body->cells[d]));
     *ncells *= body->cells[d];
     *nvertices *= body->cells[d] + 1;
   }
@@ -52,7 +52,7 @@ static PetscErrorCode ShapeCreate_Box(const SceneBody *body, ShapeGrid *grid)
         const PetscInt index[3] = {i, j, k};
 
         for (PetscInt d = 0; d < 3; ++d) {
-          const PetscReal t = ShapeGraded(body->grading[d], n[d], index[d]);
+          const PetscReal t = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
 
           x[d] = (1 - t) * body->lower[d] + t * body->upper[d];
         }

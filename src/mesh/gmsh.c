@@ -121,6 +121,7 @@ static PetscErrorCode ReadFile(const char file[], DM *dm)
   }
   PetscCall(PetscOptionsCreate(&options));
   PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_multiple_tags", version >= 4 ? "true" : "false"));
+  PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_periodic", "false"));
   PetscCall(PetscOptionsPush(options));
   gmsh_complaint[0] = 0;
   PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
@@ -132,26 +133,11 @@ static PetscErrorCode ReadFile(const char file[], DM *dm)
   PetscFunctionReturn(0);
 }
 
-/* A mesh of second order has coordinates on its edges */
-static PetscErrorCode IsLinear(DM dm, PetscBool *linear)
-{
-  PetscSection section;
-  PetscInt     estart, eend, pstart, pend, dof = 0;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetCoordinateSection(dm, &section));
-  PetscCall(DMPlexGetDepthStratum(dm, 1, &estart, &eend));
-  PetscCall(PetscSectionGetChart(section, &pstart, &pend));
-  if (eend > estart && estart >= pstart && estart < pend) PetscCall(PetscSectionGetDof(section, estart, &dof));
-  *linear = dof ? PETSC_FALSE : PETSC_TRUE;
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file)
 {
   char        sentence[GMSH_SENTENCE] = "";
   PetscMPIInt rank;
-  PetscBool   same = PETSC_FALSE, linear = PETSC_TRUE;
+  PetscBool   same = PETSC_FALSE;
   PetscInt    dim;
 
   PetscFunctionBegin;
@@ -160,13 +146,12 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(GmshFileClose(file));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    PetscCall(ReadFile(body->gmsh.file, &file->dm));
+    PetscCall(GmshCheckFile(body->gmsh.file, sizeof(gmsh_complaint), gmsh_complaint));
+    if (!gmsh_complaint[0]) PetscCall(ReadFile(body->gmsh.file, &file->dm));
     if (!file->dm) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": %s is not a whole Gmsh mesh of 8-node hexahedra: %s", body->name, body->gmsh.file, gmsh_complaint[0] ? gmsh_complaint : "it cannot be read"));
     else {
       PetscCall(DMGetDimension(file->dm, &dim));
-      PetscCall(IsLinear(file->dm, &linear));
       if (dim != 3) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim));
-      else if (!linear) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": the cells of %s are not of first order; only hexahedra with 8 nodes are read", body->name, body->gmsh.file));
     }
   }
   PetscCall(RaiseSentence(comm, sentence));

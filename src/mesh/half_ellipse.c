@@ -55,7 +55,10 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
   PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the direction of the half that is meant must be normal to the prism's axis and to its depth", body->name);
   PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0], (double)ellipse->semi_axes[1]);
   PetscCheck(ellipse->extent[0] < ellipse->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name, (double)ellipse->extent[0], (double)ellipse->extent[1]);
-  for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckCount(comm, body, what[d], body->cells[d]));
+  for (PetscInt d = 0; d < 3; ++d) {
+    PetscCall(ShapeCheckCount(comm, body, what[d], body->cells[d]));
+    PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], body->cells[d]));
+  }
   PetscCall(ShapeCheckCount(comm, body, "along the axis (layers)", body->layers));
   PetscCall(ShapeCheckTotal(comm, body, halves * ((PetscReal)body->cells[0] + body->cells[2] + 1) * ((PetscReal)body->cells[1] + body->cells[2] + 1) * ((PetscReal)body->layers + 1)));
   HalfEllipseSetUp(body, &e);
@@ -104,20 +107,28 @@ static PetscInt AboveVertex(const void *context, PetscInt i, PetscInt layer, Pet
   return RingVertex(e, layer, e->nring - 1 - i, k);
 }
 
+/* Place of the core's vertex i along depth, or j across: counted from the plane of symmetry, on both sides */
+static PetscReal CoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
+{
+  const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i));
+
+  return i < 0 ? -place : place;
+}
+
 /* u, v of an outline's vertex */
-static void OutlineParameters(const HalfEllipse *e, PetscInt at, PetscReal uv[2])
+static void OutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
 
   uv[0] = uv[1] = 1;
   if (at < below) {
-    uv[0] = (PetscReal)at / e->core[0];
+    uv[0] = CoreParameter(body, 0, at);
     uv[1] = -1;
-  } else if (at <= below + across) uv[1] = (PetscReal)(at - below - e->middle) / e->core[1];
-  else uv[0] = (PetscReal)(e->core[0] - (at - below - across)) / e->core[0];
+  } else if (at <= below + across) uv[1] = CoreParameter(body, 1, at - below - e->middle);
+  else uv[0] = CoreParameter(body, 0, e->core[0] - (at - below - across));
 }
 
-static void SectionCoordinates(const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
+static void SectionCoordinates(const SceneBody *body, const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
 {
   const PetscReal w = (PetscReal)k / e->length;
 
@@ -125,17 +136,17 @@ static void SectionCoordinates(const HalfEllipse *e, PetscInt k, ShapeGrid *grid
     for (PetscInt i = 0; i <= e->core[0]; ++i) {
       PetscReal *p = grid->coordinates + 3 * CoreVertex(e, i, j, k);
 
-      p[0] = (PetscReal)i / e->core[0];
-      p[1] = (PetscReal)(j - e->middle) / e->core[1];
+      p[0] = CoreParameter(body, 0, i);
+      p[1] = CoreParameter(body, 1, j - e->middle);
       p[2] = w;
     }
   }
   for (PetscInt layer = 1; layer <= e->ring; ++layer) {
     for (PetscInt at = 0; at < e->nring; ++at) {
-      const PetscReal m = 1 + (PetscReal)layer / e->ring;
+      const PetscReal m = 1 + ShapeGraded(body->grading[2], body->even[2], e->ring, layer);
       PetscReal      *p = grid->coordinates + 3 * RingVertex(e, layer, at, k), uv[2];
 
-      OutlineParameters(e, at, uv);
+      OutlineParameters(body, e, at, uv);
       p[0] = m * uv[0];
       p[1] = m * uv[1];
       p[2] = w;
@@ -172,7 +183,7 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
 
     PetscCall(ShapeGridCreate(e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
   }
-  for (PetscInt k = 0; k <= e.length; ++k) SectionCoordinates(&e, k, grid);
+  for (PetscInt k = 0; k <= e.length; ++k) SectionCoordinates(body, &e, k, grid);
   PetscFunctionReturn(0);
 }
 

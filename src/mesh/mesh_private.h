@@ -27,6 +27,8 @@ typedef struct {
   DM          dm; /* NULL on the other ranks */
 } GmshFile;
 
+/* Not collective: what is wrong with the file's form and numbers, in a sentence of so many characters, or "" */
+PETSC_INTERN PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[]);
 /* All collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
 PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags);
 /* Error if the file has no physical volume of the body's name */

@@ -39,10 +39,10 @@ PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, 
 
     PetscCheck(sign >= -1 && sign <= 1, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the signs of an octant must be 1 or -1, but that along %c is %" PetscInt_FMT, body->name, "xyz"[d], sign);
     PetscCall(ShapeCheckCount(comm, body, what[d], n[d]));
-    PetscCall(ShapeCheckGrading(comm, body, body->grading[d]));
+    PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   }
   PetscCall(ShapeCheckCount(comm, body, "across the layers", body->layers));
-  PetscCall(ShapeCheckGrading(comm, body, body->octant.layer_grading));
+  PetscCall(ShapeCheckGrading(comm, body, body->octant.layer_grading, body->octant.layer_even, body->layers));
   PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
   patches = (PetscInt64)n[0] * n[1] + (PetscInt64)n[1] * n[2] + (PetscInt64)n[2] * n[0];
   surface = patches + n[0] + n[1] + n[2] + 1;
@@ -101,7 +101,7 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
 {
   PetscFunctionBegin;
   for (PetscInt layer = 0; layer <= o->layers; ++layer) {
-    const PetscReal m = 1 + ShapeGraded(body->octant.layer_grading, o->layers, layer);
+    const PetscReal m = 1 + ShapeGraded(body->octant.layer_grading, body->octant.layer_even, o->layers, layer);
 
     for (PetscInt k = 0; k <= o->n[2]; ++k) {
       for (PetscInt j = 0; j <= o->n[1]; ++j) {
@@ -110,7 +110,7 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
           const PetscInt inside = o->surface[i + (o->n[0] + 1) * (j + (o->n[1] + 1) * k)] < 0;
 
           if (inside && (layer || !o->core)) continue;
-          for (PetscInt d = 0; d < 3; ++d) grid->coordinates[3 * OctantVertex(o, layer, at) + d] = m * ShapeGraded(body->grading[d], o->n[d], at[d]);
+          for (PetscInt d = 0; d < 3; ++d) grid->coordinates[3 * OctantVertex(o, layer, at) + d] = m * ShapeGraded(body->grading[d], body->even[d], o->n[d], at[d]);
         }
       }
     }

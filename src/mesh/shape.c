@@ -103,13 +103,22 @@ PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-PetscReal ShapeGraded(PetscReal grading, PetscInt n, PetscInt i)
+/* Length of the first i cells: `even` of length 1, then growing by the ratio */
+static PetscReal GradedLength(PetscReal ratio, PetscInt even, PetscInt i)
+{
+  if (i <= even) return (PetscReal)i;
+  return (PetscReal)even + ratio * (PetscPowReal(ratio, (PetscReal)(i - even)) - 1) / (ratio - 1);
+}
+
+PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
 {
   PetscReal ratio;
 
-  if (grading == 0 || grading == 1 || n == 1 || i == 0 || i == n) return (PetscReal)i / (PetscReal)n;
-  ratio = PetscPowReal(grading, 1 / (PetscReal)(n - 1));
-  return (PetscPowReal(ratio, (PetscReal)i) - 1) / (PetscPowReal(ratio, (PetscReal)n) - 1);
+  even = PetscMax(even, 1);
+  if (grading == 0 || grading == 1 || n <= even || i == 0 || i == n) return (PetscReal)i / (PetscReal)n;
+  if (grading < 1) return 1 - ShapeGraded(1 / grading, even, n, n - i);
+  ratio = PetscPowReal(grading, 1 / (PetscReal)(n - even));
+  return GradedLength(ratio, even, i) / GradedLength(ratio, even, n);
 }
 
 PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)
@@ -126,9 +135,10 @@ PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal n
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal grading)
+PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal grading, PetscInt even, PetscInt n)
 {
   PetscFunctionBegin;
+  PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the even cells of a grading must be between 0 and all %" PetscInt_FMT ", but are %" PetscInt_FMT, body->name, n, even);
   PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, but is %g", body->name, (double)grading);
   PetscFunctionReturn(0);
 }

@@ -46,11 +46,12 @@ typedef struct {
 
 /* Allocates a grid of blocks and fills all but its coordinates; mirrored: the map turns right-handed cells left-handed */
 PETSC_INTERN PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock[], PetscInt nvertices, PetscBool mirrored, ShapeGrid *);
-/* Place in [0, 1] of vertex i of n cells whose sizes grow geometrically, the last `grading` times the first (0: 1) */
-PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt n, PetscInt i);
-/* Errors: a count that is not positive; a count or total too large; a grading that is not positive */
+/* Place in [0, 1] of vertex i of n cells, the last `grading` times as large as the first (0: 1): `even` (0: 1) equal ones at the
+   fine end, from there on growing geometrically */
+PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i);
+/* Errors: a count that is not positive; a count or total too large; a grading that is not positive, or has more even cells than there are */
 PETSC_INTERN PetscErrorCode ShapeCheckCount(MPI_Comm, const SceneBody *, const char what[], PetscInt count);
 PETSC_INTERN PetscErrorCode ShapeCheckTotal(MPI_Comm, const SceneBody *, PetscReal nvertices);
-PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading);
+PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading, PetscInt even, PetscInt n);
 
 #endif

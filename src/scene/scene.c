@@ -42,17 +42,14 @@ static PetscErrorCode SceneReadProblem(SceneKeys keys, Scene scene)
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", counts[i].name));
     if (text) PetscCall(SceneParseInt(keys, counts[i].name, text, counts[i].value));
   }
-  if (scene->displacement_bounds && (scene->displacement_bounds < 2 || scene->displacement_bounds > scene->nsteps)) {
-    PetscCall(SceneKeysComplain(keys, "displacement_bounds = %" PetscInt_FMT "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and at most the last, %" PetscInt_FMT, scene->displacement_bounds, scene->nsteps));
-  }
   PetscFunctionReturn(0);
 }
 
 /* The command line wins over the file */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
-  PetscInt  nsteps = scene->nsteps;
-  PetscBool set;
+  PetscInt  nsteps = scene->nsteps, bounds = scene->displacement_bounds;
+  PetscBool set, bounded;
 
   PetscFunctionBegin;
   PetscOptionsBegin(comm, NULL, "Scene", NULL);
@@ -60,9 +57,11 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscCall(PetscOptionsInt("-load_steps", "Load steps: equal parts of the scene's program", "SceneLoad", nsteps, &nsteps, &set));
   PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
   PetscCall(PetscOptionsInt("-contact_updates", "Linearizations of the gap a load step", "SceneLoad", scene->contact_updates, &scene->contact_updates, NULL));
+  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step whose displacements are bounded, 0: none", "SceneLoad", bounds, &bounds, &bounded));
   PetscOptionsEnd();
   PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1", file, nsteps);
   if (set && nsteps != scene->nsteps) PetscCall(SceneResample(scene, nsteps));
+  if (bounded) scene->displacement_bounds = bounds;
   PetscFunctionReturn(0);
 }
 
@@ -82,7 +81,8 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
 +  -refine <n>               - uniform refinements of level 0
 .  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in between
 .  -model <energy,quadratic> - what a load step minimizes
--  -contact_updates <n>      - linearizations of the gap a load step
+.  -contact_updates <n>      - linearizations of the gap a load step
+-  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0: none
 
    Level: beginner
 

@@ -32,6 +32,7 @@ static const ShapeKey box_keys[] = {
   KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
@@ -53,6 +54,8 @@ static const ShapeKey half_ellipse_keys[] = {
   KEY("semi_axes", KEY_REALS, 2, ellipse.semi_axes, PETSC_TRUE),
   KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
@@ -69,7 +72,9 @@ static const ShapeKey sphere_shell_keys[] = {
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
+  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
@@ -81,7 +86,9 @@ static const ShapeKey spheroid_shell_keys[] = {
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
+  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
@@ -92,7 +99,9 @@ static const ShapeKey ball_keys[] = {
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
+  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
@@ -181,7 +190,8 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   PetscCall(SceneReadShapeName(keys, body));
   body->curved       = PETSC_TRUE;
   body->ellipse.half = PETSC_DECIDE;
-  for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = 1;
+  octant->layer_even = 1;
+  for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = body->even[d] = 1;
   for (const ShapeKey *k = shape_keys[body->shape]; k->name; ++k) {
     PetscCall(SceneReadShapeKey(keys, k, body));
     /* Spheres are around the center of the body unless they have their own, which comes later in the table */

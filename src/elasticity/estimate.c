@@ -1,0 +1,161 @@
+/* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the energy */
+#include "elasticity_private.h"
+
+/*
+   The second derivative of the law's energy in the direction of a strain error: W = W_iso + kappa/2 theta^2, and the dilatation's own error
+   counts for kappa. Negative is left out what a tangent at finite strain may have of it.
+*/
+static PetscReal EnergyNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELASTICITY_RECOVERED])
+{
+  const PetscReal volumetric = BulkModulus(m) * error[9] * error[9];
+  PetscReal       A[81], isochoric = 0;
+
+  if (m->law->constant) return 2 * m->law->energy(IsochoricLambda(m), m->mu, error) + volumetric;
+  if (!m->law->tangent(IsochoricLambda(m), m->mu, H, A)) return PETSC_INFINITY;
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 9; ++j) isochoric += error[i] * A[9 * i + j] * error[j];
+  }
+  return PetscMax(isochoric, 0) + volumetric;
+}
+
+static PetscReal CellErrorSquared(const HexBasis *basis, const Body *body, PetscReal X[3][8], PetscReal U[3][8], const PetscReal *const recovered[8])
+{
+  const BodyMaterial *m = &body->material;
+  PetscReal           w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELASTICITY_RECOVERED], G[3][8], C[9];
+  PetscReal           volume = 0, mean = 0, sum = 0;
+
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    w[q] = HexGradients(basis, q, X, G);
+    HexDisplacementGradient(U, G, H[q]);
+    H[q][9] = m->law->dilatation(H[q], C);
+    volume += w[q];
+    mean += w[q] * H[q][9];
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    PetscReal error[ELASTICITY_RECOVERED];
+
+    if (body->element->mean_dilatation) H[q][9] = mean / volume;
+    for (int k = 0; k < ELASTICITY_RECOVERED; ++k) error[k] = -H[q][k];
+    for (int a = 0; a < 8; ++a) {
+      for (int k = 0; k < ELASTICITY_RECOVERED; ++k) error[k] += basis->N[q][a] * recovered[a][k];
+    }
+    sum += w[q] * EnergyNormSquared(m, H[q], error);
+  }
+  return sum;
+}
+
+/* Adds the squared errors of the selected bodies, and sets those of their cells */
+static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
+{
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt  *nodes = e->cellnodes + 8 * c, b = e->cellbody[c];
+    const PetscReal *values[8];
+    PetscReal        X[3][8], U[3][8], error;
+
+    if (!selected[b]) continue;
+    for (int a = 0; a < 8; ++a) values[a] = recovered[nodes[a]].value;
+    ElasticityGatherCell(nodes, x, X);
+    ElasticityGatherCell(nodes, u, U);
+    error = CellErrorSquared(&e->basis, &e->bodies[b], X, U, values);
+    bodies[b] += error;
+    if (cells) cells[c] = error;
+  }
+}
+
+/*
+   Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first at all of
+   their nodes
+*/
+static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
+{
+  PetscInt *first, *second;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(e->nnodes, &first, e->nbodies, &second));
+  for (PetscInt v = 0; v < e->nnodes; ++v) first[v] = PETSC_MAX_INT;
+  PetscCall(PetscArrayzero(second, e->nbodies));
+  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+    const PetscInt b = e->cellbody[i / 8];
+
+    if (remaining[b]) first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
+  }
+  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, first, first, MPI_MIN));
+  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, first, first, MPI_MIN));
+  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, first, first, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, first, first, MPI_REPLACE));
+  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+    const PetscInt b = e->cellbody[i / 8];
+
+    if (remaining[b] && first[e->cellnodes[i]] < b) second[b] = 1;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, second, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
+  *more = PETSC_FALSE;
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    selected[b]  = (PetscBool)(remaining[b] && !second[b]);
+    remaining[b] = (PetscBool)(remaining[b] && second[b]);
+    if (remaining[b]) *more = PETSC_TRUE;
+  }
+  PetscCall(PetscFree2(first, second));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityEstimateError - Estimates the discretization error of a displacement in the energy norm
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameters:
++ bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
+- cells  - the part of each local cell, in the order of the mesh's cells [force length]; free with `PetscFree()`. `NULL` if not wanted
+
+  Level: intermediate
+
+  Notes:
+  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own stress s_h, and |e|^2/(2 E) is the relative error
+  in the energy E where loads are given. At finite strain it is the norm of the energy's second derivative at u. The true stress is replaced by one recovered from the cells
+  around each vertex, never across the border of a body.
+
+  Errors of u itself, of a solver or of the loads, are not seen. In bodies of one layer of cells the estimate is rough.
+
+  Where a cell is turned inside out the estimate is infinite.
+
+  References:
+  Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
+
+.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
+@*/
+PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], PetscReal *cells[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+  PetscSF            sf;
+  PetscBool         *remaining, *selected, more = PETSC_TRUE;
+  RecoveredNode     *recovered;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(ELASTICITY_Error, u, 0, 0, 0));
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(ElasticityCreateNodeSF(e, &sf));
+  PetscCall(PetscMalloc3(e->nbodies, &remaining, e->nbodies, &selected, e->nnodes, &recovered));
+  if (cells) PetscCall(PetscMalloc1(e->ncells, cells));
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    bodies[b]    = 0;
+    remaining[b] = PETSC_TRUE;
+  }
+  while (more) {
+    PetscCall(ElasticitySelectApart(e, sf, remaining, selected, &more));
+    PetscCall(PetscArrayzero(recovered, e->nnodes));
+    PetscCall(ElasticityRecover(e, sf, selected, x, ul, recovered));
+    ElasticityAddErrors(e, selected, x, ul, recovered, bodies, cells ? *cells : NULL);
+  }
+  PetscCall(PetscFree3(remaining, selected, recovered));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
+  PetscCall(PetscLogEventEnd(ELASTICITY_Error, u, 0, 0, 0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,10 @@
+"""Holds the summaries that ironing.sh wrote against the published figures of mesh 1 and against each other."""
+from summaries import each, load, say, within
+
+ironing = load("ironing")
+say("ironing: 12876 unknowns", ironing["dofs"] == 12876, ironing["dofs"])
+say("ironing: at most 185 constraints, to 10 %", within(max(each(ironing, "constraints")), 185, 0.1), each(ironing, "constraints"))
+coarse, exact = load("coarse"), load("coarse_published")
+energies = list(zip(each(coarse, "energy"), each(exact, "energy")))
+say("ironing, coarse: energies of the published configuration at tolerance 1e-9, to 1e-6", all(within(a, b, 1e-6) for a, b in energies), energies)
+say("ironing: complementarity below 1e-8 in every step", max(each(ironing, "complementarity")) < 1e-8, each(ironing, "complementarity"))
