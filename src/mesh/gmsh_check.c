@@ -5,9 +5,16 @@
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #define GMSH_WORD     256
 #define GMSH_MAX_TAGS 100
+
+/* A quadrilateral of a cell: its nodes in ascending order, and the one across from the first */
+typedef struct {
+  PetscInt64 nodes[4], across, element;
+} Facet;
 
 typedef struct {
   FILE      *stream;
@@ -17,6 +24,8 @@ typedef struct {
   PetscInt   nentities[4], *entities[4]; /* numbers of the entities of each dimension, sorted */
   PetscInt64 first, nnodes;              /* numbers of the nodes lie in [first, first + nnodes) */
   PetscBT    nodes;                      /* those that exist */
+  PetscInt64 nfacets, maxfacets;
+  Facet     *facets; /* quadrilaterals of all cells */
   char      *sentence;
   size_t     length;
 } GmshCheck;
@@ -337,25 +346,83 @@ static PetscBool CheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n
   return PETSC_TRUE;
 }
 
-/* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them */
-static PetscBool CheckElements2(GmshCheck *check, PetscInt64 total)
+/* The quadrilaterals of hexahedra, prisms and pyramids, in the corners' order of Gmsh */
+static PetscErrorCode AddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 element, const PetscInt64 nodes[])
 {
-  for (PetscInt64 c = 0; c < total;) {
-    PetscInt64 head[3], count, type, dim, nnodes, numbers[1 + GMSH_MAX_TAGS + 8];
+  static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  static const int prism[3][4]      = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
+  const int(*quadrilaterals)[4]     = type == 5 ? hexahedron : type == 6 ? prism : pyramid;
+  const int n                       = type == 5 ? 6 : type == 6 ? 3 : type == 7 ? 1 : 0;
 
-    if (!GetNumbers(check, 4, 3, head)) return PETSC_FALSE;
-    type  = check->binary ? head[0] : head[1];
-    count = check->binary ? head[1] : 1;
-    if (!GetType(check, type, &dim, &nnodes)) return PETSC_FALSE;
-    if (head[2] < 0 || head[2] > GMSH_MAX_TAGS) return Wrong(check, "an element has %lld tags", (long long)head[2]);
-    if (count < 1 || c + count > total) return Wrong(check, "it has more elements than the %lld it announces", (long long)total);
-    for (PetscInt64 i = 0; i < count; ++i, ++c) {
-      numbers[0] = head[0];
-      if (!GetNumbers(check, 4, (check->binary ? 1 : 0) + head[2] + nnodes, numbers + (check->binary ? 0 : 1))) return PETSC_FALSE;
-      if (!CheckCorners(check, numbers[0], nnodes, numbers + 1 + head[2])) return PETSC_FALSE;
+  PetscFunctionBegin;
+  if (check->nfacets + n > check->maxfacets) {
+    check->maxfacets = 2 * check->maxfacets + 64;
+    PetscCall(PetscRealloc((size_t)check->maxfacets * sizeof(*check->facets), &check->facets));
+  }
+  for (int f = 0; f < n; ++f) {
+    Facet *facet = &check->facets[check->nfacets++];
+    int    least = 0;
+
+    for (int a = 0; a < 4; ++a) {
+      const PetscInt64 node = nodes[quadrilaterals[f][a]];
+      int              at   = a;
+
+      if (node < nodes[quadrilaterals[f][least]]) least = a;
+      for (; at > 0 && facet->nodes[at - 1] > node; --at) facet->nodes[at] = facet->nodes[at - 1];
+      facet->nodes[at] = node;
     }
+    facet->across  = nodes[quadrilaterals[f][(least + 2) % 4]];
+    facet->element = element;
+  }
+  PetscFunctionReturn(0);
+}
+
+static int CompareFacets(const void *a, const void *b)
+{
+  const PetscInt64 *x = ((const Facet *)a)->nodes, *y = ((const Facet *)b)->nodes;
+
+  for (int i = 0; i < 4; ++i) {
+    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+/* Cells that meet in four nodes must have the same facet there, and no more than two meet */
+static PetscBool CheckFacets(GmshCheck *check)
+{
+  if (check->nfacets) qsort(check->facets, (size_t)check->nfacets, sizeof(*check->facets), CompareFacets);
+  for (PetscInt64 i = 1; i < check->nfacets; ++i) {
+    const Facet *here = &check->facets[i], *before = here - 1;
+
+    if (CompareFacets(here, before)) continue;
+    if (here->across != before->across) return Wrong(check, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
+    if (i > 1 && !CompareFacets(here, here - 2)) return Wrong(check, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
   }
   return PETSC_TRUE;
+}
+
+/* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them */
+static PetscErrorCode CheckElements2(GmshCheck *check, PetscInt64 total, PetscBool *sound)
+{
+  PetscFunctionBegin;
+  for (PetscInt64 c = 0; c < total && *sound;) {
+    PetscInt64 head[3] = {0}, type, count, dim, nnodes = 0, numbers[1 + GMSH_MAX_TAGS + 8];
+
+    *sound = GetNumbers(check, 4, 3, head);
+    type   = check->binary ? head[0] : head[1];
+    count  = check->binary ? head[1] : 1;
+    if (*sound) *sound = GetType(check, type, &dim, &nnodes);
+    if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS)) *sound = Wrong(check, "an element has %lld tags", (long long)head[2]);
+    if (*sound && (count < 1 || c + count > total)) *sound = Wrong(check, "it has more elements than the %lld it announces", (long long)total);
+    for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
+      const PetscInt64 *nodes = numbers + 1 + head[2];
+
+      numbers[0] = head[0];
+      *sound     = GetNumbers(check, 4, (check->binary ? 1 : 0) + head[2] + nnodes, numbers + (check->binary ? 0 : 1)) && CheckCorners(check, numbers[0], nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
+      if (*sound) PetscCall(AddFacets(check, type, numbers[0], nodes));
+    }
+  }
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, PetscInt64 total, PetscBool *sound)
@@ -364,7 +431,7 @@ static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, Petsc
 
   PetscFunctionBegin;
   for (PetscInt64 b = 0; b < nblocks && *sound; ++b) {
-    PetscInt64 type, dim, typedim, nnodes, count;
+    PetscInt64 type, dim, typedim = 0, nnodes = 0, count;
 
     PetscCall(CheckBlock(check, &dim, &type, &count, sound));
     if (*sound) *sound = GetType(check, type, &typedim, &nnodes);
@@ -374,6 +441,7 @@ static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, Petsc
       PetscInt64 numbers[1 + 8];
 
       *sound = GetNumbers(check, check->version == 40 ? 4 : check->width, 1 + nnodes, numbers) && CheckCorners(check, numbers[0], nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
+      if (*sound) PetscCall(AddFacets(check, type, numbers[0], numbers + 1));
     }
   }
   if (*sound && c != total) *sound = Wrong(check, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
@@ -386,8 +454,9 @@ static PetscErrorCode CheckElements(GmshCheck *check, PetscBool *sound)
 
   PetscFunctionBegin;
   PetscCall(GetBlocks(check, "elements", &nblocks, &total, range, sound));
-  if (*sound && check->version < 40) *sound = CheckElements2(check, total);
+  if (*sound && check->version < 40) PetscCall(CheckElements2(check, total, sound));
   else if (*sound) PetscCall(CheckElements4(check, nblocks, total, sound));
+  if (*sound) *sound = CheckFacets(check);
   if (*sound) *sound = ExpectNext(check, "$EndElements");
   PetscFunctionReturn(0);
 }
@@ -428,5 +497,6 @@ PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[])
   if (check.stream) (void)fclose(check.stream);
   for (int dim = 0; dim < 4; ++dim) PetscCall(PetscFree(check.entities[dim]));
   PetscCall(PetscBTDestroy(&check.nodes));
+  PetscCall(PetscFree(check.facets));
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,2 @@
+#define FUZZ_TARGET FuzzMeshGmsh
+#include "libfuzzer.h"

@@ -1,0 +1,2 @@
+#define FUZZ_TARGET FuzzMeshScene
+#include "libfuzzer.h"
