@@ -14,6 +14,8 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 #include <mesh.h>
 #include <step.h>
 #include <output.h>
+#include <errno.h>
+#include <string.h>
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
@@ -172,7 +174,7 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
 
 int main(int argc, char **argv)
 {
-  PetscBool      converged = PETSC_FALSE;
+  PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
   PetscErrorCode ierr;
 
   ierr = PetscInitialize(&argc, &argv, NULL, help);
@@ -184,6 +186,10 @@ int main(int argc, char **argv)
     MPI_Finalize();
     return 1;
   }
+  if (fflush(stdout) || ferror(stdout)) {
+    fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
+    written = PETSC_FALSE;
+  }
   ierr = PetscFinalize();
-  return ierr || !converged ? 2 : 0;
+  return ierr || !converged || !written ? 2 : 0;
 }

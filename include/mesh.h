@@ -31,6 +31,8 @@ PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt comp
 /* The 8 vertices of a hexahedron in the tensor order of src/elasticity, or the 4 of a facet, outward orientation */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
+/* Reference coordinates of local vertices [length] */
+PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
 /* PETSCPARTITIONER type "metis" */
 PETSC_EXTERN PetscErrorCode MeshRegisterPartitioner(void);
 

@@ -26,6 +26,9 @@ typedef struct {
   PetscReal   gap_true;               /* smallest gap of the deformed bodies [length] */
   PetscReal   gap_change;             /* largest difference of the two where there is pressure, or penetration [length] */
   PetscReal   complementarity;        /* max s z [force/length] */
+  PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
+  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy */
+  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: no estimate was made */
   PetscReal   contact_force[3];       /* on the nonmortar side [force] */
   PetscReal   reaction[3];            /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
   PetscLogDouble solve_time;          /* optimizer alone, its linear solves included [s] */
@@ -55,7 +58,7 @@ typedef struct {
   PetscInt    neffects;
   RunEffect  *effects;
   struct {
-    PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, other; /* [s], max over ranks */
+    PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other; /* [s], max over ranks */
   } time;
   struct { /* one contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
     PetscInt       iterations;

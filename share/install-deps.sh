@@ -35,7 +35,7 @@ missing() {
   have mpicc && have mpiexec || echo "an MPI with its compiler wrapper"
   pkg-config --exists PETSc 2>/dev/null || echo "PETSc >= 3.18 with hypre, MUMPS and HDF5 (set PETSC_DIR and PETSC_ARCH)"
   have_harness || echo "PETSc's examples with config/gmakegentest.py"
-  for header in metis.h hdf5.h; do
+  for header in metis.h yaml.h hdf5.h; do
     cflags=$(pkg-config --cflags PETSc hdf5-openmpi 2>/dev/null || pkg-config --cflags PETSc hdf5 2>/dev/null || pkg-config --cflags PETSc 2>/dev/null)
     # shellcheck disable=SC2086
     echo "#include <$header>" | "${CC:-mpicc}" $cflags -E - >/dev/null 2>&1 || echo "$header"
@@ -64,7 +64,7 @@ apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty
 
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
 apt update || { echo "apt-get update failed" >&2; exit 1; }
-packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libopenblas0-serial
+packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libyaml-dev libopenblas0-serial
           python3 python3-numpy python3-matplotlib python3-h5py"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)

@@ -56,6 +56,7 @@ static PetscErrorCode ResetRecord(Tao tao)
   ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
   ip->nacceptable  = 0;
   ip->hold         = 0;
+  ip->ntiny        = 0;
   ip->nrestored    = 0;
   ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
   ip->nregularized = ip->nretried = 0;
@@ -122,15 +123,28 @@ static PetscBool Unbounded(const TAO_IPFILTER *ip)
   return (PetscBool)(size > 0.0 && ip->f < ip->f0 - ip->unbounded_factor * size);
 }
 
+/* Counts steps in a row that rounding makes of x */
+static PetscErrorCode CountTinySteps(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  ip->ntiny = tao->niter && ip->step_tag != 'R' && ip->dx_norm <= 10.0 * PETSC_MACHINE_EPSILON * size ? ip->ntiny + 1 : 0;
+  PetscFunctionReturn(0);
+}
+
 /* Ends the iteration where the KKT error, a limit or the values themselves say so */
 static PetscErrorCode TestConvergence(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = &ip->kkt;
-  PetscInt      nfuncs;
+  PetscInt      nfuncs, most_tiny = 3;
 
   PetscFunctionBegin;
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
+  PetscCall(CountTinySteps(tao));
   ip->nacceptable = k->error <= ip->acceptable_tol ? ip->nacceptable + 1 : 0;
   if (IPUndefined(k->error) || IPUndefined(ip->f)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
@@ -142,6 +156,9 @@ static PetscErrorCode TestConvergence(Tao tao)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->f0, (double)ip->f));
   } else if (ip->nacceptable >= ip->acceptable_it) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
+  } else if (ip->ntiny >= most_tiny) {
+    if (k->error <= ip->acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)ip->tol));
+    else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)k->error));
   } else if (tao->niter >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
   } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {

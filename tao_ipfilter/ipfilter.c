@@ -223,6 +223,7 @@ static PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)ip->tol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->nsystems, ip->nfiltered));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->nrestored));
   PetscCall(PetscViewerASCIIPrintf(viewer, "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT "\n", ip->nregularized, (double)ip->delta_largest, ip->nretried));
   if (ip->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->reason));
   PetscCall(PetscViewerASCIIPopTab(viewer));

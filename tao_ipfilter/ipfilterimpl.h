@@ -174,6 +174,7 @@ typedef struct {
   PetscInt  nsystems, nfiltered;                 /* condensed matrices, and those preconditioned with the filter */
   PetscBool filtered;                            /* the present one is */
   PetscReal best_error;
+  PetscInt  ntiny;                               /* steps in a row that are as small as rounding */
   PetscInt  nacceptable;                         /* iterates in a row within the acceptable tolerance */
   KSPConvergedReason ksp_reason;                 /* of the last solve */
   PetscReal dx_norm;

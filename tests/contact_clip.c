@@ -2,24 +2,9 @@ static char help[] = "Contact geometry: overlaps of facets against independent a
   -pairs <n> : adversarial pairs of facets, on all ranks together\n";
 
 #include "../src/contact/contactimpl.h"
+#include "contact_report.h"
 
 static const ContactOverlapLimits limits = {-0.174, 1e-8, 1e30, 1e30};
-
-static PetscErrorCode Report(const char what[], PetscReal error, PetscReal tolerance)
-{
-  PetscFunctionBeginUser;
-  if (error <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error below %g\n", what, (double)tolerance));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error %g exceeds %g\n", what, (double)error, (double)tolerance));
-  PetscFunctionReturn(0);
-}
-
-static PetscReal Random(PetscRandom r, PetscReal low, PetscReal high)
-{
-  PetscReal x;
-
-  PetscCallAbort(PETSC_COMM_SELF, PetscRandomGetValueReal(r, &x));
-  return low + (high - low) * x;
-}
 
 /* A random rotation and shift */
 typedef struct {

@@ -1,22 +1,7 @@
 static char help[] = "Closest point of a bilinear facet, and the nearest of many facets, against exhaustive search.\n";
 
 #include "../src/contact/contactimpl.h"
-
-static PetscErrorCode Report(const char what[], PetscReal error, PetscReal tolerance)
-{
-  PetscFunctionBeginUser;
-  if (error <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error below %g\n", what, (double)tolerance));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error %g exceeds %g\n", what, (double)error, (double)tolerance));
-  PetscFunctionReturn(0);
-}
-
-static PetscReal Random(PetscRandom r, PetscReal low, PetscReal high)
-{
-  PetscReal x;
-
-  PetscCallAbort(PETSC_COMM_SELF, PetscRandomGetValueReal(r, &x));
-  return low + (high - low) * x;
-}
+#include "contact_report.h"
 
 static void Point(const PetscReal x[12], PetscReal xi, PetscReal eta, PetscReal y[3])
 {

@@ -4,14 +4,7 @@
 
 #include <mesh.h>
 #include <gap.h>
-
-static inline PetscErrorCode Report(const char what[], PetscReal error, PetscReal tolerance)
-{
-  PetscFunctionBeginUser;
-  if (error <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error below %g\n", what, (double)tolerance));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: error %g exceeds %g\n", what, (double)error, (double)tolerance));
-  PetscFunctionReturn(0);
-}
+#include "contact_report.h"
 
 typedef struct {
   char      name[16];

@@ -363,23 +363,25 @@ int main(int argc, char **argv)
 /*TEST
 
    testset:
-      nsize: {{1 2 3}}
+      args: -tao_max_it 200
 
       test:
          suffix: 1
+         nsize: {{1 2 3}}
 
       test:
          suffix: direct
+         nsize: {{1 2}}
          output_file: output/ipfilter_nlp_1.out
          args: -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps
 
-   # what they do not solve, and say so
-   test:
-      suffix: monotone
-      args: -tao_ipfilter_barrier monotone -skip HS33,HS104
+      # without what these two settings do not solve, and say so
+      test:
+         suffix: monotone
+         args: -tao_ipfilter_barrier monotone -skip HS33,HS104
 
-   test:
-      suffix: differences
-      args: -hessian 0 -skip nowhere,ray
+      test:
+         suffix: differences
+         args: -hessian 0 -skip nowhere,ray
 
 TEST*/

@@ -5,26 +5,6 @@ static char help[] = "Mesh of two boxes: sizes, faces, outward facets, labels of
 
 static const char *const sides[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
-static PetscErrorCode VertexPlaces(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
-{
-  Vec                coordinates;
-  PetscSection       section;
-  const PetscScalar *x;
-
-  PetscFunctionBeginUser;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(DMGetCoordinateSection(dm, &section));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscInt offset;
-
-    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
-    for (PetscInt d = 0; d < 3; ++d) places[i][d] = PetscRealPart(x[offset + d]);
-  }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscFunctionReturn(0);
-}
-
 /* Facets of a face: number, area vector over the outward vertex order */
 static PetscErrorCode CheckFacets(DM dm, const char face[], PetscInt axis, PetscReal sign, PetscInt64 *count)
 {
@@ -42,7 +22,7 @@ static PetscErrorCode CheckFacets(DM dm, const char face[], PetscInt axis, Petsc
     PetscReal p[4][3];
 
     PetscCall(MeshGetFacetVertices(dm, f[i], v));
-    PetscCall(VertexPlaces(dm, 4, v, p));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, v, p));
     for (PetscInt d = 0; d < 3; ++d) {
       const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
 
@@ -74,7 +54,7 @@ static PetscErrorCode CheckVertices(DM dm, const char face[], const SceneBody *b
     PetscInt  place;
     PetscBool on = PETSC_TRUE;
 
-    PetscCall(VertexPlaces(dm, 1, &v, p));
+    PetscCall(MeshGetVertexCoordinates(dm, 1, &v, p));
     for (PetscInt d = 0; d < 3; ++d) on = (on && p[0][d] > body->lower[d] - 1e-10 && p[0][d] < body->upper[d] + 1e-10) ? PETSC_TRUE : PETSC_FALSE;
     on = (on && PetscAbsReal(p[0][axis] - plane) < 1e-10) ? PETSC_TRUE : PETSC_FALSE;
     PetscCall(ISLocate(vertices, v, &place));
@@ -123,7 +103,7 @@ static PetscErrorCode CheckCells(DM dm, PetscInt nbodies)
     PetscCheck(body >= 0 && body < nbodies, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Cell %" PetscInt_FMT " has body %" PetscInt_FMT, c, body);
     ++counts[body];
     PetscCall(MeshGetCellVertices(dm, c, v));
-    PetscCall(VertexPlaces(dm, 8, v, p));
+    PetscCall(MeshGetVertexCoordinates(dm, 8, v, p));
     for (PetscInt k = 0; k < 3; ++k) {
       for (PetscInt d = 0; d < 3; ++d) e[k][d] = p[1 << k][d] - p[0][d];
     }

@@ -74,7 +74,7 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
 
-    pair->distance = pair->given > 0.0 ? pair->given : SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area));
+    pair->distance = pair->given > 0.0 ? pair->given : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
     pair->depth    = contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair);
     if (pair->gap == GAP_NODE && !pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
   }
@@ -206,6 +206,52 @@ static PetscErrorCode ContactDeform(Contact contact, Vec u)
     PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
   }
   PetscCall(DMRestoreLocalVector(contact->dm, &local));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactGetReach - How far apart facets pair, the least of all pairs whose search distance was not given
+
+  Not Collective
+
+  Input Parameter:
+. contact - the contact
+
+  Output Parameter:
+. reach - the distance, `PETSC_MAX_REAL` if every pair was given its own [length]
+
+  Level: intermediate
+
+.seealso: `ContactSetReach()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactGetReach(Contact contact, PetscReal *reach)
+{
+  PetscFunctionBegin;
+  *reach = PETSC_MAX_REAL;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    if (contact->pairs[p].given <= 0.0) *reach = PetscMin(*reach, contact->pairs[p].distance);
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactSetReach - Lets facets that are farther apart than usual pair, where a load step moves them far
+
+  Logically Collective
+
+  Input Parameters:
++ contact - the contact
+- reach   - the least distance of pairs whose search distance was not given, 0 for the usual [length]
+
+  Level: intermediate
+
+.seealso: `ContactGetReach()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactSetReach(Contact contact, PetscReal reach)
+{
+  PetscFunctionBegin;
+  contact->reach = reach;
+  PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }
 

@@ -78,6 +78,7 @@ struct _n_Contact {
   ContactPairData *pairs;
   ContactRows      rows;
   ContactNormals   normals;
+  PetscReal        reach;        /* what pairs without a distance of their own look for at least [length] */
   PetscReal        depth;        /* 0: from the thickness of the bodies */
   PetscReal        cosine;       /* facets pair when n1.n2 is at most this */
   PetscReal        overlap_drop; /* relative to the smaller facet's area */

@@ -95,7 +95,7 @@ static PetscBool GetNumbers(GmshCheck *check, int width, PetscInt64 n, PetscInt6
 {
   for (PetscInt64 i = 0; i < n; ++i) {
     long long value = 0;
-    int       narrow;
+    int       narrow = 0;
 
     if (!check->binary) {
       if (fscanf(check->stream, "%lld", &value) != 1) return Wrong(check, feof(check->stream) ? "it ends too early" : "a whole number is expected where other text stands");
@@ -153,7 +153,7 @@ static PetscBool CheckFormat(GmshCheck *check)
 {
   char   words[3][GMSH_WORD], rest;
   double version;
-  int    one;
+  int    one = 0;
 
   if (!GetSection(check, words[0]) || !Expect(check, "$MeshFormat", words[0])) return PETSC_FALSE;
   for (int i = 0; i < 3; ++i) {
@@ -176,7 +176,7 @@ static PetscBool CheckFormat(GmshCheck *check)
 /* A number, then a dimension, a tag and a name in quotes for each */
 static PetscBool CheckNames(GmshCheck *check)
 {
-  PetscInt64 count;
+  PetscInt64 count = 0;
   char       words[2][GMSH_WORD], name[GMSH_WORD], rest;
   int        number;
 
@@ -191,14 +191,14 @@ static PetscBool CheckNames(GmshCheck *check)
     if (!fgets(name, sizeof(name), check->stream)) return Wrong(check, "it ends too early");
     begin = strchr(name, '"');
     end   = strrchr(name, '"');
-    if (!strchr(name, '\n') || end == begin || end - begin > 127) return Wrong(check, "physical name %lld is not a name of at most 126 characters in quotes", (long long)i + 1);
+    if (!strchr(name, '\n') || begin != name || end == begin || end - begin > 127) return Wrong(check, "physical name %lld is not a dimension, a tag and a name of at most 126 characters in quotes", (long long)i + 1);
   }
   return ExpectNext(check, "$EndPhysicalNames");
 }
 
 static PetscBool CheckEntity(GmshCheck *check, int dim, PetscInt *entity)
 {
-  PetscInt64 number, ntags, tag;
+  PetscInt64 number = 0, ntags, tag;
 
   if (!GetNumbers(check, 4, 1, &number) || !GetReals(check, !dim && check->version > 40 ? 3 : 6)) return PETSC_FALSE;
   *entity = (PetscInt)number;

@@ -210,3 +210,40 @@ PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
   for (PetscInt a = 0; a < 8; ++a) vertices[a] = plex[MeshHexTensorOrder[a]];
   PetscFunctionReturn(0);
 }
+
+/*@
+  MeshGetVertexCoordinates - Gets the reference coordinates of vertices
+
+  Not Collective
+
+  Input Parameters:
++ dm       - mesh from `MeshCreate()`
+. n        - number of vertices
+- vertices - local `DMPLEX` points
+
+  Output Parameter:
+. places - 3 coordinates a vertex [length]
+
+  Level: developer
+
+.seealso: `MeshGetCellVertices()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetVertexCoordinates(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
+{
+  Vec                coordinates;
+  PetscSection       section;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
+    for (PetscInt d = 0; d < 3; ++d) places[i][d] = PetscRealPart(x[offset + d]);
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}

@@ -12,26 +12,6 @@ typedef struct {
   PetscReal *gram, *row; /* n x n sum of the rows' outer products, on this rank's facets; one row */
 } Support;
 
-static PetscErrorCode SupportGetPlaces(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
-{
-  Vec                coordinates;
-  PetscSection       section;
-  const PetscScalar *x;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(DMGetCoordinateSection(dm, &section));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscInt offset;
-
-    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
-    for (PetscInt d = 0; d < 3; ++d) places[i][d] = PetscRealPart(x[offset + d]);
-  }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscFunctionReturn(0);
-}
-
 /* Middle and half the largest side of every body's bounding box */
 static PetscErrorCode SupportMeasureBodies(Support *support)
 {
@@ -49,7 +29,7 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
 
     PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
     PetscCall(MeshGetCellVertices(support->dm, c, vertices));
-    PetscCall(SupportGetPlaces(support->dm, 8, vertices, x));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 8, vertices, x));
     for (PetscInt i = 0; i < 24; ++i) {
       bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
       bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
@@ -130,7 +110,7 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
     PetscReal x[4][3];
 
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(SupportGetPlaces(support->dm, 4, vertices, x));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
     for (PetscInt k = 0; k < 12; ++k) {
       if (!displacement->fixed[k % 3]) continue;
       SupportAddMotion(support, b, axes[k % 3], x[k / 3], 1);
@@ -159,7 +139,7 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
     PetscReal x[4][3], normal[3], length = 0;
 
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(SupportGetPlaces(support->dm, 4, vertices, x));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
     for (PetscInt d = 0; d < 3; ++d) {
       const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
 

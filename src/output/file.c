@@ -1,12 +1,18 @@
 /* Files that appear whole or not at all */
+#define _POSIX_C_SOURCE 200809L /* lstat() */
 #include "outputimpl.h"
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 
-static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length)
+/* The file that is written and then renamed: another one, but for links and devices, whose place no file may take */
+static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length, PetscBool *other)
 {
+  struct stat status;
+
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(part, length, "%s.part", file));
+  *other = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(PetscSNPrintf(part, length, "%s%s", file, *other ? ".part" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -38,16 +44,17 @@ PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
+  PetscBool   other;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
     FILE *stream = fopen(part, "wb");
 
     if (!stream) error = errno;
-    else if (fclose(stream) || remove(part)) error = errno;
+    else if (fclose(stream) || (other && remove(part))) error = errno;
   }
   PetscCall(FileRaise(comm, file, error));
   PetscFunctionReturn(0);
@@ -57,12 +64,13 @@ static PetscErrorCode FileCommit(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
+  PetscBool   other;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && rename(part, file)) error = errno;
+  if (rank == 0 && other && rename(part, file)) error = errno;
   PetscCall(FileRaise(comm, file, error));
   PetscFunctionReturn(0);
 }
@@ -79,19 +87,24 @@ static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *functio
 PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
 {
   char           part[PETSC_MAX_PATH_LEN];
-  PetscViewer    viewer;
+  PetscViewer    viewer = NULL;
+  PetscBool      other;
+  PetscMPIInt    size;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(OutputCheckWritable(comm, file));
-  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
   complaint[0] = 0;
   PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
   ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
+  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others.
+     HDF5 would close what is left open after MPI has ended, and crash */
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  if (ierr && size == 1) (void)PetscViewerDestroy(&viewer);
   PetscCall(PetscPopErrorHandler());
-  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
   PetscCall(FileCommit(comm, file));
   PetscFunctionReturn(0);
@@ -101,10 +114,11 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
+  PetscBool   other;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part)));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
     FILE *stream = fopen(part, "w");
@@ -115,7 +129,7 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
       PetscCall(fill(stream, ctx));
       if (fflush(stream) || ferror(stream)) error = errno ? errno : EIO;
       if (fclose(stream) && !error) error = errno;
-      if (error) (void)remove(part);
+      if (error && other) (void)remove(part);
     }
   }
   PetscCall(FileRaise(comm, file, error));

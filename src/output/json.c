@@ -42,7 +42,15 @@ static void WriteVector(FILE *stream, const char key[], const PetscReal value[3]
   fprintf(stream, "]%s", end);
 }
 
-static void WriteStep(FILE *stream, const StepReport *step)
+static void WriteErrors(FILE *stream, const RunReport *report, const StepReport *step, const char end[])
+{
+  WriteReal(stream, "error_estimate", step->body_errors ? (double)step->error_estimate : NAN, end);
+  fputs("\"body_errors\": {", stream);
+  for (PetscInt b = 0; b < report->nbodies; ++b) WriteReal(stream, report->bodies[b], step->body_errors ? (double)step->body_errors[b] : NAN, b + 1 < report->nbodies ? ", " : "");
+  fprintf(stream, "}%s", end);
+}
+
+static void WriteStep(FILE *stream, const RunReport *report, const StepReport *step)
 {
   const char *next = ",\n      ";
 
@@ -72,6 +80,8 @@ static void WriteStep(FILE *stream, const StepReport *step)
   WriteReal(stream, "gap_true", (double)step->gap_true, next);
   WriteReal(stream, "gap_change", (double)step->gap_change, next);
   WriteReal(stream, "complementarity", (double)step->complementarity, next);
+  WriteReal(stream, "action_reaction", (double)step->action_reaction, next);
+  WriteErrors(stream, report, step, next);
   WriteVector(stream, "contact_force", step->contact_force, next);
   WriteVector(stream, "reaction", step->reaction, next);
   WriteReal(stream, "solve_time", (double)step->solve_time, next);
@@ -114,7 +124,7 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   fprintf(stream, "\"converged\": %s,\n  ", report->converged ? "true" : "false");
   WriteString(stream, "reason", report->reason, ",\n  \"steps\": [\n");
   for (PetscInt s = 0; s < report->nsteps; ++s) {
-    WriteStep(stream, &report->steps[s]);
+    WriteStep(stream, report, &report->steps[s]);
     fputs(s + 1 < report->nsteps ? ",\n" : "\n", stream);
   }
   fputs("  ],\n  \"time\": {\n    ", stream);
@@ -126,6 +136,7 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   WriteReal(stream, "amg_apply", report->time.amg_apply, ",\n    ");
   WriteReal(stream, "filter_setup", report->time.filter_setup, ",\n    ");
   WriteReal(stream, "filter_apply", report->time.filter_apply, ",\n    ");
+  WriteReal(stream, "error_estimate", report->time.error_estimate, ",\n    ");
   WriteReal(stream, "other", report->time.other, "\n  },\n  ");
   WriteAssemblies(stream, report);
   WriteEffects(stream, report);

@@ -28,16 +28,40 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* How far the step is from the truth of its own discretization, beside the optimizer's KKT error */
+/* How far the step is from the truth of its own discretization, beside the optimizer's scaled KKT error */
 static PetscErrorCode ViewAccuracy(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %5s %8s %8s  %15s %11s %10s %10s\n", "step", "solves", "cuts", "gap", "indef.", "potential", "equilibrium", "true", "gap"));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %8s %5s %8s %8s  %15s %11s %10s %10s\n", "", "", "", "updates", "systems", "", "residual", "gap", "change"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %6s %5s %8s %8s  %15s %11s %9s %10s %10s %10s\n", "step", "solves", "cuts", "gap", "indef.", "potential", "equilibrium", "action =", "unscaled", "true", "gap"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %6s %5s %8s %8s  %15s %11s %9s %10s %10s %10s\n", "", "", "", "updates", "systems", "", "residual", "reaction", "KKT error", "gap", "change"));
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8" PetscInt_FMT " %5" PetscInt_FMT " %8" PetscInt_FMT " %8" PetscInt_FMT "  %15.8e %11.2e %10.2e %10.2e\n", step->step, step->substeps, step->cuts, step->contact_updates, step->regularizations, (double)step->potential, (double)step->equilibrium, (double)step->gap_true, (double)step->gap_change));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %6" PetscInt_FMT " %5" PetscInt_FMT " %8" PetscInt_FMT " %8" PetscInt_FMT "  %15.8e %11.2e %9.2e %10.2e %10.2e %10.2e\n", step->step, step->substeps, step->cuts, step->contact_updates, step->regularizations, (double)step->potential, (double)step->equilibrium, (double)step->action_reaction, (double)step->kkt_error_unscaled, (double)step->gap_true, (double)step->gap_change));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* How far the discretization is from the truth */
+static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
+{
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    if (report->steps[s].body_errors) any = PETSC_TRUE;
+  }
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %s\n%5s %10s", "step", "estimated discretization error in the energy norm, and the bodies' parts of it", "", "all"));
+  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, " %10s", report->bodies[b]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+
+    if (!step->body_errors) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8.3f %%", step->step, (double)(100 * step->error_estimate)));
+    for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, " %*.3f %%", (int)PetscMax(10, strlen(report->bodies[b])) - 2, (double)(100 * step->body_errors[b])));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
 }
@@ -55,6 +79,7 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
     {"AMG apply",    report->time.amg_apply   },
     {"filter set-up", report->time.filter_setup},
     {"filter apply", report->time.filter_apply},
+    {"error estimate", report->time.error_estimate},
     {"other",        report->time.other       },
     {"total",        report->time.total       },
   };
@@ -135,6 +160,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewAccuracy(report, viewer));
+  PetscCall(ViewErrors(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
   PetscCall(ViewContactFree(report, viewer));

@@ -30,6 +30,10 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
   } else {
     scene->nsteps = 1;
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
+    if (scene->nsteps > SCENE_MAX_STEPS) {
+      PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps, SCENE_MAX_STEPS));
+      scene->nsteps = SCENE_MAX_STEPS;
+    }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
   }
   if (scene->nsteps < 1) PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));

@@ -60,6 +60,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscCall(PetscOptionsInt("-displacement_bounds", "First load step whose displacements are bounded, 0: none", "SceneLoad", bounds, &bounds, &bounded));
   PetscOptionsEnd();
   PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1", file, nsteps);
+  PetscCheck(nsteps <= SCENE_MAX_STEPS, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at most %d", file, nsteps, SCENE_MAX_STEPS);
   if (set && nsteps != scene->nsteps) PetscCall(SceneResample(scene, nsteps));
   if (bounded) scene->displacement_bounds = bounds;
   PetscFunctionReturn(0);

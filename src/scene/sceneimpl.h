@@ -18,6 +18,10 @@ typedef struct {
 
 #define SCENE_KEY_LENGTH 256
 #define SCENE_LOAD_RAMP  "load" /* ramp 0: the load itself */
+#define SCENE_MAX_STEPS  1000000
+
+/* Not collective: does an anchored value of a YAML file hold an alias? */
+PETSC_INTERN PetscErrorCode SceneFindNestedAlias(const char file[], PetscBool *nested);
 
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);

@@ -103,8 +103,10 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "symmetry"));
   if (!text) PetscFunctionReturn(0);
   PetscCall(SceneParseList(keys, "symmetry", text, &n, &words));
-  PetscCall(PetscRealloc((given + (size_t)n) * sizeof(*scene->displacements), &scene->displacements));
-  PetscCall(PetscArrayzero(scene->displacements + given, n));
+  if (n) {
+    PetscCall(PetscRealloc((given + (size_t)n) * sizeof(*scene->displacements), &scene->displacements));
+    PetscCall(PetscArrayzero(scene->displacements + given, n));
+  }
   for (PetscInt i = 0; i < n; ++i) {
     SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
     PetscBool          same;

@@ -39,6 +39,59 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   PetscFunctionReturn(0);
 }
 
+/*
+   Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them by more.
+   Looks again from there, as far as they moved; if u goes through any of those rows, they become sim->linearization.
+*/
+static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, PetscReal *reach, PetscBool *missed)
+{
+  ContactLinearization wide = NULL;
+  PetscReal            moved, least = 0.0;
+  PetscInt             nrows;
+  Vec                  du, gap;
+
+  PetscFunctionBegin;
+  *missed = PETSC_FALSE;
+  PetscCall(VecDuplicate(u, &du));
+  PetscCall(VecWAXPY(du, -1.0, u_linearized, u));
+  PetscCall(VecNorm(du, NORM_INFINITY, &moved));
+  if (2.0 * moved > *reach) { /* both faces may have moved */
+    *reach = 2.0 * PetscMax(moved, *reach);
+    PetscCall(ContactSetReach(sim->contact, *reach));
+    PetscCall(LinearizeGap(sim, u_linearized, &wide));
+    PetscCall(ContactSetReach(sim->contact, 0.0));
+    PetscCall(VecDuplicate(wide->g, &gap));
+    PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
+    PetscCall(VecGetSize(gap, &nrows));
+    if (nrows) PetscCall(VecMin(gap, NULL, &least));
+    PetscCall(VecDestroy(&gap));
+    *missed = (PetscBool)(least < -PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
+  }
+  PetscCall(VecDestroy(&du));
+  if (*missed) {
+    if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Faces beyond the search distance went through each other by %g: searched again, to a distance of %g\n", -(double)least, (double)*reach));
+    PetscCall(ContactLinearizationDestroy(&sim->linearization));
+    sim->linearization = wide;
+  } else PetscCall(ContactLinearizationDestroy(&wide));
+  PetscFunctionReturn(0);
+}
+
+/* With the gap linearized at u_linearized, of all faces that can meet */
+static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol)
+{
+  PetscReal reach;
+  PetscBool missed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGetReach(p->sim->contact, &reach));
+  do {
+    PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
+    PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
+    if (report->converged) PetscCall(AttemptFindMissed(p->sim, u_linearized, u, &reach, &missed));
+  } while (report->converged && missed);
+  PetscFunctionReturn(0);
+}
+
 /* sim->linearization is the one u was found with; `at_u` on exit the one at u */
 static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
 {
@@ -49,8 +102,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
   PetscFunctionBegin;
   report->contact_updates = 0;
   for (PetscInt k = 0; k < sim->scene->contact_updates && !is_true; ++k) {
-    PetscCall(StepProblemSetContact(p, sim->linearization, u_linearized));
-    PetscCall(AttemptSolve(p, (PetscBool)(k > 0), u, report, sol));
+    PetscCall(AttemptLinearized(p, (PetscBool)(k > 0), u_linearized, u, report, sol));
     if (!report->converged) break;
     ++report->contact_updates;
     PetscCall(LinearizeGap(sim, u, at_u));

@@ -46,7 +46,29 @@ PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepRep
   PetscFunctionReturn(0);
 }
 
-/* q = J_full^T M z: the force of contact on the bodies; its sum over a pair's nonmortar vertices acts on that side */
+/* q = J_full^T M z: the forces on the two sides cancel */
+static PetscErrorCode ReportActionReaction(Simulation sim, Vec q, StepReport *report)
+{
+  const PetscScalar *a;
+  PetscReal          sums[4] = {0, 0, 0, 0}; /* the force, and the sum of the vertices' sizes */
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(q, &n));
+  PetscCall(VecGetArrayRead(q, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal f[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
+
+    for (PetscInt c = 0; c < 3; ++c) sums[c] += f[c];
+    sums[3] += PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+  }
+  PetscCall(VecRestoreArrayRead(q, &a));
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  report->action_reaction = sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Its sum over a pair's nonmortar vertices acts on that side */
 static PetscErrorCode ReportContactForce(Simulation sim, Vec q, StepReport *report)
 {
   const PetscScalar *a;
@@ -92,9 +114,27 @@ static PetscErrorCode ReportGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* In the energy norm, relative to that of the displacement; report->energy is set */
+static PetscErrorCode ReportDiscretization(Simulation sim, Vec u, StepReport *report)
+{
+  const PetscReal size = PetscSqrtReal(2.0 * report->energy);
+  PetscReal       sum  = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(report->body_errors));
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
+  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, NULL));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    sum += report->body_errors[b];
+    report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
+  }
+  report->error_estimate = size > 0.0 ? PetscSqrtReal(sum) / size : 0.0;
+  PetscFunctionReturn(0);
+}
+
 /*
    All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
-   = internal - contact - dead force on the prescribed rows
+   = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization error
 */
 PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
@@ -115,6 +155,7 @@ PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(ReportContactForce(sim, contact, report));
+    PetscCall(ReportActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&weighted));
     PetscCall(VecDestroy(&contact));
@@ -124,6 +165,7 @@ PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;
   PetscCall(VecDestroy(&force));
+  if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(ReportDiscretization(sim, u, report));
   PetscFunctionReturn(0);
 }
 
@@ -144,27 +186,28 @@ static PetscErrorCode EventTime(const char name[], PetscLogDouble *time)
 /* Times are the largest over the ranks; "other" is what remains of the total */
 PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
 {
-  static const char *const events[] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply"};
-  PetscLogDouble           t[9], sum = 0.0, now;
+  static const char *const events[] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply", "ElastError"};
+  PetscLogDouble           t[10], sum = 0.0, now;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 7; ++i) {
+  for (PetscInt i = 0; i < 8; ++i) {
     PetscCall(EventTime(events[i], &t[i]));
     sum += t[i];
   }
   PetscCall(PetscTime(&now));
-  t[7] = now - sim->start;
-  t[8] = PetscMax(0.0, t[7] - sum);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 9, MPI_DOUBLE, MPI_MAX, sim->comm));
-  report->time.mesh         = t[0];
-  report->time.assembly     = t[1];
-  report->time.contact      = t[2];
-  report->time.amg_setup    = t[3];
-  report->time.amg_apply    = t[4];
-  report->time.filter_setup = t[5];
-  report->time.filter_apply = t[6];
-  report->time.total        = t[7];
-  report->time.other        = t[8];
+  t[8] = now - sim->start;
+  t[9] = PetscMax(0.0, t[8] - sum);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 10, MPI_DOUBLE, MPI_MAX, sim->comm));
+  report->time.mesh           = t[0];
+  report->time.assembly       = t[1];
+  report->time.contact        = t[2];
+  report->time.amg_setup      = t[3];
+  report->time.amg_apply      = t[4];
+  report->time.filter_setup   = t[5];
+  report->time.filter_apply   = t[6];
+  report->time.error_estimate = t[7];
+  report->time.total          = t[8];
+  report->time.other          = t[9];
   PetscFunctionReturn(0);
 }
 

@@ -71,12 +71,14 @@ static PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
   sim->warm       = PETSC_TRUE;
+  sim->estimate   = PETSC_TRUE;
   sim->maxcuts    = 5;
   sim->update_tol = 1e-6;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
   PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
   PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->update_tol, &sim->update_tol, NULL));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
@@ -119,6 +121,7 @@ static PetscErrorCode SimulationCreateReport(Simulation sim)
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one; default true
 .  -load_max_cuts <5>         - how often a load step that fails is halved
 .  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
+.  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 -  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
 
    Level: beginner
@@ -269,6 +272,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   if (!s) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < s->report.nsteps; ++i) {
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
+    PetscCall(PetscFree(s->report.steps[i].body_errors));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));

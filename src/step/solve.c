@@ -184,7 +184,7 @@ static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSo
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack));
+  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows: the optimizer has no slacks */
   PetscFunctionReturn(0);
 }
 

@@ -58,6 +58,7 @@ struct _n_Simulation {
   PetscReal           *pressure, *gap, *stress;
   PetscBool            warm;       /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  PetscBool            estimate;   /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;    /* of one load step */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */

@@ -36,7 +36,7 @@ static PetscBool FuzzIsSmall(Scene scene)
   return ncells * (scene->refine ? 8 : 1) < FUZZ_MAX_CELLS ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static PetscErrorCode FuzzMeshScene(const char file[])
+static inline PetscErrorCode FuzzMeshScene(const char file[])
 {
   Scene scene;
   DM    dm;
@@ -52,7 +52,7 @@ static PetscErrorCode FuzzMeshScene(const char file[])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FuzzMeshGmsh(const char file[])
+static inline PetscErrorCode FuzzMeshGmsh(const char file[])
 {
   char      name[] = "bar", *path;
   SceneBody body   = {.name = name, .shape = SHAPE_GMSH, .material = {MATERIAL_LINEAR, 1, 0.3}, .gmsh = {.volume = name}};

@@ -1,0 +1,58 @@
+/*
+   YAML's anchors, &name, and aliases, *name. PETSc's reader expands an alias where it stands, so that an anchor which holds its own
+   alias never ends, and anchors of aliases of anchors outgrow any memory. Anchored values of a scene therefore hold no aliases.
+*/
+#include "sceneimpl.h"
+#include <stdio.h>
+#include <yaml.h>
+
+/* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored values */
+static PetscBool IsNested(const yaml_event_t *event, PetscInt *anchored)
+{
+  const yaml_char_t *anchor = NULL;
+
+  switch (event->type) {
+  case YAML_ALIAS_EVENT:
+    return *anchored ? PETSC_TRUE : PETSC_FALSE;
+  case YAML_MAPPING_START_EVENT:
+    anchor = event->data.mapping_start.anchor;
+    break;
+  case YAML_SEQUENCE_START_EVENT:
+    anchor = event->data.sequence_start.anchor;
+    break;
+  case YAML_MAPPING_END_EVENT:
+  case YAML_SEQUENCE_END_EVENT:
+    if (*anchored) --*anchored;
+    return PETSC_FALSE;
+  default:
+    return PETSC_FALSE;
+  }
+  if (*anchored || anchor) ++*anchored;
+  return PETSC_FALSE;
+}
+
+/* Not collective. What libyaml cannot parse is left for PETSc to complain of */
+PetscErrorCode SceneFindNestedAlias(const char file[], PetscBool *nested)
+{
+  FILE         *stream;
+  yaml_parser_t parser;
+  yaml_event_t  event;
+  PetscInt      anchored = 0;
+  PetscBool     more     = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  *nested = PETSC_FALSE;
+  PetscCall(PetscFOpen(PETSC_COMM_SELF, file, "r", &stream));
+  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory to parse %s", file);
+  yaml_parser_set_input_file(&parser, stream);
+  while (more && !*nested) {
+    more = yaml_parser_parse(&parser, &event) ? PETSC_TRUE : PETSC_FALSE;
+    if (!more) break;
+    *nested = IsNested(&event, &anchored);
+    more    = event.type == YAML_STREAM_END_EVENT ? PETSC_FALSE : PETSC_TRUE;
+    yaml_event_delete(&event);
+  }
+  yaml_parser_delete(&parser);
+  PetscCall(PetscFClose(PETSC_COMM_SELF, stream));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,118 @@
+"""Holds runs of the Hertz scenes against Hertz's solution at the computed force.
+
+python check_hertz.py sphere|cylinder COARSE MEDIUM FINE   judges three runs, written with -output NAME -summary NAME.json
+python check_hertz.py sphere|cylinder|ssnv104 NAME         prints the figures of one
+
+Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to averages of the computed one around each
+vertex, weighted with its hat function: the nodal forces of the mortar method over the nodal areas. The nodal pressures themselves
+are off by up to a fifth within two cells of the contact's edge, alternating in sign: the constraint is on averages of the gap, and
+averages of the pressure are what it determines.
+"""
+import json
+import math
+import sys
+
+import h5py
+import numpy as np
+
+FACES = np.array([[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+
+
+class Sphere:
+    """The quarter of half a ball that the scene shows, against a rigid plane"""
+
+    radius, modulus, approach, share = 50.0, 20000 / 0.91, 1.25e-3, 1 / 4
+
+    def distance(self, x):
+        return np.hypot(x[:, 0], x[:, 1])
+
+    def on_surface(self, x):
+        return np.abs(np.linalg.norm(x - [0, 0, self.radius], axis=1) - self.radius) < 1e-9 * self.radius
+
+    def at(self, force):
+        """peak pressure, radius, approach"""
+        a = (3 * force * self.radius / (4 * self.modulus)) ** (1 / 3)
+        return 3 * force / (2 * math.pi * a**2), a, a**2 / self.radius
+
+
+class SSNV104(Sphere):
+    approach = 2.0
+
+
+class Cylinder:
+    """Half of half a cylinder, its force a length of the axis"""
+
+    radius, modulus, approach, share = 1.0, 1000 / 0.91, 7.7308e-5, 0.005 / 2
+
+    def distance(self, x):
+        return np.abs(x[:, 0])
+
+    def on_surface(self, x):
+        return np.abs(np.hypot(x[:, 0], x[:, 2] - self.radius) - self.radius) < 1e-9 * self.radius
+
+    def at(self, force):
+        a = math.sqrt(4 * force * self.radius / (math.pi * self.modulus))
+        return 2 * force / (math.pi * a), a, force / (math.pi * self.modulus) * (2 * math.log(4 * self.radius / a) - 1)
+
+
+def averages(x, facets, pressure):
+    """integral of hat function times pressure over the integral of the hat function, at each vertex"""
+    points, weights = np.polynomial.legendre.leggauss(3)
+    force, area = np.zeros(len(x)), np.zeros(len(x))
+    for s, ws in zip(points, weights):
+        for t, wt in zip(points, weights):
+            shape = np.array([(1 - s) * (1 - t), (1 + s) * (1 - t), (1 + s) * (1 + t), (1 - s) * (1 + t)]) / 4
+            along_s = np.einsum("a,qad->qd", np.array([-(1 - t), 1 - t, 1 + t, -(1 + t)]) / 4, x[facets])
+            along_t = np.einsum("a,qad->qd", np.array([-(1 - s), -(1 + s), 1 + s, 1 - s]) / 4, x[facets])
+            weight = ws * wt * np.linalg.norm(np.cross(along_s, along_t), axis=1)
+            value = pressure[facets] @ shape
+            for a in range(4):
+                np.add.at(force, facets[:, a], weight * shape[a] * value)
+                np.add.at(area, facets[:, a], weight * shape[a])
+    return np.divide(force, area, out=np.zeros_like(force), where=area > 0)
+
+
+def measure(problem, name):
+    with h5py.File(name + ".h5") as file:
+        x, cells = file["vertices"][...], file["cells"][...].reshape(-1, 8)
+    with h5py.File(name + "_0001.h5") as file:
+        pressure = file["contact_pressure"][...].ravel()
+    with open(name + ".json") as file:
+        summary = json.load(file)
+    facets = cells[:, FACES].reshape(-1, 4)
+    facets = facets[problem.on_surface(x)[facets].all(axis=1)]
+    average, r = averages(x, facets, pressure), problem.distance(x)
+    inner = average > average.max() / 2
+    slope, square = np.polyfit(r[inner] ** 2, average[inner] ** 2, 1)  # p^2 = p0^2 (1 - r^2/a^2)
+    force = abs(summary["steps"][0]["contact_force"][2]) / problem.share
+    p0, a, approach = problem.at(force)
+    fit_p0, fit_a = math.sqrt(square), math.sqrt(-square / slope)
+    return {
+        "unknowns": summary["dofs"],
+        "updates": summary["steps"][0]["contact_updates"],
+        "force": force,
+        "p0": fit_p0,
+        "radius": fit_a,
+        "largest": pressure.max(),
+        "errors": {"peak pressure": fit_p0 / p0 - 1, "contact radius": fit_a / a - 1, "approach": problem.approach / approach - 1},
+        "nodal error": pressure.max() / p0 - 1,
+    }
+
+
+def say(what, good, seen):
+    print(what + (": yes" if good else ": NO, " + str(seen)))
+
+
+problem = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}[sys.argv[1]]()
+runs = [measure(problem, name) for name in sys.argv[2:]]
+if len(runs) == 1:
+    print(json.dumps(runs[0], indent=2))
+else:
+    title = sys.argv[1]
+    for what in runs[0]["errors"]:
+        errors = [abs(run["errors"][what]) for run in runs]
+        say("%s: %s within 3 %% of Hertz on the finest mesh" % (title, what), errors[2] <= 0.03, errors)
+        # an error that is small on every mesh has nothing left to lose: its sign may change
+        say("%s: its error falls from mesh to mesh" % title, all(fine < coarse or fine < 2e-3 for coarse, fine in zip(errors, errors[1:])), errors)
+    say("%s: largest nodal pressure within 3 %% of Hertz on the finest mesh" % title, abs(runs[2]["nodal error"]) <= 0.03, runs[2]["nodal error"])
+    say("%s: the gap was updated until it was true" % title, all(1 < run["updates"] < 10 for run in runs), [run["updates"] for run in runs])

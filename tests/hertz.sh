@@ -1,0 +1,27 @@
+# Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one to the next;
+# check_hertz.py holds pressures, contact areas and approaches against the exact solutions.
+run() {
+  "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" || echo "$1: exit code $?"
+}
+
+sphere() { # name, cells along x and y, grading, even; layers, grading, even
+  sed -e "s/^ *patches: .*/      patches: [$2, $2, 1]/" -e "s/^ *grading: .*/      grading: [$3, $3, 1]/" -e "s/^ *even: .*/      even: [$4, $4, 1]/" \
+      -e "s/layers: .*/layers: $5/" -e "s/layer_grading: .*/layer_grading: $6/" -e "s/layer_even: .*/layer_even: $7/" "$AMGF_DIR/share/scenes/hertz_sphere.yaml" > "$1.yaml"
+  run "$1"
+}
+sphere sphere_coarse 11 312.5 5 9 0.005304 3
+sphere sphere_medium 15 334.5 6 12 0.004552 4
+cp "$AMGF_DIR/share/scenes/hertz_sphere.yaml" sphere_fine.yaml
+run sphere_fine
+"$PYTHON" "$AMGF_DIR/tests/check_hertz.py" sphere sphere_coarse sphere_medium sphere_fine
+
+cylinder() { # name, cells around, grading, even; in the ring, grading, even
+  sed -e "s/^ *patches: .*/      patches: [8, $2, $5]/" -e "s/^ *grading: .*/      grading: [1, $3, $6]/" -e "s/^ *even: .*/      even: [1, $4, $7]/" \
+      "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" > "$1.yaml"
+  run "$1"
+}
+cylinder cylinder_coarse 19 361.2 6 14 0.004865 2
+cylinder cylinder_medium 28 432.9 9 20 0.00386 3
+cp "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" cylinder_fine.yaml
+run cylinder_fine
+"$PYTHON" "$AMGF_DIR/tests/check_hertz.py" cylinder cylinder_coarse cylinder_medium cylinder_fine

@@ -1,0 +1,40 @@
+"""The barrier to its end: condensed systems whose contact part D spans ever more orders of magnitude, with amgf and with AMG alone."""
+import os
+
+import numpy as np
+
+from runner import SCENES, solve
+
+TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
+AMG = {"coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": 4, "strong_threshold": 0.5, "relax_type_down": "l1scaled-SOR/Jacobi", "relax_type_up": "l1scaled-SOR/Jacobi"}
+EXACT = ["-tao_ipfilter_barrier", "monotone", "-tao_ipfilter_forcing", "fixed", "-tao_ipfilter_ksp_rtol", 1e-10, "-tao_ipfilter_ksp_norm_type", "preconditioned", "-tao_ipfilter_ksp_max_it", 10000]
+SOLVERS = {
+    "amgf": ["-tao_ipfilter_filter_switch", 0, "-tao_ipfilter_pc_amgf_cycle", "bfb", "-tao_ipfilter_pc_amgf_amg_lag", 1,
+             *(x for key, value in AMG.items() for x in (f"-tao_ipfilter_amgf_amg_pc_hypre_boomeramg_{key}", value))],
+    "AMG alone": ["-tao_ipfilter_pc_type", "hypre", *(x for key, value in AMG.items() for x in (f"-tao_ipfilter_pc_hypre_boomeramg_{key}", value))],
+}
+
+
+def spread(run):
+    """D_max/D_min: on the central path s z = mu, so D = z/s = z^2/mu."""
+    pressure = run.fields(len(run.steps))["contact_pressure"]
+    pressure = pressure[np.isfinite(pressure) & (pressure > 0)]
+    return (pressure.max() / pressure.min()) ** 2 if pressure.size else None
+
+
+def sweep(folder, refine, wanted, done, limit):
+    for solver, options in SOLVERS.items():
+        for tolerance in TOLERANCES:
+            name = f"barrier, refine {refine}, {solver}, {tolerance:g}"
+            if not wanted(name):
+                continue
+            free = ["-contact_free"] if solver == "amgf" else []
+            run = solve(os.path.join(folder, "barrier"), f"{refine}_{solver[:3]}_{tolerance:g}", os.path.join(SCENES, "two_block.yaml"),
+                        ["-refine", refine, "-tao_ipfilter_tol", tolerance, *EXACT, *options, *free], limit, write=True)
+            wrong = []
+            bound = run.summary["contact_free"]["bound"] if free and run.summary else None
+            if solver == "amgf" and not run.converged:
+                wrong.append(run.status)
+            if bound and max(run.pcg, default=0) > bound:
+                wrong.append(f"{max(run.pcg)} PCG iterations, the bound is {bound:.0f}")
+            done(name, run, bound, spread(run) if run.converged else None, wrong)

@@ -1,0 +1,153 @@
+"""The rows of the sweeps: a scene each, what it must come to, and what its answer is held against."""
+import os
+
+import scenes
+from runner import DIRECT, solve
+
+ENDS = {"converges": ("converged",), "says so": ("failed", "refused"), "converges or says so": ("converged", "failed", "refused")}
+
+
+class Row:
+    """A scene, the end it must come to, and checks: (what, value of the run, exact value, tolerance relative to it)."""
+
+    def __init__(self, group, name, scene, options=(), end="converges", checks=(), drift=1e-6, reference=True, quick=False, limit=60):
+        self.group, self.name, self.scene, self.options = group, name, scene, options
+        self.end, self.checks, self.drift, self.reference, self.quick, self.limit = end, checks, drift, reference, quick, limit
+
+
+def nonmortar_force(run):
+    return run.last["contact_force"][2]
+
+
+def untouched(run):
+    return max(abs(f) for f in run.last["contact_force"])
+
+
+def rows_of(run):
+    return run.last["constraints"]
+
+
+def penetration(run):
+    return max(0.0, -run.last["gap_true"])
+
+
+def materials():
+    for nu in (0, 0.3, 0.49, 0.499, 0.4999, 0.49999):
+        for element in ("full", "bbar"):
+            yield Row("Poisson's ratio", f"nu {nu}, {element}", scenes.two_block(poisson=nu, element=element), quick=nu in (0, 0.49999))
+    for ratio in (1e-6, 1e-3, 1e-1, 1, 1e1, 1e3, 1e6):
+        yield Row("stiffness of block over slab", f"{ratio:g}", scenes.two_block(poisson=0.3, block_young=ratio), quick=ratio in (1e-6, 1e6))
+
+
+def meshes():
+    yield Row("mesh size, nonmortar over mortar", "1:8", scenes.two_block(slab_cells=(9, 4, 2), block_cells=(8, 8, 2)))
+    yield Row("mesh size, nonmortar over mortar", "8:1", scenes.two_block(slab_lower=(-4.5, -1.5, -4.5), slab_upper=(-1.5, 1.5, -1.5), slab_cells=(24, 24, 3), block_cells=(1, 1, 1)))
+    for aspect in (10, 100):
+        yield Row("aspect ratio of the cells", f"{aspect} flat", scenes.flat(aspect), quick=aspect == 100)
+        yield Row("aspect ratio of the cells", f"{aspect} tall", scenes.tall(aspect), quick=aspect == 100)
+    cells = {"slab_cells": (20, 6, 3), "block_cells": (2, 2, 2), "block_x": (-3.6, -2.7), "block_y": (-2 / 3, 2 / 3)}
+    for shift in (0, 1e-12, -1e-12, 1e-9):
+        moved = {**cells, "block_x": (-3.6 + shift, -2.7 + shift), "block_y": (-2 / 3 + shift, 2 / 3 + shift)}
+        yield Row("edges of the two faces", f"aligned, shifted by {shift:g}" if shift else "aligned", scenes.two_block(**moved), quick=shift == 1e-12)
+
+
+def gaps():
+    for overlap in (1e-3, 0.125, 0.25, 0.5):
+        yield Row("overlap at the start, in slab cells", f"{overlap:g}", scenes.two_block(lift=-overlap, push=0, steps=1, contact_updates=20), quick=overlap == 0.5,
+                  checks=[("true penetration", penetration, 0, 1e-5), ("rows", rows_of, 25, 0)])
+    for lift in (0, 1e-14, -1e-14, 1e-8):
+        yield Row("gap at the start", f"{lift:g}", scenes.two_block(lift=lift), quick=lift == 1e-14)
+    yield Row("gap at the start", "10, never closed", scenes.two_block(lift=10), checks=[("force", untouched, 0, 1e-7)], quick=True)
+    for steps in (1, 8):
+        yield Row("gap at the start", f"10, closed in {steps} steps", scenes.two_block(lift=10, push=-10 - 5 / 7, steps=steps, contact_updates=20),
+                  checks=[("force", nonmortar_force, 6.267733, 1e-5), ("true penetration", penetration, 0, 1e-4)])
+
+
+def loads():
+    for factor in (0, 1e-8, 1e-4, 1e-2, 10, 100):
+        yield Row("load, linear", f"{factor:g}", scenes.two_block(push=-5 / 7 * factor), quick=factor in (1e-8, 100))
+    yield Row("load, linear", "no pair left", scenes.lost(), end="converges or says so", reference=False)
+    for factor in (1e-8, 1e-4, 1, 2, 3, 4, 10):
+        scene = scenes.two_block(push=-5 / 7 * factor, poisson=0.3, block_young=10, material="neohookean", slab_cells=(10, 5, 3), block_cells=(3, 3, 2))
+        yield Row("load, neo-Hookean", f"{factor:g}", scene, quick=factor in (1e-8, 10), end="converges" if factor <= 2 else "says so" if factor >= 4.2 else "converges or says so")
+
+
+def structures():
+    two, three = [(3, 3, 3), (4, 4, 3)], [(3, 3, 3), (4, 4, 3), (5, 5, 2)]
+    weight = ("weight", nonmortar_force)
+    yield Row("contact and gravity alone", "block on block", scenes.stack(two), checks=[(*weight, scenes.stack_weight(two), 1e-6)], quick=True)
+    yield Row("contact and gravity alone", "block above block, gap 0.1", scenes.stack(two, gap=0.1), checks=[(*weight, scenes.stack_weight(two), 1e-6)])
+    yield Row("contact and gravity alone", "free to slide", scenes.stack(two, held=False), checks=[(*weight, scenes.stack_weight(two), 1e-6)], end="converges or says so", quick=True)
+    yield Row("contact and gravity alone", "gravity upwards", scenes.stack(two, weight=-1), end="says so", reference=False, quick=True)
+    yield Row("contact and gravity alone", "tower of three", scenes.stack(three), checks=[(*weight, scenes.stack_weight(three), 1e-6)], quick=True)
+    yield Row("contact and gravity alone", "tower, soft below stiff", scenes.stack(three, young=(1e3, 10, 1e6)), checks=[(*weight, scenes.stack_weight(three), 1e-6)])
+    yield Row("contact and gravity alone", "tower of three, neo-Hookean", neo_hookean(scenes.stack(three)), checks=[(*weight, scenes.stack_weight(three), 1e-6)])
+    for past in (0.5, 0.9, 1.2):
+        checks = [("force", untouched, 0, 1e-6)] if past > 1 else []
+        yield Row("sliding off an edge", f"{past:g} of the block past it", scenes.slide(past), checks=checks)
+    for thickness in (0.1, 0.01, 0.001):
+        yield Row("pairs on both sides of a plate", f"thickness {thickness:g}", scenes.plate(thickness), quick=thickness == 0.01)
+
+
+def neo_hookean(scene):
+    for body in scene["bodies"]:
+        next(iter(body.values()))["material"] = "neohookean"
+    return scene
+
+
+def points(folder):
+    for name, width, depth in (("wedge", 0.1, 1), ("wedge", 1e-3, 1), ("spike", 0.1, 0.1), ("spike", 1e-3, 1e-3)):
+        for target, nonmortar in (("slab", "tip"), ("slab", "slab"), ("pointed", "tip")):
+            on = f"on slab, {nonmortar} nonmortar" if target == "slab" else f"on a {name}"
+            where = os.path.join(folder, f"{name}_{width:g}_{target}_{nonmortar}")
+            os.makedirs(where, exist_ok=True)
+            row = Row("sharp bodies", f"{name} {width:g} wide, {on}", scenes.pointed(where, width, depth, target, nonmortar=nonmortar), end="converges or says so",
+                      quick=width == 1e-3 and target == "slab" and nonmortar == "tip")
+            row.folder = where
+            yield row
+
+
+NO_ENERGY = 1e-18 # the smallest load still gives 20 times as much
+
+
+def rows(folder):
+    for group in (materials(), meshes(), gaps(), loads(), structures(), points(folder)):
+        yield from group
+
+
+def drift(run, reference):
+    """Relative to the energy, or where there is none but rounding, absolute."""
+    if not reference or not reference.converged or not run.converged:
+        return None
+    return (run.energy - reference.energy) / (reference.energy if abs(reference.energy) > NO_ENERGY else 1.0)
+
+
+def judge(row, run, reference):
+    """What is wrong with a run, as sentences; none: it passes."""
+    wrong = []
+    if run.status not in ENDS[row.end]:
+        wrong.append(f"{run.status}, {row.end} is asked for")
+    if run.status in ("crashed", "refused", "failed", "time limit"):
+        return wrong
+    off = drift(run, reference)
+    if off is not None and not abs(off) <= row.drift:
+        wrong.append(f"energy drifts by {off:.1e}")
+    for what, value, exact, tolerance in row.checks:
+        seen = value(run)
+        if not abs(seen - exact) <= tolerance * (abs(exact) or 1.0):
+            wrong.append(f"{what} {seen:.6g}, exact {exact:.6g}")
+    return wrong
+
+
+def sweep(folder, wanted, done):
+    """Runs the rows that are wanted; done(row, run, reference, wrong) after each."""
+    for row in rows(folder):
+        if not wanted(row):
+            continue
+        where = getattr(row, "folder", folder)
+        name = "".join(c if c.isalnum() else "_" for c in f"{row.group}_{row.name}")
+        run = solve(where, name, row.scene, row.options, row.limit)
+        reference = None
+        if row.reference and run.converged:
+            reference = solve(where, name + "_direct", row.scene, ["-options_file", DIRECT, "-tao_ipfilter_tol", 1e-10, *row.options], row.limit)
+        done(row, run, reference, judge(row, run, reference))

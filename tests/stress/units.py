@@ -1,0 +1,124 @@
+"""The shipped scenes in other units: the same iterations, and the same fields after scaling back."""
+import os
+
+import numpy as np
+import yaml
+
+from runner import SCENES, solve
+
+UNITS = {"m, Pa": (1.0, 1.0), "mm, MPa": (1e3, 1e-6), "lengths x 1e-6": (1e-6, 1.0)}  # factors of length and pressure
+
+# What keeps a run within seconds
+OPTIONS = {
+    "two_block": ["-refine", 0],
+    "ironing": ["-refine", 0],
+    "gmsh_blocks": ["-refine", 0],
+    "beam_sphere_linear": ["-load_steps", 2],
+    "beam_sphere_neo_hookean": ["-load_steps", 6],
+}
+
+LENGTHS = {"lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance"}
+FIELDS = {"displacement": (1, 0), "contact_gap": (1, 0), "contact_pressure": (0, 1), "stress": (0, 1)}  # powers of length and pressure
+TOLERANCE = 1e-9
+
+
+def value_of(text):
+    """A number as scenes have it: a fraction is a string in YAML, and so is 1e6."""
+    if isinstance(text, str):
+        parts = text.split("/")
+        return float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(text)
+    return float(text)
+
+
+def scaled(value, factor):
+    if isinstance(value, list):
+        return [scaled(v, factor) for v in value]
+    try:
+        number = value_of(value)
+    except ValueError:
+        return value  # free
+    return str(value) if not np.isfinite(number) else number * factor
+
+
+def scale_lengths(item, length):
+    """Every length in a body or face, however deep."""
+    if isinstance(item, dict):
+        return {key: scaled(value, length) if key in LENGTHS else scale_lengths(value, length) for key, value in item.items()}
+    return item
+
+
+def scale_values(scene, key, factor):
+    for entry in scene.get(key, []):
+        for values in entry.values():
+            values["value"] = scaled(values["value"], factor)
+
+
+def scale_mesh(path, target, length):
+    """Coordinates of an ASCII Gmsh 4.1 file."""
+    with open(path) as file:
+        lines = file.read().split("\n")
+    at = lines.index("$Nodes") + 2
+    for _ in range(int(lines[at - 1].split()[0])):
+        count = int(lines[at].split()[3])
+        for k in range(at + 1 + count, at + 1 + 2 * count):
+            lines[k] = " ".join(repr(float(x) * length) for x in lines[k].split())
+        at += 1 + 2 * count
+    with open(target, "w") as file:
+        file.write("\n".join(lines))
+
+
+def in_units(name, folder, length, pressure):
+    with open(os.path.join(SCENES, name + ".yaml")) as file:
+        scene = yaml.safe_load(file)
+    for key in ("bodies", "faces", "contact"):
+        scene[key] = [scale_lengths(item, length) for item in scene.get(key, [])]
+        if not scene[key]:
+            del scene[key]
+    for body in scene["bodies"]:
+        for values in body.values():
+            values["young"] = scaled(values["young"], pressure)
+            if "mesh" in values:
+                scale_mesh(os.path.join(SCENES, values["mesh"]), os.path.join(folder, "scaled.msh"), length)
+                values["mesh"] = "scaled.msh"
+    scale_values(scene, "displacements", length)
+    scale_values(scene, "pressures", pressure)
+    scale_values(scene, "body_forces", pressure / length)
+    return scene
+
+
+def difference(run, base, length, pressure):
+    """Largest difference of any field in any step after scaling back, relative to the field's largest value, and which."""
+    worst = (0.0, "")
+    for step in range(1, len(base.steps) + 1):
+        ours, theirs = run.fields(step), base.fields(step)
+        for name, (of_length, of_pressure) in FIELDS.items():
+            if name not in theirs:
+                continue
+            a, b = np.nan_to_num(ours[name] / (length**of_length * pressure**of_pressure)), np.nan_to_num(theirs[name])
+            size = np.abs(b).max()
+            if size > 0:
+                worst = max(worst, (np.abs(a - b).max() / size, f"{name}, step {step}"))
+    return worst
+
+
+def compare(folder, wanted, done, limit):
+    for name in sorted(file[:-5] for file in os.listdir(SCENES) if file.endswith(".yaml")):
+        if not wanted(f"units, {name}"):
+            continue
+        base = None
+        for unit, (length, pressure) in UNITS.items():
+            where = os.path.join(folder, "units", f"{name}_{len(unit)}")
+            os.makedirs(where, exist_ok=True)
+            run = solve(where, name, in_units(name, where, length, pressure), OPTIONS.get(name, []), limit, write=True)
+            base = base or run
+            wrong, worst = [], (0.0, "")
+            if run.status != base.status or run.status != "converged":
+                wrong.append(run.status)
+            else:
+                worst = difference(run, base, length, pressure)
+                off = max(abs(a["ip_iterations"] - b["ip_iterations"]) for a, b in zip(run.steps, base.steps))
+                if off > 1:
+                    wrong.append(f"Newton iterations of a step differ by {off}")
+                if not worst[0] <= TOLERANCE:
+                    wrong.append(f"{worst[1]} differs by {worst[0]:.1e}")
+            done(name, unit, run, worst, wrong)
