@@ -15,6 +15,7 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 #include <step.h>
 #include <output.h>
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -175,16 +176,20 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
 int main(int argc, char **argv)
 {
   PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
+  PetscMPIInt    size;
   PetscErrorCode ierr;
 
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return (int)ierr;
   ierr = PetscLogDefaultBegin();
   if (!ierr) ierr = AppRun(argc, argv, &converged);
-  /* After an error objects are left as they are; PetscFinalize() would complain about them */
+  /* After an error objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit
+     closing a file that it could not write */
   if (ierr) {
-    MPI_Finalize();
-    return 1;
+    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    if (size > 1) MPI_Finalize();
+    fflush(NULL);
+    _Exit(1);
   }
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));

@@ -30,8 +30,8 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const ContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
-PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *reach);
-PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal reach);
+PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
+PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);

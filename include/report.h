@@ -25,6 +25,7 @@ typedef struct {
   PetscReal   gap_min;                /* smallest linearized gap [length]; negative is penetration */
   PetscReal   gap_true;               /* smallest gap of the deformed bodies [length] */
   PetscReal   gap_change;             /* largest difference of the two where there is pressure, or penetration [length] */
+  PetscBool   gap_untrue;             /* the limit on linearizations came before the gap was true */
   PetscReal   complementarity;        /* max s z [force/length] */
   PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy */
@@ -67,6 +68,9 @@ typedef struct {
     PetscLogDouble solve_time; /* AMG set-up and PCG [s] */
   } contact_free;
   PetscLogDouble peak_memory_bytes; /* sum over ranks of the resident set's high-water mark */
+  struct { /* resident set when the phase ended, summed over ranks [bytes]; what is left to the peak is the solvers' */
+    PetscLogDouble start, mesh, assembly;
+  } memory;
 } RunReport;
 
 #endif

@@ -22,7 +22,7 @@ for step, w in zip(bar, (0, W)):
     say("bar, step %d: the foot bears pressure and weight" % step["step"], within(step["reaction"][2], AREA * (P + w * LENGTH), 1e-8), step["reaction"])
     say("bar, step %d: stored energy is half the work of dead loads" % step["step"], within(step["potential"], -step["energy"], 1e-8), step["potential"])
 
-runs = {name: load(name) for name in ("energy", "quadratic", "updated_2", "updated_5", "squash", "gentle")}
+runs = {name: load(name) for name in ("energy", "quadratic", "updated_2", "updated_5", "untrue", "squash", "gentle")}
 last = {name: run["steps"][-1] for name, run in runs.items()}
 say("energy: equilibrium to 1e-8", last["energy"]["equilibrium"] <= 1e-8, last["energy"]["equilibrium"])
 say("quadratic: no equilibrium, by more than 1e-4", last["quadratic"]["equilibrium"] > 1e-4, last["quadratic"]["equilibrium"])
@@ -31,6 +31,7 @@ say("one linearization of the gap leaves penetration", last["energy"]["gap_true"
 for name in ("updated_2", "updated_5"):
     say("%s: the true gap within 1e-6 of the displacement" % name, -0.6e-6 <= last[name]["gap_true"] and last[name]["contact_updates"] < 20, (last[name]["gap_true"], last[name]["contact_updates"]))
 say("updated to the end, 2 and 5 load steps give the same energy to 1e-5", within(last["updated_2"]["energy"], last["updated_5"]["energy"], 1e-5), (last["updated_2"]["energy"], last["updated_5"]["energy"]))
+say("a limit on linearizations that comes too early is said", runs["untrue"]["converged"] and last["untrue"]["gap_untrue"] and "still off by" in runs["untrue"]["reason"], runs["untrue"]["reason"])
 say("the step that was too large was cut", last["squash"]["cuts"] > 0 and last["squash"]["substeps"] > 1, (last["squash"]["cuts"], last["squash"]["substeps"]))
 say("cut or not, the same energy to 1e-8", within(last["squash"]["energy"], last["gentle"]["energy"], 1e-8), (last["squash"]["energy"], last["gentle"]["energy"]))
 say("nothing of contact in a scene without it", all(not e["on"] for e in runs["squash"]["effects"] if e["name"] in ("contact", "contact updates", "AMG filter")), runs["squash"]["effects"])

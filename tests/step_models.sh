@@ -47,7 +47,8 @@ press energy 2 energy 1
 press quadratic 2 quadratic 1
 press updated_2 2 energy 20
 press updated_5 5 energy 20
-for name in energy quadratic updated_2 updated_5; do run "$name"; done
+press untrue 2 energy 2
+for name in energy quadratic updated_2 updated_5 untrue; do run "$name"; done
 
 # one step that is too large turns elements inside out; cut, it ends where small steps end
 cat > squash.yaml <<'YAML'

@@ -75,7 +75,7 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
     ContactPairData *pair = &contact->pairs[p];
 
     pair->distance = pair->given > 0.0 ? pair->given : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
-    pair->depth    = contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair);
+    pair->depth    = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
     if (pair->gap == GAP_NODE && !pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
   }
   PetscFunctionReturn(0);
@@ -210,47 +210,55 @@ static PetscErrorCode ContactDeform(Contact contact, Vec u)
 }
 
 /*@
-  ContactGetReach - How far apart facets pair, the least of all pairs whose search distance was not given
+  ContactGetReach - How far apart, and how deep in one another, facets pair
 
   Not Collective
 
   Input Parameter:
 . contact - the contact
 
-  Output Parameter:
-. reach - the distance, `PETSC_MAX_REAL` if every pair was given its own [length]
+  Output Parameters:
++ distance - the least distance of all pairs whose own was not given, `PETSC_MAX_REAL` if every pair's was [length]
+- depth    - the largest depth of all pairs [length]
 
   Level: intermediate
 
 .seealso: `ContactSetReach()`, `ContactLinearize()`
 @*/
-PetscErrorCode ContactGetReach(Contact contact, PetscReal *reach)
+PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *depth)
 {
   PetscFunctionBegin;
-  *reach = PETSC_MAX_REAL;
+  *distance = PETSC_MAX_REAL;
+  *depth    = 0.0;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
-    if (contact->pairs[p].given <= 0.0) *reach = PetscMin(*reach, contact->pairs[p].distance);
+    if (contact->pairs[p].given <= 0.0) *distance = PetscMin(*distance, contact->pairs[p].distance);
+    *depth = PetscMax(*depth, contact->pairs[p].depth);
   }
   PetscFunctionReturn(0);
 }
 
 /*@
-  ContactSetReach - Lets facets that are farther apart than usual pair, where a load step moves them far
+  ContactSetReach - Lets facets pair that are farther apart, or deeper in one another, than usual: where a load step moves them far
 
   Logically Collective
 
   Input Parameters:
-+ contact - the contact
-- reach   - the least distance of pairs whose search distance was not given, 0 for the usual [length]
++ contact  - the contact
+. distance - the least distance of pairs whose own was not given, 0 for the usual [length]
+- depth    - the least depth of all pairs, 0 for the usual [length]
 
   Level: intermediate
 
+  Note:
+  With a depth, facets pair whatever the angle of their opposing normals: to measure, not to linearize for a solve.
+
 .seealso: `ContactGetReach()`, `ContactLinearize()`
 @*/
-PetscErrorCode ContactSetReach(Contact contact, PetscReal reach)
+PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal depth)
 {
   PetscFunctionBegin;
-  contact->reach = reach;
+  contact->reach       = distance;
+  contact->reach_depth = depth;
   PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }

@@ -78,7 +78,8 @@ struct _n_Contact {
   ContactPairData *pairs;
   ContactRows      rows;
   ContactNormals   normals;
-  PetscReal        reach;        /* what pairs without a distance of their own look for at least [length] */
+  PetscReal        reach;        /* distance that pairs without one of their own look for at least [length] */
+  PetscReal        reach_depth;  /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
   PetscReal        depth;        /* 0: from the thickness of the bodies */
   PetscReal        cosine;       /* facets pair when n1.n2 is at most this */
   PetscReal        overlap_drop; /* relative to the smaller facet's area */

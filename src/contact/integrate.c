@@ -78,7 +78,7 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
 static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar, ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
-  const ContactOverlapLimits limits = {contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
   ContactNear                near;
 
   PetscFunctionBegin;

@@ -30,17 +30,18 @@ typedef struct {
   size_t     length;
 } GmshCheck;
 
-/* Keeps the first complaint; always false */
-static PetscBool Wrong(GmshCheck *check, const char format[], ...)
+/* Keeps the first complaint */
+static void Complain(GmshCheck *check, const char format[], ...)
 {
   va_list args;
 
-  if (check->sentence[0]) return PETSC_FALSE;
+  if (check->sentence[0]) return;
   va_start(args, format);
   (void)vsnprintf(check->sentence, check->length, format, args);
   va_end(args);
-  return PETSC_FALSE;
 }
+
+#define Wrong(...) (Complain(__VA_ARGS__), PETSC_FALSE)
 
 /* A word and the one blank after it */
 static PetscBool GetWord(GmshCheck *check, char word[GMSH_WORD])

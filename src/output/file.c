@@ -87,9 +87,8 @@ static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *functio
 PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
 {
   char           part[PETSC_MAX_PATH_LEN];
-  PetscViewer    viewer = NULL;
+  PetscViewer    viewer;
   PetscBool      other;
-  PetscMPIInt    size;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
@@ -100,11 +99,9 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
-  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others.
-     HDF5 would close what is left open after MPI has ended, and crash */
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (ierr && size == 1) (void)PetscViewerDestroy(&viewer);
   PetscCall(PetscPopErrorHandler());
+  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
+  if (ierr && other) (void)remove(part);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
   PetscCall(FileCommit(comm, file));
   PetscFunctionReturn(0);

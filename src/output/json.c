@@ -79,6 +79,7 @@ static void WriteStep(FILE *stream, const RunReport *report, const StepReport *s
   WriteReal(stream, "gap_min", (double)step->gap_min, next);
   WriteReal(stream, "gap_true", (double)step->gap_true, next);
   WriteReal(stream, "gap_change", (double)step->gap_change, next);
+  fprintf(stream, "\"gap_untrue\": %s%s", step->gap_untrue ? "true" : "false", next);
   WriteReal(stream, "complementarity", (double)step->complementarity, next);
   WriteReal(stream, "action_reaction", (double)step->action_reaction, next);
   WriteErrors(stream, report, step, next);
@@ -145,6 +146,10 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   WriteReal(stream, "condition", (double)report->contact_free.condition, ",\n    ");
   WriteReal(stream, "bound", (double)report->contact_free.bound, ",\n    ");
   WriteReal(stream, "solve_time", report->contact_free.solve_time, "\n  },\n  ");
+  fputs("\"memory\": {\n    ", stream);
+  WriteReal(stream, "start", report->memory.start, ",\n    ");
+  WriteReal(stream, "mesh", report->memory.mesh, ",\n    ");
+  WriteReal(stream, "assembly", report->memory.assembly, "\n  },\n  ");
   WriteReal(stream, "peak_memory_bytes", report->peak_memory_bytes, "\n}\n");
   PetscFunctionReturn(0);
 }

@@ -109,6 +109,16 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
   PetscFunctionReturn(0);
 }
 
+/* Where the peak comes from: the growth of the resident set in each phase, per unknown */
+static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
+{
+  const double n = report->dofs ? 1e3 * (double)report->dofs : 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n", report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n, (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n, (report->peak_memory_bytes - report->memory.assembly) / n));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    ReportViewEffects - Prints what the scene called for and what it did not, why, and the share of the time
 
@@ -164,6 +174,6 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
   PetscCall(ViewContactFree(report, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown\n", report->peak_memory_bytes / 1e6, report->dofs ? report->peak_memory_bytes / 1e3 / (double)report->dofs : 0.0));
+  PetscCall(ViewMemory(report, viewer));
   PetscFunctionReturn(0);
 }

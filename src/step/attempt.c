@@ -57,9 +57,9 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
   PetscCall(VecNorm(du, NORM_INFINITY, &moved));
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
-    PetscCall(ContactSetReach(sim->contact, *reach));
+    PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
     PetscCall(LinearizeGap(sim, u_linearized, &wide));
-    PetscCall(ContactSetReach(sim->contact, 0.0));
+    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
     PetscCall(VecGetSize(gap, &nrows));
@@ -79,16 +79,60 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
 /* With the gap linearized at u_linearized, of all faces that can meet */
 static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol)
 {
-  PetscReal reach;
+  PetscReal reach, depth;
   PetscBool missed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetReach(p->sim->contact, &reach));
+  PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p->sim, u_linearized, u, &reach, &missed));
   } while (report->converged && missed);
+  PetscFunctionReturn(0);
+}
+
+/* The scene asked for the true gap and its limit on linearizations came first: the step stands, and says so */
+static PetscErrorCode AttemptSayUntrue(StepReport *report)
+{
+  char reason[128];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "converged, but after %" PetscInt_FMT " linearizations of the gap it is still off by %g", report->contact_updates, (double)report->gap_change));
+  PetscCall(ReportReason(report, PETSC_TRUE, reason));
+  PetscFunctionReturn(0);
+}
+
+/*
+   A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a step that was
+   too large left it deeper in the other body than the search looks. The second is no solution.
+*/
+static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report)
+{
+  ContactLinearization deep;
+  PetscBool           *lost;
+  PetscReal            distance, depth, moved, least = 0.0;
+  PetscInt             nlost;
+  Vec                  du;
+  char                 sentence[128];
+
+  PetscFunctionBegin;
+  PetscCall(ContactMemoryFindLost(&sim->memory, at_u, &lost, &nlost));
+  if (nlost) {
+    PetscCall(VecDuplicate(u, &du));
+    PetscCall(VecWAXPY(du, -1.0, u_linearized, u));
+    PetscCall(VecNorm(du, NORM_INFINITY, &moved));
+    PetscCall(VecDestroy(&du));
+    PetscCall(ContactGetReach(sim->contact, &distance, &depth));
+    PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
+    PetscCall(LinearizeGap(sim, u, &deep));
+    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+    PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
+    PetscCall(ContactLinearizationDestroy(&deep));
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "faces that press on each other ended %g deep in one another, where they lose sight of each other", -(double)least));
+    if (least < -depth) PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  PetscCall(PetscFree(lost));
   PetscFunctionReturn(0);
 }
 
@@ -106,6 +150,8 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
     if (!report->converged) break;
     ++report->contact_updates;
     PetscCall(LinearizeGap(sim, u, at_u));
+    PetscCall(AttemptFindLost(sim, u_linearized, u, *at_u, report));
+    if (!report->converged) break;
     PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
     if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Gap linearized %" PetscInt_FMT " times: smallest true gap %g, off the linearized one by %g\n", k + 1, (double)report->gap_true, (double)report->gap_change));
     if (is_true || k + 1 == sim->scene->contact_updates) break;
@@ -116,6 +162,8 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
     PetscCall(VecCopy(u, u_linearized));
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
+  report->gap_untrue = (PetscBool)(report->converged && !is_true && sim->scene->contact_updates > 1);
+  if (report->gap_untrue) PetscCall(AttemptSayUntrue(report));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,8 @@
 /* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
 #include "stepimpl.h"
 
+static const PetscReal negligible = 1e-3; /* of the largest pressure */
+
 PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
 {
   PetscFunctionBegin;
@@ -57,20 +59,27 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm, PetscReal *largest)
+{
+  PetscFunctionBegin;
+  *largest = 0.0;
+  for (PetscInt k = 0; k < m->npairs * (m->vend - m->vstart); ++k) *largest = PetscMax(*largest, m->pressure[k]);
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
 /*
    How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under pressure, and
    as penetration over the others, whose open gap does not matter.
 */
 PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization lin, PetscReal *change)
 {
-  const PetscReal    negligible = 1e-3; /* of the largest pressure */
   const PetscScalar *g;
-  PetscReal          largest = 0.0, worst = 0.0;
+  PetscReal          largest, worst = 0.0;
   MPI_Comm           comm = PetscObjectComm((PetscObject)lin->g);
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < lin->nlocal; ++i) largest = PetscMax(largest, m->pressure[ContactMemoryIndex(m, lin, i)]);
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCall(ContactMemoryLargest(m, comm, &largest));
   PetscCall(VecGetArrayRead(lin->g, &g));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
     const PetscInt  k   = ContactMemoryIndex(m, lin, i);
@@ -80,6 +89,40 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
   PetscCall(MPIU_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
+PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearization lin, PetscBool **lost, PetscInt *nlost)
+{
+  const PetscInt n    = m->npairs * (m->vend - m->vstart);
+  const MPI_Comm comm = PetscObjectComm((PetscObject)lin->g);
+  PetscReal      largest;
+
+  PetscFunctionBegin;
+  *nlost = 0;
+  PetscCall(ContactMemoryLargest(m, comm, &largest));
+  PetscCall(PetscMalloc1(n, lost));
+  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible * largest);
+  for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactMemoryIndex(m, lin, i)] = PETSC_FALSE;
+  for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Smallest gap of those vertices in a linearization that looks deeper; 0 if they have no row there either */
+PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool lost[], ContactLinearization lin, PetscReal *least)
+{
+  const PetscScalar *g;
+
+  PetscFunctionBegin;
+  *least = 0.0;
+  PetscCall(VecGetArrayRead(lin->g, &g));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    if (lost[ContactMemoryIndex(m, lin, i)]) *least = PetscMin(*least, PetscRealPart(g[i]));
+  }
+  PetscCall(VecRestoreArrayRead(lin->g, &g));
+  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, least, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)lin->g)));
   PetscFunctionReturn(0);
 }
 

@@ -211,6 +211,15 @@ PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
   PetscFunctionReturn(0);
 }
 
+/* The resident set now, summed over ranks */
+PetscErrorCode ReportResident(MPI_Comm comm, PetscLogDouble *bytes)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemoryGetCurrentUsage(bytes));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ReportMemory(MPI_Comm comm, PetscLogDouble *bytes)
 {
   struct rusage usage;

@@ -140,15 +140,18 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   s->scene = scene;
   PetscCall(SimulationSetFromOptions(s));
   PetscCall(PetscTime(&s->start));
+  PetscCall(ReportResident(comm, &s->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreate(comm, scene->nbodies, scene->bodies, scene->refine, &s->dm));
   PetscCall(MeshCheckScene(s->dm, scene));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(ReportResident(comm, &s->report.memory.mesh));
   PetscCall(DMCreateGlobalVector(s->dm, &s->path.u));
   PetscCall(VecSet(s->path.u, 0.0));
   PetscCall(VecDuplicate(s->path.u, &s->path.previous_u));
   PetscCall(VecSet(s->path.previous_u, 0.0));
   PetscCall(SimulationCreateElasticity(s));
+  PetscCall(ReportResident(comm, &s->report.memory.assembly));
   PetscCall(SimulationCreateContact(s));
   PetscCall(SimulationCreateReport(s));
   *sim = s;
@@ -252,7 +255,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
-  }
+  } else if (report->gap_untrue) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
   PetscFunctionReturn(0);
 }

@@ -143,12 +143,15 @@ PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemo
 PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost, PetscInt *nlost);
+PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization, PetscReal *least);
 PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
 
 PETSC_INTERN PetscErrorCode ReportForces(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
+PETSC_INTERN PetscErrorCode ReportResident(MPI_Comm, PetscLogDouble *bytes);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
