@@ -41,10 +41,11 @@ print("  the summary says so: converged %s, load steps %s" % (run["converged"], 
 PY
 
 # The second load step's file goes where there is no room
+sed 's/-1.5/-0.1/' crush.yaml > press.yaml
 for ranks in 1 2; do
   rm -f full*
   ln -s /dev/full full_0002.h5
-  try "full disk, $ranks ranks" mpiexec --oversubscribe -n $ranks "$contact" "$blocks" -refine 0 -load_steps 2 -output full
+  try "full disk, ranks: $ranks" mpiexec --oversubscribe -n $ranks "$contact" press.yaml -output full
   written full_0001.h5
 done
 try "full disk for the summary" "$contact" "$blocks" -refine 0 -load_steps 1 -summary /dev/full
@@ -54,10 +55,10 @@ echo "full disk for what is printed
   exit $([ $? -eq 0 ] && echo 0 || echo 'not 0'): $(grep 'contact: ' err)"
 
 # One rank is gone without a word: mpiexec ends the others
-mpiexec --oversubscribe -n 3 "$contact" "$blocks" -refine 1 -load_steps 40 -output killed > run.log 2>&1 &
+mpiexec --oversubscribe -n 3 "$contact" press.yaml -load_steps 100000 -output killed > run.log 2>&1 &
 pid=$!
 for i in $(seq 900); do
-  [ -f killed_0001.h5 ] && break
+  [ -f killed_000001.h5 ] || [ -f killed_0001.h5 ] && break
   sleep 0.1
 done
 ranks=$(pgrep -P $pid)

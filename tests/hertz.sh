@@ -1,7 +1,12 @@
 # Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one to the next;
-# check_hertz.py holds pressures, contact areas and approaches against the exact solutions.
+# check_hertz.py holds pressures, contact areas and approaches against the exact solutions. Then SSNV104 as shipped.
 run() {
   "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" || echo "$1: exit code $?"
+}
+
+shipped() {
+  cp "$AMGF_DIR/share/scenes/$1.yaml" "$2.yaml"
+  run "$2"
 }
 
 sphere() { # name, cells along x and y, grading, even; layers, grading, even
@@ -11,8 +16,7 @@ sphere() { # name, cells along x and y, grading, even; layers, grading, even
 }
 sphere sphere_coarse 11 312.5 5 9 0.005304 3
 sphere sphere_medium 15 334.5 6 12 0.004552 4
-cp "$AMGF_DIR/share/scenes/hertz_sphere.yaml" sphere_fine.yaml
-run sphere_fine
+shipped hertz_sphere sphere_fine
 "$PYTHON" "$AMGF_DIR/tests/check_hertz.py" sphere sphere_coarse sphere_medium sphere_fine
 
 cylinder() { # name, cells around, grading, even; in the ring, grading, even
@@ -22,6 +26,8 @@ cylinder() { # name, cells around, grading, even; in the ring, grading, even
 }
 cylinder cylinder_coarse 19 361.2 6 14 0.004865 2
 cylinder cylinder_medium 28 432.9 9 20 0.00386 3
-cp "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" cylinder_fine.yaml
-run cylinder_fine
+shipped hertz_cylinder cylinder_fine
 "$PYTHON" "$AMGF_DIR/tests/check_hertz.py" cylinder cylinder_coarse cylinder_medium cylinder_fine
+
+shipped ssnv104 ssnv104
+"$PYTHON" "$AMGF_DIR/tests/check_hertz.py" ssnv104 ssnv104

@@ -367,11 +367,10 @@ int main(int argc, char **argv)
 
       test:
          suffix: 1
-         nsize: {{1 2 3}}
+         nsize: {{1 2}}
 
       test:
          suffix: direct
-         nsize: {{1 2}}
          output_file: output/ipfilter_nlp_1.out
          args: -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps
 

@@ -101,6 +101,7 @@ static PetscErrorCode BadShapes(void)
   const BadShape bad[]   = {
     {"box graded by -1",          {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, -1, 1}}},
     {"box graded by NaN",         {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, (PetscReal)NAN, 1}}},
+    {"too many even cells",       {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, 4, 1}, .even = {1, 3, 1}}},
     {"radii swapped",             TUBE(.cells = {1, 2, 1}, .tube = {.radii = {2, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"inner radius 0",            TUBE(.cells = {1, 2, 1}, .tube = {.radii = {0, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"angle 0",                   TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {90, 90}, .extent = {0, 1}})},

@@ -59,6 +59,7 @@ static PetscErrorCode GetPhysicalEntries(MPI_Comm comm, const SceneBody *body, P
   PetscInt64  length = 0;
 
   PetscFunctionBegin;
+  *entries = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no mesh file", body->name);
   if (rank == 0) {
@@ -263,7 +264,7 @@ static PetscErrorCode CutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, co
   PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 256, &facetface));
   for (PetscInt face = 0; face < nsurfaces; ++face) {
     for (PetscInt f = fstart; f < fend; ++f) {
-      PetscInt  vertices[4], *slot;
+      PetscInt  vertices[4] = {0}, *slot;
       PetscBool has;
 
       PetscCall(HasTag(dm, "Face Sets", surfaces[face], f, &has));

@@ -432,7 +432,7 @@ static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, Petsc
 
   PetscFunctionBegin;
   for (PetscInt64 b = 0; b < nblocks && *sound; ++b) {
-    PetscInt64 type, dim, typedim = 0, nnodes = 0, count;
+    PetscInt64 type = 0, dim = 0, typedim = 0, nnodes = 0, count = 0;
 
     PetscCall(CheckBlock(check, &dim, &type, &count, sound));
     if (*sound) *sound = GetType(check, type, &typedim, &nnodes);

@@ -131,7 +131,7 @@ PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char 
 PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal nvertices)
 {
   PetscFunctionBegin;
-  PetscCheck(nvertices < (PetscReal)(PETSC_MAX_INT / 16), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
+  PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
   PetscFunctionReturn(0);
 }
 

@@ -44,11 +44,12 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
   PetscCall(CheckCornerInside(comm, body, "outer", &body->octant.outer));
   if (body->octant.cap.radius > 0) PetscCall(CheckCornerInside(comm, body, "cap", &body->octant.cap));
   for (PetscInt i = 0; i < 3 * PetscSqr(samples + 1); ++i) {
-    PetscReal q[3], direction[3], inner, outer;
+    const PetscInt column = i / 3 % (samples + 1), row = i / 3 / (samples + 1);
+    PetscReal      q[3], direction[3], inner, outer;
 
     q[i % 3]       = 1;
-    q[(i + 1) % 3] = (PetscReal)(i / 3 % (samples + 1)) / samples;
-    q[(i + 2) % 3] = (PetscReal)(i / 3 / (samples + 1)) / samples;
+    q[(i + 1) % 3] = (PetscReal)column / samples;
+    q[(i + 2) % 3] = (PetscReal)row / samples;
     OctantDirection(q, direction);
     ShellDistances(body, direction, &inner, &outer);
     PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the inner surface must lie inside of the outer one, but in the direction (%g, %g, %g) they are %g and %g away from the corner", body->name, (double)direction[0], (double)direction[1], (double)direction[2], (double)inner, (double)outer);

@@ -70,7 +70,7 @@ def stack_weight(cells, weight=1.0):
 
 def slide(past, steps=8):
     """A block is pressed on a slab and moved along it until `past` of its length has left the slab's edge."""
-    to = 1.0 + past
+    to = 0.02 + past
     return {
         "bodies": [
             box("slab", (0, 0, 0), (2, 1, 1), (8, 4, 4), 10, 0.3),

@@ -1,0 +1,48 @@
+# Checks beyond `make check`: sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its own, a tree of links to
+# the sources, so that nothing of the ordinary build changes.
+
+SUPPRESSIONS   := $(CURDIR)/tests/suppressions
+SANITIZE_TESTS ?= mesh_gmsh* mesh_errors* scene_errors* scene_view* material_* output_* fuzz_corpus* elasticity_derivatives* contact_clip* contact_patch
+SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
+FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+FUZZ_TIME      ?= 600
+TIDY_FILES     ?= $(wildcard src/*/*.c apps/*.c pc_amgf/*.c tao_ipfilter/*.c)
+linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
+
+.PHONY: sanitize memcheck tidy fuzz
+
+# Symbols of what Open MPI loads and unloads are needed at the end, for the suppressions
+sanitize:
+	@$(call linked_tree,build/sanitize)
+	@ASAN_OPTIONS=fast_unwind_on_malloc=0 LSAN_OPTIONS=suppressions=$(SUPPRESSIONS)/lsan.supp:print_suppressions=0 \
+	  UBSAN_OPTIONS=print_stacktrace=1 $(MAKE) --no-print-directory -C build/sanitize check CFLAGS='$(SANITIZE_FLAGS)' TESTS='$(SANITIZE_TESTS)' TIMEOUT=600
+
+# Instructions of AVX-512 are beyond valgrind, and its threads take turns
+MEMCHECK := OPENBLAS_CORETYPE=Haswell valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+  --num-callers=30 --suppressions=$(SUPPRESSIONS)/valgrind.supp $(addprefix --suppressions=,$(wildcard /usr/share/openmpi/openmpi-valgrind.supp))
+
+memcheck:
+	@$(call linked_tree,build/memcheck)
+	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
+	$(MEMCHECK) build/memcheck/bin/contact tests/scene_every_key.yaml -scene_check > /dev/null
+	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
+	mpiexec --oversubscribe -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
+	@echo 'memcheck: clean'
+
+tidy:
+	@for file in $(TIDY_FILES); do \
+	  clang-tidy --quiet $$file -- -std=c11 -Iinclude -I$$(dirname $$file) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(shell $(CC) --showme:compile 2>/dev/null) 2> build/tidy.err \
+	    || { cat build/tidy.err; exit 1; }; done
+	@echo 'tidy: clean'
+
+# Findings are left in build/fuzz/found-*; what is worth keeping of them goes to tests/fuzz/corpus
+fuzz:
+	@$(call linked_tree,build/fuzz)
+	@OMPI_CC=clang $(MAKE) --no-print-directory -C build/fuzz lib/libcontact.a lib/libpetscamgf.so CFLAGS='$(FUZZ_FLAGS)'
+	@for target in gmsh scene; do \
+	  mkdir -p build/fuzz/corpus-$$target && \
+	  OMPI_CC=clang $(CC) $(FUZZ_FLAGS) -fsanitize=fuzzer -std=c11 -Iinclude $(PETSC_CFLAGS) tests/fuzz/$$target.c build/fuzz/lib/libcontact.a \
+	    -Lbuild/fuzz/lib -lpetscamgf -Wl,-rpath,$(CURDIR)/build/fuzz/lib $(PETSC_LIBS) -lmetis -lyaml -lm -o build/fuzz/$$target && \
+	  PETSC_OPTIONS=-no_signal_handler ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 build/fuzz/$$target build/fuzz/corpus-$$target tests/fuzz/corpus/$$target \
+	    -artifact_prefix=build/fuzz/found-$$target- -max_len=4096 -timeout=20 -rss_limit_mb=2000 -malloc_limit_mb=1000 -fork=1 -max_total_time=$(FUZZ_TIME) || exit 1; \
+	done
