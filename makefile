@@ -16,7 +16,7 @@ programs        := $(patsubst apps/%.c,bin/%,$(wildcard apps/*.c))
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all demo check install clean help dependencies FORCE
+.PHONY: all demo check stress install clean help dependencies FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -63,6 +63,11 @@ demo: dependencies
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
 
+stress: dependencies
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	@mkdir -p build/stress
+	$(PYTHON) -B tests/stress/run.py --report build/stress/report.md $(STRESS)
+
 install: all
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options share/amgf/gmsh)
 	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
@@ -81,6 +86,7 @@ help:
 	@echo 'make demo            installs what is missing, builds, and solves share/scenes/two_block.yaml'
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=120 [s] is the limit of one run'
+	@echo 'make stress          the cases that break solvers, hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
 	@echo 'make clean           removes build, bin and lib'
 	@echo

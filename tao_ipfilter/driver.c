@@ -43,6 +43,30 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
+/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero. Nothing
+   there gives a scale to measure errors by, so it is not left to the iteration to find out. */
+static PetscErrorCode TestFirstPoint(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     least = 0.0;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(VecMin(ip->c, NULL, &least));
+  if (ip->gradient0 > 0.0 || ip->equality0 > 0.0 || least < 0.0) PetscFunctionReturn(0);
+  if (ip->mi) {
+    PetscCall(VecCopy(ip->c, ip->pair[IP_SLACK].t));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, 0.0));
+  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
+  }
+  ip->mu = 0.0;
+  PetscCall(PetscMemzero(&ip->kkt, sizeof(ip->kkt)));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and violates nothing"));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ResetRecord(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -249,6 +273,8 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
     PetscFunctionReturn(0);
   }
   PetscCall(IPSetMultipliers(tao));
+  PetscCall(TestFirstPoint(tao));
+  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPStartPoint(tao));

@@ -244,7 +244,7 @@ static PetscErrorCode CheckVolumes(Scene scene, PetscInt levels)
 
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: ", scene->bodies[b].name));
       if (!curved) PetscCall(ProblemReport("facets kept, volume changes", PetscAbsReal(volume[1][b] - first[b]) / first[b], 1e-12));
-      else if (error < 1e-12) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume exact\n"));
+      else if (error < 1e-12 * exact[b]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume exact\n"));
       else if (ratio > 3.6 && ratio < 4.6 && error < 0.02 * exact[b]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume of second order\n"));
       else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume %g instead of %g, error falls by %g\n", (double)volume[1][b], (double)exact[b], (double)ratio));
     }

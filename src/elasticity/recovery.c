@@ -1,8 +1,8 @@
 /*
-   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, taken at the cells' centroids, are fitted
-   by a linear polynomial over the cells around a vertex. Around a vertex on a body's surface the cells lie on one side, so
-   there the polynomials of the interior vertices of the same cells are continued to it, and averaged: second order up to the surface. A
-   body of one layer of cells has no interior vertex; its vertices take the mean of their cells.
+   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, placed at the
+   cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a vertex on a body's surface
+   lie on one side of it; the polynomials of the interior vertices of these cells are continued to it, and averaged: second order up to
+   the surface. A body of one layer of cells has no interior vertex; its vertices take the mean of their cells.
 
    References:
    Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
@@ -11,9 +11,9 @@
 
 /* Of the cells around a node, their places relative to it */
 typedef struct {
-  PetscReal n, d[3], dd[6];                                    /* number, sum of places and of their products xx yy zz xy yz zx */
+  PetscReal n, d[3], dd[6];                                       /* number, sum of places and of their products xx yy zz xy yz zx */
   PetscReal s[ELASTICITY_RECOVERED], ds[3][ELASTICITY_RECOVERED]; /* sum of values, and of places times values */
-  PetscReal normal[3], area;                                   /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal normal[3], area;                                      /* sum of int grad N, which vanishes inside a body; sum of its lengths */
 } NodeSums;
 
 typedef struct {

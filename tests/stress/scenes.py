@@ -7,7 +7,7 @@ def box(name, lower, upper, cells, young, poisson, **more):
 
 def two_block(poisson=0.499, slab_young=1.0, block_young=1000.0, element="full", material="linear", slab_cells=(20, 6, 3), block_cells=(4, 4, 4),
               slab_lower=(-4.5, -2, -4.5), slab_upper=(4.5, 2, -1.5), block_x=(-3.5, -2.5), block_y=(-0.5, 0.5), height=1.0, lift=0.0,
-              push=-5 / 7, steps=2, **top):
+              push=-5 / 7, steps=2, pair=None, **top):
     """share/scenes/two_block.yaml; `lift` is the gap between the two at the start, `push` what the top is moved by."""
     floor = slab_upper[2] + lift
     return {
@@ -16,7 +16,7 @@ def two_block(poisson=0.499, slab_young=1.0, block_young=1000.0, element="full",
             box("block", (block_x[0], block_y[0], floor), (block_x[1], block_y[1], floor + height), block_cells, block_young, 0, material=material),
         ],
         "displacements": [{"bottom": {"face": "slab.zmin", "value": [0, 0, 0]}}, {"top": {"face": "block.zmax", "value": [0, 0, push]}}],
-        "contact": [{"blocks": {"mortar": "slab.zmax", "nonmortar": "block.zmin"}}],
+        "contact": [{"blocks": {"mortar": "slab.zmax", "nonmortar": "block.zmin", **(pair or {})}}],
         "load": {"steps": steps},
         **top,
     }

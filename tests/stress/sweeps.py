@@ -34,7 +34,7 @@ def penetration(run):
 def materials():
     for nu in (0, 0.3, 0.49, 0.499, 0.4999, 0.49999):
         for element in ("full", "bbar"):
-            yield Row("Poisson's ratio", f"nu {nu}, {element}", scenes.two_block(poisson=nu, element=element), quick=nu in (0, 0.49999))
+            yield Row("Poisson's ratio", f"nu {nu}, {element}", scenes.two_block(poisson=nu, element=element), quick=nu == 0.49999)
     for ratio in (1e-6, 1e-3, 1e-1, 1, 1e1, 1e3, 1e6):
         yield Row("stiffness of block over slab", f"{ratio:g}", scenes.two_block(poisson=0.3, block_young=ratio), quick=ratio in (1e-6, 1e6))
 
@@ -52,8 +52,10 @@ def meshes():
 
 
 def gaps():
+    # deeper than the block is thick on average, facets are taken to face each other through a body unless the pair's distance says more
     for overlap in (1e-3, 0.125, 0.25, 0.5):
-        yield Row("overlap at the start, in slab cells", f"{overlap:g}", scenes.two_block(lift=-overlap, push=0, steps=1, contact_updates=20), quick=overlap == 0.5,
+        pair = {"distance": 0.6} if overlap == 0.5 else {}
+        yield Row("overlap at the start, in slab cells", f"{overlap:g}", scenes.two_block(lift=-overlap, push=0, steps=1, contact_updates=20, pair=pair), quick=overlap == 0.25,
                   checks=[("true penetration", penetration, 0, 1e-5), ("rows", rows_of, 25, 0)])
     for lift in (0, 1e-14, -1e-14, 1e-8):
         yield Row("gap at the start", f"{lift:g}", scenes.two_block(lift=lift), quick=lift == 1e-14)

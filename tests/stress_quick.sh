@@ -1,0 +1,2 @@
+# The quick rows of the sweeps of `make stress`: each must end as it should, at the energy that MUMPS comes to
+cd "$AMGF_DIR/tests/stress" && "$PYTHON" run.py --quick --folder "$OLDPWD/stress"
