@@ -170,6 +170,7 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
+  if (!traceback) PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
 

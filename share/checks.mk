@@ -24,7 +24,7 @@ MEMCHECK := OPENBLAS_CORETYPE=Haswell valgrind --quiet --error-exitcode=1 --leak
 memcheck:
 	@$(call linked_tree,build/memcheck)
 	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
-	$(MEMCHECK) build/memcheck/bin/contact tests/scene_every_key.yaml -scene_check > /dev/null
+	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -scene_check > /dev/null
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
 	mpiexec --oversubscribe -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
 	@echo 'memcheck: clean'

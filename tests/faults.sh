@@ -7,7 +7,7 @@ blocks=$AMGF_DIR/share/scenes/two_block.yaml
 try() {
   echo "$1"
   shift
-  timeout 100 "$@" -quiet > out 2> err
+  timeout 200 "$@" -quiet > out 2> err
   code=$?
   echo "  exit $([ $code -eq 0 ] && echo 0 || { [ $code -eq 124 ] && echo hang || echo 'not 0'; }): $(grep -ah 'contact: ' err | head -n 1 |
     sed -e "s|$PWD/||g" -e 's/KKT error .*/KKT error/' -e 's/||b - A d|| = .*/.../' -e 's/full? .*/full?/')"
@@ -55,10 +55,11 @@ echo "full disk for what is printed
   exit $([ $? -eq 0 ] && echo 0 || echo 'not 0'): $(grep 'contact: ' err)"
 
 # One rank is gone without a word: mpiexec ends the others
+rm -f killed*
 mpiexec --oversubscribe -n 3 "$contact" press.yaml -load_steps 100000 -output killed > run.log 2>&1 &
 pid=$!
 for i in $(seq 900); do
-  [ -f killed_000001.h5 ] || [ -f killed_0001.h5 ] && break
+  [ -f killed_0002.h5 ] && break
   sleep 0.1
 done
 ranks=$(pgrep -P $pid)
