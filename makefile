@@ -78,6 +78,8 @@ install: all
 	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*),install -m 644 $(wildcard share/$(kind)/*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
 
+include share/checks.mk
+
 clean:
 	rm -rf build bin lib
 
@@ -87,6 +89,7 @@ help:
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=120 [s] is the limit of one run'
 	@echo 'make stress          the cases that break solvers, hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some'
+	@echo 'make sanitize        quick tests with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
 	@echo 'make clean           removes build, bin and lib'
 	@echo

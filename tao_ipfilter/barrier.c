@@ -112,8 +112,9 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is left for the monotone one
-   while the KKT error does not fall. */
+/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives and linear
+   constraints, whose affine step tells what mu can become: it is left for the monotone one where they show themselves as
+   something else, and while the KKT error does not fall. */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -125,7 +126,7 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscFunctionReturn(0);
   }
   was_free    = ip->free_mu;
-  ip->free_mu = (PetscBool)(Progress(ip) && ip->hold == 0);
+  ip->free_mu = (PetscBool)(Progress(ip) && ip->hold == 0 && !ip->curved);
   if (ip->hold > 0) ip->hold--;
   if (ip->free_mu) PetscFunctionReturn(0);
   if (was_free) PetscCall(Hold(tao));

@@ -79,9 +79,11 @@ static PetscErrorCode ResetRecord(Tao tao)
   ip->equality0    = 0.0;
   ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
   ip->nacceptable  = 0;
+  ip->curved       = PETSC_FALSE;
   ip->hold         = 0;
   ip->ntiny        = 0;
   ip->nrestored    = 0;
+  ip->relaxed      = 0.0;
   ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
   ip->nregularized = ip->nretried = 0;
   ip->theta0       = -1.0;
@@ -159,6 +161,20 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away */
+static PetscErrorCode Conclude(Tao tao)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal most  = 1e4;
+  PetscReal       times = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPCancellation(tao, &times));
+  if (times <= most) PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)ip->kkt.error, (double)ip->tol));
+  else PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but by multipliers %g times larger than what they balance: bounded ones may not exist", (double)ip->kkt.error, (double)times));
+  PetscFunctionReturn(0);
+}
+
 /* Ends the iteration where the KKT error, a limit or the values themselves say so */
 static PetscErrorCode TestConvergence(Tao tao)
 {
@@ -173,7 +189,7 @@ static PetscErrorCode TestConvergence(Tao tao)
   if (IPUndefined(k->error) || IPUndefined(ip->f)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
   } else if (k->error <= ip->tol) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)k->error, (double)ip->tol));
+    PetscCall(Conclude(tao));
   } else if (ip->f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->f, (double)tao->fmin));
   } else if (Unbounded(ip)) {
@@ -247,6 +263,7 @@ static PetscErrorCode Step(Tao tao)
 
   PetscFunctionBegin;
   tao->ksp_its = 0;
+  PetscCall(IPRelax(tao));
   PetscCall(IPBarrierUpdate(tao));
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
   PetscCall(IPComputeDirection(tao, &solved));

@@ -4,7 +4,7 @@
 /* Largest problem whose Hessian is differenced column by column */
 #define IP_FD_MAX 1000
 
-/* c_I - I_l with the lower bounds of TaoSetInequalityBounds(), and c_E, scaled */
+/* c_I - I_l with the lower bounds of TaoSetInequalityBounds(), and c_E, scaled; c_I relaxed */
 PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -14,6 +14,7 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
     PetscCall(TaoComputeInequalityConstraints(tao, x, c));
     if (tao->IL) PetscCall(VecAXPY(c, -1.0, tao->IL));
     if (ip->cscale) PetscCall(VecPointwiseMult(c, c, ip->cscale));
+    if (ip->relaxed > 0.0) PetscCall(VecShift(c, ip->relaxed));
   }
   if (ip->me) PetscCall(TaoComputeEqualityConstraints(tao, x, ce));
   if (ip->cescale) PetscCall(VecPointwiseMult(ce, ce, ip->cescale));

@@ -147,6 +147,7 @@ typedef struct {
   PetscBool free_mu;                 /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
   PetscReal error_history[4];        /* KKT errors that the free mode must improve on */
   PetscInt  nerror;
+  PetscBool curved;                  /* a step has shown constraints that are not linear, or an objective that is not convex */
   PetscInt  hold;                    /* mehrotra: iterations left in the monotone mode that a failed line search called for */
 
   /* line search */
@@ -160,6 +161,7 @@ typedef struct {
   /* restoration */
   PetscReal zeta;                    /* weight of the distance from the last point against the violation */
   PetscInt  nrestored;               /* restorations in this solve */
+  PetscReal relaxed;                 /* what c_I is raised by, for constraints without an interior */
 
   /* regularization */
   PetscReal delta, delta_last, hscale;
@@ -256,6 +258,7 @@ PETSC_INTERN PetscErrorCode IPHessianCreateFD(Tao);
 /* kkt.c */
 PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
+PETSC_INTERN PetscErrorCode IPCancellation(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
@@ -286,6 +289,9 @@ PETSC_INTERN PetscErrorCode IPSetTargets(Tao, PetscReal, PetscReal);
 
 /* restore.c */
 PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
+
+/* relax.c */
+PETSC_INTERN PetscErrorCode IPRelax(Tao);
 
 /* barrier.c */
 PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);

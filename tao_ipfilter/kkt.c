@@ -154,6 +154,55 @@ PetscErrorCode IPComputeScale(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
+static PetscErrorCode AddAbsoluteForces(Mat J, Vec multiplier, Vec weights, Vec work, Vec r)
+{
+  const PetscScalar *z;
+  PetscInt           rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(multiplier, work));
+  if (weights) PetscCall(VecPointwiseMult(work, work, weights));
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  PetscCall(VecGetArrayRead(work, &z));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscScalar *v;
+    const PetscInt    *column;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(J, i, &n, &column, &v));
+    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
+    PetscCall(MatRestoreRow(J, i, &n, &column, &v));
+  }
+  PetscCall(VecRestoreArrayRead(work, &z));
+  PetscCall(VecAssemblyBegin(r));
+  PetscCall(VecAssemblyEnd(r));
+  PetscFunctionReturn(0);
+}
+
+/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they cancel one
+   another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
+PetscErrorCode IPCancellation(Tao tao, PetscReal *times)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     force, gradient;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->xwork, 0.0));
+  if (ip->mi) PetscCall(AddAbsoluteForces(ip->cond.J, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w, ip->cwork, ip->xwork));
+  if (ip->me) PetscCall(AddAbsoluteForces(ip->JE, ip->y, NULL, ip->cetrial, ip->xwork));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecPointwiseMult(ip->xwork2, ip->pair[b].w, ip->pair[b].z));
+    PetscCall(VecAXPY(ip->xwork, 1.0, ip->xwork2));
+  }
+  PetscCall(VecNorm(ip->xwork, NORM_INFINITY, &force));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  gradient = PetscMax(gradient, IP_SMALL * ip->gradient0);
+  *times   = gradient > 0.0 ? force / gradient : 0.0;
+  PetscFunctionReturn(0);
+}
+
 /* sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s), with r_s = M_s (lambda - z) */
 static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
 {

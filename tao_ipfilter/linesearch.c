@@ -156,11 +156,12 @@ static PetscErrorCode Acceptable(Tao tao, PetscReal alpha, PetscReal slope, Pets
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscReal first = ip->scaling == IP_SCALING_NONE ? PetscMax(1.0, ip->theta0) : PetscMax(ip->theta_ref, ip->theta0);
   const PetscReal least = ip->theta_min_fact * first, slack = ip->rounding;
+  const PetscBool alone = (PetscBool)(ip->theta <= 0.0); /* no violation that could fall instead */
 
   PetscFunctionBegin;
-  *objective = (PetscBool)(ip->theta <= least && Switching(ip, alpha, slope));
+  *objective = (PetscBool)(alone || (ip->theta <= least && Switching(ip, alpha, slope)));
   if (theta > ip->theta_max_fact * first) *accepted = PETSC_FALSE;
-  else if (*objective) *accepted = (PetscBool)(phi - ip->phi <= ip->eta_phi * alpha * slope + slack);
+  else if (*objective) *accepted = (PetscBool)(phi - ip->phi <= ip->eta_phi * alpha * PetscMin(slope, 0.0) + slack);
   else *accepted = (PetscBool)(theta <= (1.0 - ip->gamma_theta) * ip->theta || phi - ip->phi <= -ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta + slack);
   if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - slack, accepted));
   PetscFunctionReturn(0);
@@ -215,6 +216,33 @@ PetscErrorCode IPFilterAdd(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->gamma_theta) * ip->theta, ip->phi - ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta));
+  PetscFunctionReturn(0);
+}
+
+/* Whether residuals of the constraints at the trial point are other than the 1 - alpha times the present ones that linear
+   constraints leave */
+static PetscErrorCode TestLinearity(Tao tao, PetscReal alpha)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal some = 1e-2;
+  PetscReal       error, change;
+
+  PetscFunctionBegin;
+  if (ip->curved) PetscFunctionReturn(0);
+  if (ip->mi) {
+    IPPair *p = &ip->pair[IP_SLACK];
+
+    PetscCall(VecWAXPY(ip->cwork, -1.0, p->trial, ip->ctrial));
+    PetscCall(VecAXPY(ip->cwork, alpha - 1.0, ip->rc));
+    PetscCall(VecNorm(ip->cwork, NORM_INFINITY, &error));
+    PetscCall(VecNorm(p->dt, NORM_INFINITY, &change));
+    ip->curved = (PetscBool)(error > some * alpha * change);
+  }
+  if (ip->me) {
+    PetscCall(VecWAXPY(ip->cesoc, alpha - 1.0, ip->ce, ip->cetrial));
+    PetscCall(VecNorm(ip->cesoc, NORM_INFINITY, &error));
+    ip->curved = (PetscBool)(ip->curved || error > some * ip->scale.equality);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -292,6 +320,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     ip->nls++;
     PetscCall(TrialPoint(tao, alpha, &theta, &phi, &finite));
     if (finite) PetscCall(Acceptable(tao, alpha, slope, theta, phi, ok, &objective));
+    if (finite && ip->nls == 1) PetscCall(TestLinearity(tao, alpha));
     if (*ok) PetscCall(Accept(tao, alpha, dual, objective, PETSC_FALSE));
     else if (finite && ip->nls == 1) PetscCall(SecondOrderCorrection(tao, alpha, slope, theta, tau, ok));
   }

@@ -230,5 +230,6 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   ip->delta_last    = ip->delta;
   ip->delta_largest = PetscMax(ip->delta_largest, ip->delta);
   ip->nregularized++;
+  ip->curved = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -16,7 +16,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
 {
   SceneKeys      k;
   PetscMPIInt    rank;
-  PetscBool      exists = PETSC_FALSE, nested = PETSC_FALSE;
+  PetscBool      exists = PETSC_FALSE;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
@@ -24,9 +24,9 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   if (rank == 0) PetscCall(PetscTestFile(file, 'r', &exists));
   PetscCallMPI(MPI_Bcast(&exists, 1, MPIU_BOOL, 0, comm));
   PetscCheck(exists, comm, PETSC_ERR_FILE_OPEN, "there is no readable scene file \"%s\"", file);
-  if (rank == 0) PetscCall(SceneFindNestedAlias(file, &nested));
-  PetscCallMPI(MPI_Bcast(&nested, 1, MPIU_BOOL, 0, comm));
-  PetscCheck(!nested, comm, PETSC_ERR_FILE_READ, "%s: the value of an anchor (&name) holds an alias (*name), which scenes may not do", file);
+  if (rank == 0) PetscCall(SceneCheckYAML(file, sizeof(yaml_complaint), yaml_complaint));
+  PetscCallMPI(MPI_Bcast(yaml_complaint, sizeof(yaml_complaint), MPI_CHAR, 0, comm));
+  PetscCheck(!yaml_complaint[0], comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, yaml_complaint);
   PetscCall(PetscNew(&k));
   k->comm = comm;
   k->file = file;

@@ -20,8 +20,8 @@ typedef struct {
 #define SCENE_LOAD_RAMP  "load" /* ramp 0: the load itself */
 #define SCENE_MAX_STEPS  1000000
 
-/* Not collective: does an anchored value of a YAML file hold an alias? */
-PETSC_INTERN PetscErrorCode SceneFindNestedAlias(const char file[], PetscBool *nested);
+/* Not collective: what is wrong with a YAML file, in a sentence of so many characters, or "" */
+PETSC_INTERN PetscErrorCode SceneCheckYAML(const char file[], size_t length, char sentence[]);
 
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);

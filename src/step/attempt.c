@@ -105,9 +105,9 @@ static PetscErrorCode AttemptSayUntrue(StepReport *report)
 
 /*
    A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a step that was
-   too large left it deeper in the other body than the search looks. The second is no solution.
+   too large left it deeper in the other body than the search looks. The second is no solution; the first is one only without it.
 */
-static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report)
+static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *slid)
 {
   ContactLinearization deep;
   PetscBool           *lost;
@@ -118,6 +118,7 @@ static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, C
 
   PetscFunctionBegin;
   PetscCall(ContactMemoryFindLost(&sim->memory, at_u, &lost, &nlost));
+  *slid = (PetscBool)(nlost > 0);
   if (nlost) {
     PetscCall(VecDuplicate(u, &du));
     PetscCall(VecWAXPY(du, -1.0, u_linearized, u));
@@ -141,7 +142,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
 {
   Simulation sim          = p->sim;
   Vec        u_linearized = sim->path.u;
-  PetscBool  is_true      = PETSC_FALSE;
+  PetscBool  is_true      = PETSC_FALSE, slid = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -150,9 +151,10 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
     if (!report->converged) break;
     ++report->contact_updates;
     PetscCall(LinearizeGap(sim, u, at_u));
-    PetscCall(AttemptFindLost(sim, u_linearized, u, *at_u, report));
+    PetscCall(AttemptFindLost(sim, u_linearized, u, *at_u, report, &slid));
     if (!report->converged) break;
     PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
+    is_true = (PetscBool)(is_true && !slid);
     if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Gap linearized %" PetscInt_FMT " times: smallest true gap %g, off the linearized one by %g\n", k + 1, (double)report->gap_true, (double)report->gap_change));
     if (is_true || k + 1 == sim->scene->contact_updates) break;
     PetscCall(ContactLinearizationDestroy(&sim->linearization));

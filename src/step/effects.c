@@ -10,10 +10,11 @@ typedef enum {
   EFFECT_PRESSURE,
   EFFECT_BODY_FORCE,
   EFFECT_BOUNDS,
+  EFFECT_ESTIMATE,
   EFFECT_COUNT
 } EffectType;
 
-static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "pressure", "body force", "displacement bounds"};
+static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "pressure", "body force", "displacement bounds", "error estimate"};
 
 static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
 
@@ -53,6 +54,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));
+  PetscCall(EffectSet(report, EFFECT_ESTIMATE, sim->estimate, sim->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
   PetscFunctionReturn(0);
 }
 
@@ -62,8 +64,9 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
   PetscInt systems = 0, filtered = 0;
 
   PetscFunctionBegin;
-  report->effects[EFFECT_CONTACT].time = report->time.contact;
-  report->effects[EFFECT_FILTER].time  = report->time.filter_setup + report->time.filter_apply;
+  report->effects[EFFECT_CONTACT].time  = report->time.contact;
+  report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
+  report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
   if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
   if (!sim->contact) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < report->nsteps; ++s) {
