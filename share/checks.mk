@@ -26,7 +26,7 @@ memcheck:
 	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -scene_check > /dev/null
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
-	mpiexec --oversubscribe -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
+	mpiexec --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
 	@echo 'memcheck: clean'
 
 tidy:

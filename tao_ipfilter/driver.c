@@ -84,6 +84,7 @@ static PetscErrorCode ResetRecord(Tao tao)
   ip->ntiny        = 0;
   ip->nrestored    = 0;
   ip->relaxed      = 0.0;
+  ip->nvanished    = 0;
   ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
   ip->nregularized = ip->nretried = 0;
   ip->theta0       = -1.0;

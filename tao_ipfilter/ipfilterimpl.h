@@ -162,6 +162,7 @@ typedef struct {
   PetscReal zeta;                    /* weight of the distance from the last point against the violation */
   PetscInt  nrestored;               /* restorations in this solve */
   PetscReal relaxed;                 /* what c_I is raised by, for constraints without an interior */
+  PetscInt  nvanished;               /* iterates in a row that have a slack of next to nothing */
 
   /* regularization */
   PetscReal delta, delta_last, hscale;

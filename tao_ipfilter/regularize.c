@@ -116,7 +116,7 @@ static PetscErrorCode AssembleSystem(Tao tao)
 }
 
 /* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
-   guess of the direction proper */
+   guess of the direction proper. */
 static PetscErrorCode SolveSystem(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

@@ -26,16 +26,18 @@ static PetscErrorCode Recenter(Tao tao, PetscReal r)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes the constraints where a slack has vanished though the KKT error has not */
+/* Relaxes the constraints where a slack has vanished for some steps in a row though the KKT error has not */
 PetscErrorCode IPRelax(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     least, size;
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscInt most = 2;
+  PetscReal      least, size;
 
   PetscFunctionBegin;
   if (!ip->mi || ip->relaxed > 0.0 || ip->free_mu) PetscFunctionReturn(0);
   PetscCall(VecMin(ip->pair[IP_SLACK].t, NULL, &least));
-  if (least > IP_LEAST_SLACK * ip->scale.length) PetscFunctionReturn(0);
+  ip->nvanished = least > IP_LEAST_SLACK * ip->scale.length ? 0 : ip->nvanished + 1;
+  if (ip->nvanished < most) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
   ip->relaxed = ip->tol * PetscMax(size, ip->length0);
   PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)least, (double)ip->relaxed));

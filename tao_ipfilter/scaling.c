@@ -5,7 +5,7 @@
 */
 #include "ipfilterimpl.h"
 
-#define IP_LEAST_SCALE 1e-8
+#define IP_LEAST_SCALE 1e-20
 
 /* d = NULL where no row is larger than ratio times the smallest nonzero one */
 static PetscErrorCode RowScale(Mat J, Vec layout, PetscReal ratio, Vec *d)

@@ -258,6 +258,13 @@ static PetscReal ObjectiveError(const NLP *p, PetscReal f)
   return error;
 }
 
+/* Without multipliers: no optimum, or one that is called acceptable; "converged" only where it is one */
+static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentence, PetscReal error, PetscReal violation)
+{
+  if (reason < 0) return (PetscBool)!strstr(sentence, "infeasible");
+  return (PetscBool)(violation < 1e-6 && error < (reason == TAO_CONVERGED_STEPTOL ? 1e-3 : 1e-6));
+}
+
 /* What is to be seen: the known optimum at a feasible point; or that there is none */
 static PetscErrorCode Report(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, PetscBool table)
 {
@@ -276,7 +283,7 @@ static PetscErrorCode Report(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, Petsc
   PetscCall(Violation(ctx, x, xl, xu, &violation));
   error = ObjectiveError(p, f);
   if (p->end == NLP_SOLVED) good = (PetscBool)(reason > 0 && error < 1e-6 && violation < 1e-6);
-  else if (p->end == NLP_DEGENERATE) good = (PetscBool)((reason < 0 && !strstr(sentence, "infeasible")) || (error < 1e-3 && violation < 1e-6));
+  else if (p->end == NLP_DEGENERATE) good = DegenerateIsGood(reason, sentence, error, violation);
   else if (p->end == NLP_INFEASIBLE) good = (PetscBool)(reason < 0 && strstr(sentence, "infeasible"));
   else good = (PetscBool)(reason < 0 && strstr(sentence, "unbounded"));
   if (table) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%-12s %s %-24s f %16.9e error %8.1e violation %8.1e steps %4" PetscInt_FMT " evaluations %4" PetscInt_FMT "  %s\n", p->name, good ? "good" : "BAD ", TaoConvergedReasons[reason], (double)f, (double)error, (double)violation, its, nfuncs, sentence));

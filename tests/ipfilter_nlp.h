@@ -114,9 +114,11 @@ static const NLP problems[] = {
   /* indefinite Hessians; Newton's method left to itself ends in the saddle of the first */
   {"saddle", "-x1^2+x2^2", "", "", "-1:2 -1:2", "0.5 0.1", -4.0, NLP_SOLVED, NULL},
   {"bilinear", "x1*x2", "", "", "-1:2 -1:3", "-0.5 1.5", -3.0, NLP_SOLVED, "-2"},
+  {"bilinear2", "x1*x2", "", "", "-1:2 -1:3", "0.5 0.5", -3.0, NLP_SOLVED, "-2"},
+  {"bilinear3", "x1*x2", "", "", "-1:2 -1:3", "0.1 -0.2", -3.0, NLP_SOLVED, "-2"},
   {"concave", "-x1^2-x2^2", "1-x1-x2", "", "0: 0:", "0.1 0.5", -1.0, NLP_SOLVED, NULL},
   /* stated in units far off */
-  {"large", "1e8*((x1-2)^2+(x2-1)^2)", "1e4*(-x1-x2+2); 1e-4*(-x1^2+x2)", "", "", "2 2", 1e8, NLP_SOLVED, NULL},
+  {"large", "1e8*((x1-2)^2+(x2-1)^2)", "1e8*(-x1-x2+2); 1e-8*(-x1^2+x2)", "", "", "2 2", 1e8, NLP_SOLVED, NULL},
   {"small", "1e-8*(" HS71 ")", "1e8*(x1*x2*x3*x4-25)", "1e-8*(x1^2+x2^2+x3^2+x4^2-40)", "1:5 1:5 1:5 1:5", "1 5 5 1", 17.0140172892e-8, NLP_SOLVED, NULL},
 
   {"apart", "x1^2", "x1-1; -x1", "", "", "0.5", 0.0, NLP_INFEASIBLE, NULL},

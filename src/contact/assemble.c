@@ -120,7 +120,7 @@ static PetscErrorCode KeepRows(Contact contact, const Coupling *coupling, PetscI
   PetscCall(PetscCalloc1(rows->nlocal, &norm));
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
-    CouplingRow r;
+    CouplingRow r = {0};
 
     PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
     for (PetscInt c = 0; c < 3; ++c) {
@@ -206,7 +206,7 @@ static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, 
     for (PetscInt k = 0; k < nkept; ++k) {
       const PetscInt i = kept[k], row = jstart + k;
       PetscInt       n;
-      CouplingRow    r;
+      CouplingRow    r = {0};
 
       PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
       PetscCall(ExpandRow(&r, &n, column, entry));
@@ -262,7 +262,7 @@ static PetscErrorCode FillRows(Contact contact, const ContactAssembly *as, const
 /* Collective */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
-  Coupling  coupling;
+  Coupling  coupling = {0};
   PetscInt *kept;
 
   PetscFunctionBegin;

@@ -1,14 +1,11 @@
 /* Is a Gmsh file what it says it is? PETSc's reader trusts the numbers of nodes, elements and entities in it, and a wrong one
    is an address out of bounds there. The walk is PETSc's own: the same words, numbers and blanks in the same order */
 #include "mesh_private.h"
+#include "gmsh_stream.h"
 #include <petscbt.h>
-#include <ctype.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define GMSH_WORD     256
 #define GMSH_MAX_TAGS 100
 
 /* A quadrilateral of a cell: its nodes in ascending order, and the one across from the first */
@@ -17,138 +14,13 @@ typedef struct {
 } Facet;
 
 typedef struct {
-  FILE      *stream;
-  PetscInt64 size; /* of the file [bytes]: no count in it can be larger */
-  int        version, width;
-  PetscBool  binary, swapped;
+  GmshStream in;
   PetscInt   nentities[4], *entities[4]; /* numbers of the entities of each dimension, sorted */
   PetscInt64 first, nnodes;              /* numbers of the nodes lie in [first, first + nnodes) */
   PetscBT    nodes;                      /* those that exist */
   PetscInt64 nfacets, maxfacets;
   Facet     *facets; /* quadrilaterals of all cells */
-  char      *sentence;
-  size_t     length;
 } GmshCheck;
-
-/* Keeps the first complaint */
-static void Complain(GmshCheck *check, const char format[], ...)
-{
-  va_list args;
-
-  if (check->sentence[0]) return;
-  va_start(args, format);
-  (void)vsnprintf(check->sentence, check->length, format, args);
-  va_end(args);
-}
-
-#define Wrong(...) (Complain(__VA_ARGS__), PETSC_FALSE)
-
-/* A word and the one blank after it */
-static PetscBool GetWord(GmshCheck *check, char word[GMSH_WORD])
-{
-  int    c = getc(check->stream);
-  size_t n = 0;
-
-  while (c != EOF && (isspace(c) || !c)) c = getc(check->stream);
-  for (; c != EOF && !isspace(c) && c && n < GMSH_WORD - 1; c = getc(check->stream)) word[n++] = (char)c;
-  word[n] = 0;
-  if (!n) return Wrong(check, "it ends too early");
-  if (n == GMSH_WORD - 1) return Wrong(check, "it has a word of more than %d characters", GMSH_WORD - 2);
-  return PETSC_TRUE;
-}
-
-/* The name of the next section, past comments */
-static PetscBool GetSection(GmshCheck *check, char word[GMSH_WORD])
-{
-  PetscBool comments = PETSC_FALSE;
-
-  do {
-    if (!GetWord(check, word)) return PETSC_FALSE;
-    if (!strcmp(word, "$Comments")) comments = PETSC_TRUE;
-    else if (!comments) return PETSC_TRUE;
-    if (!strcmp(word, "$EndComments")) comments = PETSC_FALSE;
-  } while (PETSC_TRUE);
-}
-
-static PetscBool Expect(GmshCheck *check, const char section[], const char word[])
-{
-  return strcmp(word, section) ? Wrong(check, "%s is expected where \"%s\" stands", section, word) : PETSC_TRUE;
-}
-
-static PetscBool ExpectNext(GmshCheck *check, const char section[])
-{
-  char word[GMSH_WORD];
-
-  return GetWord(check, word) && Expect(check, section, word);
-}
-
-static PetscBool GetBytes(GmshCheck *check, size_t n, void *value)
-{
-  char bytes[8];
-
-  if (fread(bytes, 1, n, check->stream) != n) return Wrong(check, "it ends too early");
-  for (size_t i = 0; i < n; ++i) ((char *)value)[i] = bytes[check->swapped ? n - 1 - i : i];
-  return PETSC_TRUE;
-}
-
-/* Whole numbers of so many bytes */
-static PetscBool GetNumbers(GmshCheck *check, int width, PetscInt64 n, PetscInt64 values[])
-{
-  for (PetscInt64 i = 0; i < n; ++i) {
-    long long value = 0;
-    int       narrow = 0;
-
-    if (!check->binary) {
-      if (fscanf(check->stream, "%lld", &value) != 1) return Wrong(check, feof(check->stream) ? "it ends too early" : "a whole number is expected where other text stands");
-      if (width == 4 && (value > INT_MAX || value < INT_MIN)) return Wrong(check, "the number %lld is too large", value);
-      values[i] = (PetscInt64)value;
-    } else if (width == 4) {
-      if (!GetBytes(check, 4, &narrow)) return PETSC_FALSE;
-      values[i] = narrow;
-    } else if (!GetBytes(check, 8, &values[i])) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
-static PetscBool GetReals(GmshCheck *check, PetscInt64 n)
-{
-  for (PetscInt64 i = 0; i < n; ++i) {
-    double value;
-
-    if (check->binary) {
-      if (!GetBytes(check, 8, &value)) return PETSC_FALSE;
-    } else if (fscanf(check->stream, "%le", &value) != 1) return Wrong(check, feof(check->stream) ? "it ends too early" : "a coordinate is expected where other text stands");
-    if (PetscIsInfOrNanReal(value)) return Wrong(check, "a coordinate is not a finite number");
-  }
-  return PETSC_TRUE;
-}
-
-static PetscBool IsCount(GmshCheck *check, const char what[], PetscInt64 count)
-{
-  if (count >= 0 && count <= check->size && count < PETSC_MAX_INT / 16) return PETSC_TRUE;
-  return Wrong(check, "it announces %lld %s, more than it can hold", (long long)count, what);
-}
-
-static PetscBool GetCounts(GmshCheck *check, const char what[], PetscInt64 n, PetscInt64 counts[])
-{
-  if (!GetNumbers(check, check->width, n, counts)) return PETSC_FALSE;
-  for (PetscInt64 i = 0; i < n; ++i) {
-    if (!IsCount(check, what, counts[i])) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
-/* Format 2 writes these counts as words, also in binary files */
-static PetscBool GetCountWord(GmshCheck *check, const char what[], PetscInt64 *count)
-{
-  char      word[GMSH_WORD], rest;
-  long long value;
-
-  if (!GetWord(check, word)) return PETSC_FALSE;
-  if (sscanf(word, "%lld%c", &value, &rest) != 1) return Wrong(check, "the number of %s is expected where \"%s\" stands", what, word);
-  *count = (PetscInt64)value;
-  return IsCount(check, what, *count);
-}
 
 static PetscBool CheckFormat(GmshCheck *check)
 {
@@ -156,22 +28,22 @@ static PetscBool CheckFormat(GmshCheck *check)
   double version;
   int    one = 0;
 
-  if (!GetSection(check, words[0]) || !Expect(check, "$MeshFormat", words[0])) return PETSC_FALSE;
+  if (!GmshGetSection(&check->in, words[0]) || !GmshExpect(&check->in, "$MeshFormat", words[0])) return PETSC_FALSE;
   for (int i = 0; i < 3; ++i) {
-    if (!GetWord(check, words[i])) return PETSC_FALSE;
+    if (!GmshGetWord(&check->in, words[i])) return PETSC_FALSE;
   }
-  if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1)) return Wrong(check, "its format is \"%s\"; 2.2, 4.0 and 4.1 are read", words[0]);
-  check->version = (int)(10 * version + 0.5);
-  if (strcmp(words[1], "0") && strcmp(words[1], "1")) return Wrong(check, "its file type is \"%s\", neither 0 for text nor 1 for binary", words[1]);
-  check->binary = words[1][0] == '1' ? PETSC_TRUE : PETSC_FALSE;
-  if (strcmp(words[2], "8") && (check->version < 41 || strcmp(words[2], "4"))) return Wrong(check, "its data size is \"%s\"; 8 is read", words[2]);
-  check->width = words[2][0] - '0';
-  if (check->binary) {
-    if (!GetBytes(check, 4, &one)) return PETSC_FALSE;
-    check->swapped = one == 1 ? PETSC_FALSE : PETSC_TRUE;
-    if (one != 1 && one != 1 << 24) return Wrong(check, "the order of its bytes cannot be told");
+  if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1)) return GmshWrong(&check->in, "its format is \"%s\"; 2.2, 4.0 and 4.1 are read", words[0]);
+  check->in.version = (int)(10 * version + 0.5);
+  if (strcmp(words[1], "0") && strcmp(words[1], "1")) return GmshWrong(&check->in, "its file type is \"%s\", neither 0 for text nor 1 for binary", words[1]);
+  check->in.binary = words[1][0] == '1' ? PETSC_TRUE : PETSC_FALSE;
+  if (strcmp(words[2], "8") && (check->in.version < 41 || strcmp(words[2], "4"))) return GmshWrong(&check->in, "its data size is \"%s\"; 8 is read", words[2]);
+  check->in.width = words[2][0] - '0';
+  if (check->in.binary) {
+    if (!GmshGetBytes(&check->in, 4, &one)) return PETSC_FALSE;
+    check->in.swapped = one == 1 ? PETSC_FALSE : PETSC_TRUE;
+    if (one != 1 && one != 1 << 24) return GmshWrong(&check->in, "the order of its bytes cannot be told");
   }
-  return ExpectNext(check, "$EndMeshFormat");
+  return GmshExpectNext(&check->in, "$EndMeshFormat");
 }
 
 /* A number, then a dimension, a tag and a name in quotes for each */
@@ -181,33 +53,33 @@ static PetscBool CheckNames(GmshCheck *check)
   char       words[2][GMSH_WORD], name[GMSH_WORD], rest;
   int        number;
 
-  if (!GetCountWord(check, "physical names", &count)) return PETSC_FALSE;
+  if (!GmshGetCountWord(&check->in, "physical names", &count)) return PETSC_FALSE;
   for (PetscInt64 i = 0; i < count; ++i) {
     const char *begin, *end;
 
     for (int j = 0; j < 2; ++j) {
-      if (!GetWord(check, words[j])) return PETSC_FALSE;
-      if (sscanf(words[j], "%d%c", &number, &rest) != 1) return Wrong(check, "a dimension and a tag are expected in $PhysicalNames where \"%s\" stands", words[j]);
+      if (!GmshGetWord(&check->in, words[j])) return PETSC_FALSE;
+      if (sscanf(words[j], "%d%c", &number, &rest) != 1) return GmshWrong(&check->in, "a dimension and a tag are expected in $PhysicalNames where \"%s\" stands", words[j]);
     }
-    if (!fgets(name, sizeof(name), check->stream)) return Wrong(check, "it ends too early");
+    if (!fgets(name, sizeof(name), check->in.file)) return GmshWrong(&check->in, "it ends too early");
     begin = strchr(name, '"');
     end   = strrchr(name, '"');
-    if (!strchr(name, '\n') || begin != name || end == begin || end - begin > 127) return Wrong(check, "physical name %lld is not a dimension, a tag and a name of at most 126 characters in quotes", (long long)i + 1);
+    if (!strchr(name, '\n') || begin != name || end == begin || end - begin > 127) return GmshWrong(&check->in, "physical name %lld is not a dimension, a tag and a name of at most 126 characters in quotes", (long long)i + 1);
   }
-  return ExpectNext(check, "$EndPhysicalNames");
+  return GmshExpectNext(&check->in, "$EndPhysicalNames");
 }
 
 static PetscBool CheckEntity(GmshCheck *check, int dim, PetscInt *entity)
 {
   PetscInt64 number = 0, ntags, tag;
 
-  if (!GetNumbers(check, 4, 1, &number) || !GetReals(check, !dim && check->version > 40 ? 3 : 6)) return PETSC_FALSE;
+  if (!GmshGetNumbers(&check->in, 4, 1, &number) || !GmshGetReals(&check->in, !dim && check->in.version > 40 ? 3 : 6)) return PETSC_FALSE;
   *entity = (PetscInt)number;
   for (int list = 0; list < (dim ? 2 : 1); ++list) { /* physical tags, then what bounds it */
-    if (!GetCounts(check, "tags", 1, &ntags)) return PETSC_FALSE;
-    if (!list && ntags > 16) return Wrong(check, "entity %d of dimension %d has %lld physical tags, more than 16", (int)number, dim, (long long)ntags);
+    if (!GmshGetCounts(&check->in, "tags", 1, &ntags)) return PETSC_FALSE;
+    if (!list && ntags > 16) return GmshWrong(&check->in, "entity %d of dimension %d has %lld physical tags, more than 16", (int)number, dim, (long long)ntags);
     for (PetscInt64 i = 0; i < ntags; ++i) {
-      if (!GetNumbers(check, 4, 1, &tag)) return PETSC_FALSE;
+      if (!GmshGetNumbers(&check->in, 4, 1, &tag)) return PETSC_FALSE;
     }
   }
   return PETSC_TRUE;
@@ -218,14 +90,14 @@ static PetscErrorCode CheckEntities(GmshCheck *check, PetscBool *sound)
   PetscInt64 counts[4];
 
   PetscFunctionBegin;
-  *sound = GetCounts(check, "entities", 4, counts);
+  *sound = GmshGetCounts(&check->in, "entities", 4, counts);
   for (int dim = 0; dim < 4 && *sound; ++dim) {
     PetscCall(PetscMalloc1(counts[dim], &check->entities[dim]));
     check->nentities[dim] = (PetscInt)counts[dim];
     for (PetscInt i = 0; i < check->nentities[dim] && *sound; ++i) *sound = CheckEntity(check, dim, &check->entities[dim][i]);
     if (*sound) PetscCall(PetscSortInt(check->nentities[dim], check->entities[dim]));
   }
-  if (*sound) *sound = ExpectNext(check, "$EndEntities");
+  if (*sound) *sound = GmshExpectNext(&check->in, "$EndEntities");
   PetscFunctionReturn(0);
 }
 
@@ -236,13 +108,13 @@ static PetscErrorCode CheckBlock(GmshCheck *check, PetscInt64 *dim, PetscInt64 *
   PetscInt   at = PETSC_DECIDE;
 
   PetscFunctionBegin;
-  *sound = GetNumbers(check, 4, 3, info) && GetCounts(check, "nodes or elements in a block", 1, count) ? PETSC_TRUE : PETSC_FALSE;
+  *sound = GmshGetNumbers(&check->in, 4, 3, info) && GmshGetCounts(&check->in, "nodes or elements in a block", 1, count) ? PETSC_TRUE : PETSC_FALSE;
   if (!*sound) PetscFunctionReturn(0);
-  *dim   = info[check->version == 40 ? 1 : 0];
-  entity = info[check->version == 40 ? 0 : 1];
+  *dim   = info[check->in.version == 40 ? 1 : 0];
+  entity = info[check->in.version == 40 ? 0 : 1];
   *last  = info[2];
   if (*dim >= 0 && *dim <= 3) PetscCall(PetscFindInt((PetscInt)entity, check->nentities[*dim], check->entities[*dim], &at));
-  if (at < 0) *sound = Wrong(check, "a block is of the entity %lld of dimension %lld, which does not exist", (long long)entity, (long long)*dim);
+  if (at < 0) *sound = GmshWrong(&check->in, "a block is of the entity %lld of dimension %lld, which does not exist", (long long)entity, (long long)*dim);
   PetscFunctionReturn(0);
 }
 
@@ -253,27 +125,27 @@ static PetscErrorCode MarkNodes(GmshCheck *check, PetscInt64 n, const PetscInt64
 
   PetscFunctionBegin;
   for (PetscInt64 i = 0; i < n && *sound; ++i) {
-    if (numbers[i] < 1 || numbers[i] >= PETSC_MAX_INT) *sound = Wrong(check, "%lld is not the number of a node", (long long)numbers[i]);
+    if (numbers[i] < 1 || numbers[i] >= PETSC_MAX_INT) *sound = GmshWrong(&check->in, "%lld is not the number of a node", (long long)numbers[i]);
     first = PetscMin(first, numbers[i]);
     last  = PetscMax(last, numbers[i]);
   }
   if (!*sound) PetscFunctionReturn(0);
   check->first  = first;
   check->nnodes = last - first + 1;
-  if (check->nnodes > 1000000 + 100 * n) *sound = Wrong(check, "its %lld nodes have numbers from %lld to %lld; number them anew", (long long)n, (long long)first, (long long)last);
+  if (check->nnodes > 1000000 + 100 * n) *sound = GmshWrong(&check->in, "its %lld nodes have numbers from %lld to %lld; number them anew", (long long)n, (long long)first, (long long)last);
   if (!*sound) PetscFunctionReturn(0);
   PetscCall(PetscBTCreate((PetscInt)check->nnodes, &check->nodes));
   for (PetscInt64 i = 0; i < n && *sound; ++i) {
-    if (PetscBTLookupSet(check->nodes, (PetscInt)(numbers[i] - first))) *sound = Wrong(check, "the node %lld is given twice", (long long)numbers[i]);
+    if (PetscBTLookupSet(check->nodes, (PetscInt)(numbers[i] - first))) *sound = GmshWrong(&check->in, "the node %lld is given twice", (long long)numbers[i]);
   }
   PetscFunctionReturn(0);
 }
 
 static PetscBool GetNodesOfBlock(GmshCheck *check, PetscInt64 n, PetscInt64 numbers[])
 {
-  if (check->version > 40) return GetNumbers(check, check->width, n, numbers) && GetReals(check, 3 * n) ? PETSC_TRUE : PETSC_FALSE;
+  if (check->in.version > 40) return GmshGetNumbers(&check->in, check->in.width, n, numbers) && GmshGetReals(&check->in, 3 * n) ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt64 i = 0; i < n; ++i) {
-    if (!GetNumbers(check, 4, 1, &numbers[i]) || !GetReals(check, 3)) return PETSC_FALSE;
+    if (!GmshGetNumbers(&check->in, 4, 1, &numbers[i]) || !GmshGetReals(&check->in, 3)) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }
@@ -284,15 +156,15 @@ static PetscErrorCode GetBlocks(GmshCheck *check, const char what[], PetscInt64 
   PetscInt64 sizes[2];
 
   PetscFunctionBegin;
-  if (check->version < 40) {
+  if (check->in.version < 40) {
     *nblocks = 1;
-    *sound   = GetCountWord(check, what, count);
+    *sound   = GmshGetCountWord(&check->in, what, count);
   } else {
-    *sound   = GetCounts(check, what, 2, sizes) && (check->version == 40 || GetNumbers(check, check->width, 2, range)) ? PETSC_TRUE : PETSC_FALSE;
+    *sound   = GmshGetCounts(&check->in, what, 2, sizes) && (check->in.version == 40 || GmshGetNumbers(&check->in, check->in.width, 2, range)) ? PETSC_TRUE : PETSC_FALSE;
     *nblocks = sizes[0];
     *count   = sizes[1];
   }
-  if (*sound && !*count) *sound = Wrong(check, "it has no %s", what);
+  if (*sound && !*count) *sound = GmshWrong(&check->in, "it has no %s", what);
   PetscFunctionReturn(0);
 }
 
@@ -307,18 +179,18 @@ static PetscErrorCode CheckNodes(GmshCheck *check, PetscBool *sound)
   for (PetscInt64 b = 0; b < nblocks && *sound; ++b) {
     PetscInt64 dim, parametric = 0, count = total;
 
-    if (check->version >= 40) PetscCall(CheckBlock(check, &dim, &parametric, &count, sound));
-    if (*sound && parametric) *sound = Wrong(check, "its nodes have parametric coordinates, which are not read");
-    if (*sound && n + count > total) *sound = Wrong(check, "its blocks have more nodes than the %lld it announces", (long long)total);
+    if (check->in.version >= 40) PetscCall(CheckBlock(check, &dim, &parametric, &count, sound));
+    if (*sound && parametric) *sound = GmshWrong(&check->in, "its nodes have parametric coordinates, which are not read");
+    if (*sound && n + count > total) *sound = GmshWrong(&check->in, "its blocks have more nodes than the %lld it announces", (long long)total);
     if (*sound) *sound = GetNodesOfBlock(check, count, numbers + n);
     n += count;
   }
-  if (*sound && n != total) *sound = Wrong(check, "it has %lld nodes, but announces %lld", (long long)n, (long long)total);
+  if (*sound && n != total) *sound = GmshWrong(&check->in, "it has %lld nodes, but announces %lld", (long long)n, (long long)total);
   if (*sound) PetscCall(MarkNodes(check, total, numbers, sound));
-  if (*sound && (range[0] > check->first || range[1] < check->first + check->nnodes - 1 || (check->version > 40 && range[1] - range[0] > 1000000 + 100 * total)))
-    *sound = Wrong(check, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld", (long long)check->first, (long long)(check->first + check->nnodes - 1), (long long)range[0], (long long)range[1]);
+  if (*sound && (range[0] > check->first || range[1] < check->first + check->nnodes - 1 || (check->in.version > 40 && range[1] - range[0] > 1000000 + 100 * total)))
+    *sound = GmshWrong(&check->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld", (long long)check->first, (long long)(check->first + check->nnodes - 1), (long long)range[0], (long long)range[1]);
   PetscCall(PetscFree(numbers));
-  if (*sound) *sound = ExpectNext(check, "$EndNodes");
+  if (*sound) *sound = GmshExpectNext(&check->in, "$EndNodes");
   PetscFunctionReturn(0);
 }
 
@@ -328,7 +200,7 @@ static PetscBool GetType(GmshCheck *check, PetscInt64 type, PetscInt64 *dim, Pet
   static const PetscInt64 types[16][2] = {[15] = {0, 1}, [1] = {1, 2}, [2] = {2, 3}, [3] = {2, 4}, [4] = {3, 4}, [5] = {3, 8}, [6] = {3, 6}, [7] = {3, 5}};
 
   *dim = *nnodes = 0;
-  if (type < 1 || type > 15 || !types[type][1]) return Wrong(check, "it has elements of Gmsh's type %lld, which are not of first order", (long long)type);
+  if (type < 1 || type > 15 || !types[type][1]) return GmshWrong(&check->in, "it has elements of Gmsh's type %lld, which are not of first order", (long long)type);
   *dim    = types[type][0];
   *nnodes = types[type][1];
   return PETSC_TRUE;
@@ -339,9 +211,9 @@ static PetscBool CheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n
   for (PetscInt64 i = 0; i < n; ++i) {
     const PetscInt64 at = nodes[i] - check->first;
 
-    if (at < 0 || at >= check->nnodes || !PetscBTLookup(check->nodes, (PetscInt)at)) return Wrong(check, "the element %lld names the node %lld, which does not exist", (long long)element, (long long)nodes[i]);
+    if (at < 0 || at >= check->nnodes || !PetscBTLookup(check->nodes, (PetscInt)at)) return GmshWrong(&check->in, "the element %lld names the node %lld, which does not exist", (long long)element, (long long)nodes[i]);
     for (PetscInt64 j = 0; j < i; ++j) {
-      if (nodes[i] == nodes[j]) return Wrong(check, "the element %lld names the node %lld twice", (long long)element, (long long)nodes[i]);
+      if (nodes[i] == nodes[j]) return GmshWrong(&check->in, "the element %lld names the node %lld twice", (long long)element, (long long)nodes[i]);
     }
   }
   return PETSC_TRUE;
@@ -396,8 +268,8 @@ static PetscBool CheckFacets(GmshCheck *check)
     const Facet *here = &check->facets[i], *before = here - 1;
 
     if (CompareFacets(here, before)) continue;
-    if (here->across != before->across) return Wrong(check, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
-    if (i > 1 && !CompareFacets(here, here - 2)) return Wrong(check, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
+    if (here->across != before->across) return GmshWrong(&check->in, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
+    if (i > 1 && !CompareFacets(here, here - 2)) return GmshWrong(&check->in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
   }
   return PETSC_TRUE;
 }
@@ -409,17 +281,17 @@ static PetscErrorCode CheckElements2(GmshCheck *check, PetscInt64 total, PetscBo
   for (PetscInt64 c = 0; c < total && *sound;) {
     PetscInt64 head[3] = {0}, type, count, dim, nnodes = 0, numbers[1 + GMSH_MAX_TAGS + 8];
 
-    *sound = GetNumbers(check, 4, 3, head);
-    type   = check->binary ? head[0] : head[1];
-    count  = check->binary ? head[1] : 1;
+    *sound = GmshGetNumbers(&check->in, 4, 3, head);
+    type   = check->in.binary ? head[0] : head[1];
+    count  = check->in.binary ? head[1] : 1;
     if (*sound) *sound = GetType(check, type, &dim, &nnodes);
-    if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS)) *sound = Wrong(check, "an element has %lld tags", (long long)head[2]);
-    if (*sound && (count < 1 || c + count > total)) *sound = Wrong(check, "it has more elements than the %lld it announces", (long long)total);
+    if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS)) *sound = GmshWrong(&check->in, "an element has %lld tags", (long long)head[2]);
+    if (*sound && (count < 1 || c + count > total)) *sound = GmshWrong(&check->in, "it has more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       const PetscInt64 *nodes = numbers + 1 + head[2];
 
       numbers[0] = head[0];
-      *sound     = GetNumbers(check, 4, (check->binary ? 1 : 0) + head[2] + nnodes, numbers + (check->binary ? 0 : 1)) && CheckCorners(check, numbers[0], nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
+      *sound     = GmshGetNumbers(&check->in, 4, (check->in.binary ? 1 : 0) + head[2] + nnodes, numbers + (check->in.binary ? 0 : 1)) && CheckCorners(check, numbers[0], nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
       if (*sound) PetscCall(AddFacets(check, type, numbers[0], nodes));
     }
   }
@@ -436,16 +308,16 @@ static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, Petsc
 
     PetscCall(CheckBlock(check, &dim, &type, &count, sound));
     if (*sound) *sound = GetType(check, type, &typedim, &nnodes);
-    if (*sound && dim != typedim) *sound = Wrong(check, "an entity of dimension %lld has elements of dimension %lld", (long long)dim, (long long)typedim);
-    if (*sound && c + count > total) *sound = Wrong(check, "its blocks have more elements than the %lld it announces", (long long)total);
+    if (*sound && dim != typedim) *sound = GmshWrong(&check->in, "an entity of dimension %lld has elements of dimension %lld", (long long)dim, (long long)typedim);
+    if (*sound && c + count > total) *sound = GmshWrong(&check->in, "its blocks have more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       PetscInt64 numbers[1 + 8];
 
-      *sound = GetNumbers(check, check->version == 40 ? 4 : check->width, 1 + nnodes, numbers) && CheckCorners(check, numbers[0], nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
+      *sound = GmshGetNumbers(&check->in, check->in.version == 40 ? 4 : check->in.width, 1 + nnodes, numbers) && CheckCorners(check, numbers[0], nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
       if (*sound) PetscCall(AddFacets(check, type, numbers[0], numbers + 1));
     }
   }
-  if (*sound && c != total) *sound = Wrong(check, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
+  if (*sound && c != total) *sound = GmshWrong(&check->in, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
   PetscFunctionReturn(0);
 }
 
@@ -455,10 +327,10 @@ static PetscErrorCode CheckElements(GmshCheck *check, PetscBool *sound)
 
   PetscFunctionBegin;
   PetscCall(GetBlocks(check, "elements", &nblocks, &total, range, sound));
-  if (*sound && check->version < 40) PetscCall(CheckElements2(check, total, sound));
+  if (*sound && check->in.version < 40) PetscCall(CheckElements2(check, total, sound));
   else if (*sound) PetscCall(CheckElements4(check, nblocks, total, sound));
   if (*sound) *sound = CheckFacets(check);
-  if (*sound) *sound = ExpectNext(check, "$EndElements");
+  if (*sound) *sound = GmshExpectNext(&check->in, "$EndElements");
   PetscFunctionReturn(0);
 }
 
@@ -468,34 +340,34 @@ static PetscErrorCode CheckSections(GmshCheck *check)
   PetscBool sound;
 
   PetscFunctionBegin;
-  sound = CheckFormat(check) && GetSection(check, word) ? PETSC_TRUE : PETSC_FALSE;
-  if (sound && !strcmp(word, "$PhysicalNames")) sound = CheckNames(check) && GetSection(check, word) ? PETSC_TRUE : PETSC_FALSE;
-  if (sound && check->version >= 40) {
-    sound = Expect(check, "$Entities", word);
+  sound = CheckFormat(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound && !strcmp(word, "$PhysicalNames")) sound = CheckNames(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound && check->in.version >= 40) {
+    sound = GmshExpect(&check->in, "$Entities", word);
     if (sound) PetscCall(CheckEntities(check, &sound));
-    if (sound) sound = GetSection(check, word);
+    if (sound) sound = GmshGetSection(&check->in, word);
   }
-  if (sound) sound = Expect(check, "$Nodes", word);
+  if (sound) sound = GmshExpect(&check->in, "$Nodes", word);
   if (sound) PetscCall(CheckNodes(check, &sound));
-  if (sound) sound = GetSection(check, word) && Expect(check, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound) sound = GmshGetSection(&check->in, word) && GmshExpect(&check->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound) PetscCall(CheckElements(check, &sound));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[])
 {
-  GmshCheck check = {.sentence = sentence, .length = length};
+  GmshCheck check = {.in = {.sentence = sentence, .length = length}};
 
   PetscFunctionBegin;
   sentence[0]  = 0;
-  check.stream = fopen(file, "r");
-  if (!check.stream || fseek(check.stream, 0, SEEK_END)) (void)Wrong(&check, "it cannot be read");
+  check.in.file = fopen(file, "r");
+  if (!check.in.file || fseek(check.in.file, 0, SEEK_END)) (void)GmshWrong(&check.in, "it cannot be read");
   else {
-    check.size = (PetscInt64)ftell(check.stream);
-    rewind(check.stream);
+    check.in.size = (PetscInt64)ftell(check.in.file);
+    rewind(check.in.file);
     PetscCall(CheckSections(&check));
   }
-  if (check.stream) (void)fclose(check.stream);
+  if (check.in.file) (void)fclose(check.in.file);
   for (int dim = 0; dim < 4; ++dim) PetscCall(PetscFree(check.entities[dim]));
   PetscCall(PetscBTDestroy(&check.nodes));
   PetscCall(PetscFree(check.facets));

@@ -1,6 +1,8 @@
 """Runs bin/contact on a scene with a time limit and keeps what the run said about itself."""
 import json
 import os
+import resource
+import signal
 import subprocess
 import time
 
@@ -69,7 +71,7 @@ class Run:
 
 
 def solve(folder, name, scene, options=(), limit=60, write=False):
-    """scene: a dict, written as JSON, which is YAML; or the path of a file."""
+    """scene: a dict, written as JSON, which is YAML; or the path of a file. limit: CPU seconds; ten times as many by the clock."""
     os.makedirs(folder, exist_ok=True)
     base = os.path.join(folder, name)
     path = scene
@@ -84,10 +86,13 @@ def solve(folder, name, scene, options=(), limit=60, write=False):
         os.remove(base + ".json")
     start = time.time()
     try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=limit, text=True)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=10 * limit, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
         code, said = done.returncode, done.stdout.strip()
+        if code in (-signal.SIGXCPU, -signal.SIGKILL):
+            code, said = None, f"ended by the limit of {limit} s"
     except subprocess.TimeoutExpired:
-        code, said = None, f"ended by the time limit of {limit} s"
+        code, said = None, f"ended by the limit of {10 * limit} s by the clock"
     summary = None
     if os.path.exists(base + ".json"):
         with open(base + ".json") as file:
