@@ -56,5 +56,6 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
+      args: -malloc_dump 0
 
 TEST*/
