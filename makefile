@@ -87,7 +87,7 @@ help:
 	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'
 	@echo 'make demo            installs what is missing, builds, and solves share/scenes/two_block.yaml'
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
-	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=120 [s] is the limit of one run'
+	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
 	@echo 'make stress          the cases that break solvers, hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some'
 	@echo 'make sanitize        quick tests with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
