@@ -292,11 +292,12 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   }
   PetscCall(IPSetMultipliers(tao));
   PetscCall(TestFirstPoint(tao));
-  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
-  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
-  PetscCall(IPComputeStiffness(tao));
-  PetscCall(IPStartPoint(tao));
-  PetscCall(AssessIterate(tao));
+  if (tao->reason == TAO_CONTINUE_ITERATING) {
+    PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+    PetscCall(IPComputeStiffness(tao));
+    PetscCall(IPStartPoint(tao));
+    PetscCall(AssessIterate(tao));
+  }
   while (tao->reason == TAO_CONTINUE_ITERATING) {
     PetscTryTypeMethod(tao, update, tao->niter, tao->user_update);
     PetscCall(Step(tao));

@@ -60,48 +60,42 @@ static const ShapeKey half_ellipse_keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
+/* What every octant has: where it is, and how it is divided */
+#define OCTANT_PLACE_KEYS \
+  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), \
+  KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
+#define OCTANT_GRID_KEYS \
+  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), \
+  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), \
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
+  KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
+  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
+
 static const ShapeKey sphere_shell_keys[] = {
-  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE),
-  KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE),
+  OCTANT_PLACE_KEYS,
   KEY("inner_radius", KEY_REALS, 1, octant.inner.radius, PETSC_TRUE),
   KEY("inner_center", KEY_REALS, 3, octant.inner.center, PETSC_FALSE),
   KEY("outer_radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
   KEY("outer_center", KEY_REALS, 3, octant.outer.center, PETSC_FALSE),
   KEY("cap_radius", KEY_REALS, 1, octant.cap.radius, PETSC_FALSE),
   KEY("cap_center", KEY_REALS, 3, octant.cap.center, PETSC_FALSE),
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
+  OCTANT_GRID_KEYS,
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey spheroid_shell_keys[] = {
-  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE),
-  KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE),
+  OCTANT_PLACE_KEYS,
   KEY("inner_semi_axes", KEY_REALS, 3, octant.inner_axes, PETSC_TRUE),
   KEY("outer_semi_axes", KEY_REALS, 3, octant.outer_axes, PETSC_TRUE),
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
+  OCTANT_GRID_KEYS,
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 
 static const ShapeKey ball_keys[] = {
-  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE),
-  KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE),
+  OCTANT_PLACE_KEYS,
   KEY("radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE),
-  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE),
+  OCTANT_GRID_KEYS,
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
 };
 

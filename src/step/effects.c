@@ -64,16 +64,14 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
   PetscInt systems = 0, filtered = 0;
 
   PetscFunctionBegin;
-  report->effects[EFFECT_CONTACT].time  = report->time.contact;
-  report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
-  report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
-  if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
-  if (!sim->contact) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     systems += report->steps[s].systems;
     filtered += report->steps[s].filtered_systems;
   }
-  if (systems) PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(filtered > 0), "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
-  report->effects[EFFECT_FILTER].time = report->time.filter_setup + report->time.filter_apply;
+  if (sim->contact && systems) PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(filtered > 0), "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
+  report->effects[EFFECT_CONTACT].time  = report->time.contact;
+  report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
+  report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
+  if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
   PetscFunctionReturn(0);
 }
