@@ -143,10 +143,8 @@ static PetscErrorCode CheckSymmetry(Mat K, Vec a, Vec b)
 /* A rotation after the deformation leaves the energy and turns the force; there too force and tangent are derivatives */
 static PetscErrorCode CheckRotated(Elasticity e, DM dm, Vec u, Vec d, Mat K)
 {
-  Vec          rotated, f, fr;
-  PetscReal    energy, turned, error, scale;
-  PetscScalar *a;
-  PetscInt     n;
+  Vec       rotated, f, fr;
+  PetscReal energy, turned, error, scale;
 
   PetscFunctionBeginUser;
   PetscCall(ProblemInterpolate(dm, SmoothRotated, &rotated));
@@ -157,16 +155,7 @@ static PetscErrorCode CheckRotated(Elasticity e, DM dm, Vec u, Vec d, Mat K)
   PetscCall(ElasticityForce(e, u, f));
   PetscCall(ElasticityForce(e, rotated, fr));
   PetscCall(VecNorm(f, NORM_2, &scale));
-  PetscCall(VecGetLocalSize(f, &n));
-  PetscCall(VecGetArray(f, &a));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal x[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
-    PetscReal       y[3];
-
-    Rotate(x, y);
-    for (PetscInt k = 0; k < 3; ++k) a[i + k] = y[k];
-  }
-  PetscCall(VecRestoreArray(f, &a));
+  PetscCall(ProblemMapVector(f, Rotate));
   PetscCall(VecAXPY(fr, -1, f));
   PetscCall(VecNorm(fr, NORM_2, &error));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "rotated by %g\n", (double)angle));

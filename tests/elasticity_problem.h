@@ -69,25 +69,34 @@ static inline PetscErrorCode ProblemMoveVertices(DM dm, PetscReal distance)
 
 typedef void (*Field)(const PetscReal x[3], PetscReal u[3]);
 
-/* Moves every vertex to its image */
-static inline PetscErrorCode ProblemMapVertices(DM dm, Field map)
+/* Replaces every three entries of a vector by their image */
+static inline PetscErrorCode ProblemMapVector(Vec v, Field map)
 {
-  Vec          coordinates;
-  PetscScalar *x;
+  PetscScalar *a;
   PetscInt     n;
 
   PetscFunctionBeginUser;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(VecGetLocalSize(coordinates, &n));
-  PetscCall(VecGetArray(coordinates, &x));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &a));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal place[3] = {PetscRealPart(x[i]), PetscRealPart(x[i + 1]), PetscRealPart(x[i + 2])};
+    const PetscReal x[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
     PetscReal       image[3];
 
-    map(place, image);
-    for (PetscInt d = 0; d < 3; ++d) x[i + d] = image[d];
+    map(x, image);
+    for (PetscInt d = 0; d < 3; ++d) a[i + d] = image[d];
   }
-  PetscCall(VecRestoreArray(coordinates, &x));
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Moves every vertex to its image */
+static inline PetscErrorCode ProblemMapVertices(DM dm, Field map)
+{
+  Vec coordinates;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(ProblemMapVector(coordinates, map));
   PetscFunctionReturn(0);
 }
 

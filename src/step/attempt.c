@@ -39,6 +39,16 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   PetscFunctionReturn(0);
 }
 
+/* What has moved since the linearization, and by how much at most */
+static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal *moved)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, du));
+  PetscCall(VecWAXPY(*du, -1.0, u_linearized, u));
+  PetscCall(VecNorm(*du, NORM_INFINITY, moved));
+  PetscFunctionReturn(0);
+}
+
 /*
    Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them by more.
    Looks again from there, as far as they moved; if u goes through any of those rows, they become sim->linearization.
@@ -52,9 +62,7 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
 
   PetscFunctionBegin;
   *missed = PETSC_FALSE;
-  PetscCall(VecDuplicate(u, &du));
-  PetscCall(VecWAXPY(du, -1.0, u_linearized, u));
-  PetscCall(VecNorm(du, NORM_INFINITY, &moved));
+  PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
@@ -120,9 +128,7 @@ static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, C
   PetscCall(ContactMemoryFindLost(&sim->memory, at_u, &lost, &nlost));
   *slid = (PetscBool)(nlost > 0);
   if (nlost) {
-    PetscCall(VecDuplicate(u, &du));
-    PetscCall(VecWAXPY(du, -1.0, u_linearized, u));
-    PetscCall(VecNorm(du, NORM_INFINITY, &moved));
+    PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
     PetscCall(VecDestroy(&du));
     PetscCall(ContactGetReach(sim->contact, &distance, &depth));
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
