@@ -41,7 +41,7 @@ missing() {
     echo "#include <$header>" | "${CC:-mpicc}" $cflags -E - >/dev/null 2>&1 || echo "$header"
   done
   have_fast_blas || echo "an optimized BLAS, for example OpenBLAS"
-  for module in numpy matplotlib h5py petsc4py; do
+  for module in numpy matplotlib h5py yaml petsc4py; do
     $python -c "import importlib.util as u, sys; sys.exit(u.find_spec('$module') is None)" 2>/dev/null || echo "Python 3 with $module"
   done
 }
@@ -65,7 +65,7 @@ apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
 apt update || { echo "apt-get update failed" >&2; exit 1; }
 packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libyaml-dev libopenblas0-serial
-          python3 python3-numpy python3-matplotlib python3-h5py"
+          python3 python3-numpy python3-matplotlib python3-h5py python3-yaml"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
   packages="$packages libpetsc-real-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"

@@ -63,8 +63,8 @@ for i in $(seq 900); do
   [ -f killed_0002.h5 ] && break
   sleep 0.1
 done
-ranks=$(pgrep -P $pid)
-kill -KILL $(tail -n 1 <<< "$ranks")
+ranks=$(tr ' ' '\n' < /proc/$pid/task/$pid/children | sed '/^$/d') # a bare machine has no pgrep
+kill -KILL "$(tail -n 1 <<< "$ranks")" || kill $pid
 SECONDS=0
 wait $pid
 code=$?
