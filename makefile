@@ -65,6 +65,7 @@ check: dependencies
 
 stress: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
+	@$(MAKE) --no-print-directory -f tests/makefile build/tests/tests/contact_clip
 	@mkdir -p build/stress
 	$(PYTHON) -B tests/stress/run.py --report build/stress/report.md $(STRESS)
 
@@ -79,6 +80,7 @@ install: all
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
 
 include share/checks.mk
+include share/bench.mk
 
 clean:
 	rm -rf build bin lib
@@ -88,7 +90,8 @@ help:
 	@echo 'make demo            installs what is missing, builds, and solves share/scenes/two_block.yaml'
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
-	@echo 'make stress          the cases that break solvers, hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some'
+	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
+	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make sanitize        quick tests with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
 	@echo 'make clean           removes build, bin and lib'

@@ -4,6 +4,8 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
+  -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
+  -accuracy_view       what -accuracy chose and attained (part of the table unless -quiet)\n\
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
   -quiet               no line a Newton step and no table\n\
@@ -13,6 +15,7 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 #include <scene.h>
 #include <mesh.h>
 #include <step.h>
+#include <accuracy.h>
 #include <output.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -20,7 +23,7 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, summarize, free, effects, check, quiet;
+  PetscBool write, summarize, free, effects, accuracy, check, quiet;
 } AppOptions;
 
 /* A collective error unwinds on every rank and is said once; an error of one rank alone must end the others */
@@ -52,6 +55,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->free, &app->free, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
   PetscCall(PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
   PetscCall(PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
@@ -108,7 +112,19 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *converged)
+static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
+{
+  PetscFunctionBeginUser;
+  if (!app->quiet) PetscCall(ReportView(report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->accuracy && (app->quiet || !report->accuracy)) PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->effects) PetscCall(ReportViewEffects(report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
+  if (!report->converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report->nsteps, report->reason));
+  PetscFunctionReturn(0);
+}
+
+/* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, PetscBool *converged, PetscBool *again)
 {
   Simulation sim;
   Output     output;
@@ -117,9 +133,9 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
 
   PetscFunctionBeginUser;
   *converged = PETSC_TRUE;
-  if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
+  *again     = PETSC_FALSE;
+  PetscCall(AccuracyPlan(accuracy, scene));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
-  PetscCall(SimulationCatchSignals());
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
@@ -129,12 +145,28 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
     if (output && *converged) PetscCall(AppWriteState(output, scene->ramps[0].factor[step], &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
-  if (!app->quiet) PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
-  if (app->effects) PetscCall(ReportViewEffects(&report, PETSC_VIEWER_STDOUT_WORLD));
-  if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, app->summary));
-  if (!*converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report.nsteps, report.reason));
+  if (*converged) PetscCall(AccuracyAssess(accuracy, &report, scene, again));
+  if (accuracy->nlevels) report.accuracy = accuracy;
+  if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));
   PetscCall(SimulationDestroy(&sim));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *converged)
+{
+  Accuracy  accuracy;
+  PetscBool again;
+
+  PetscFunctionBeginUser;
+  if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
+  PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
+  PetscCall(SimulationCatchSignals());
+  do {
+    PetscCall(AppSimulate(app, scene, &accuracy, converged, &again));
+    if (again && !app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy.target, (double)accuracy.levels[accuracy.nlevels - 1].error, (double)accuracy.levels[accuracy.nlevels - 1].algebraic, scene->refine));
+  } while (again);
+  PetscCall(AccuracyDestroy(&accuracy));
   PetscFunctionReturn(0);
 }
 

@@ -33,6 +33,8 @@ PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
+/* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
+PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);

@@ -22,11 +22,12 @@ typedef struct {
   PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
   PetscReal   kkt_error;              /* scaled, dimensionless */
   PetscReal   kkt_error_unscaled;
-  PetscReal   gap_min;                /* smallest linearized gap [length]; negative is penetration */
-  PetscReal   gap_true;               /* smallest gap of the deformed bodies [length] */
+  PetscReal   gap_min;                /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
+  PetscReal   gap_true;               /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
   PetscReal   gap_change;             /* largest difference of the two where there is pressure, or penetration [length] */
   PetscBool   gap_untrue;             /* the limit on linearizations came before the gap was true */
   PetscReal   complementarity;        /* max s z [force/length] */
+  PetscReal   algebraic_error;        /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy */
   PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: no estimate was made */
@@ -45,6 +46,34 @@ typedef struct {
   PetscLogDouble time; /* [s]; negative: part of another phase, not measured apart */
 } RunEffect;
 
+/* What a mesh attained. Values are those of all load steps in turn */
+typedef struct {
+  PetscInt       refine, dofs;
+  PetscReal     *energy;    /* [force length] */
+  PetscReal     *force;     /* norm of the contact force [force] */
+  PetscBool      coarser;   /* there was a coarser mesh before */
+  PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
+  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps */
+  PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
+  PetscReal      algebraic; /* of the solver, relative, in energy */
+  PetscLogDouble time;      /* [s] */
+} AccuracyLevel;
+
+typedef struct {
+  PetscReal      target; /* relative error in energy and contact force; 0: accuracy is not asked for */
+  PetscReal      share;  /* of it that the solver may leave */
+  PetscInt       most_dofs;
+  PetscBool      contact;   /* the scene has contact pairs */
+  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without */
+  PetscBool      given;     /* by the user: it stays */
+  PetscReal      update_tolerance; /* of the gap, relative to the largest displacement */
+  PetscInt       updates;   /* linearizations of the gap a load step may take */
+  PetscInt       nlevels;
+  AccuracyLevel *levels;
+  PetscBool      reached;
+  char           end[160];  /* why the last mesh is the last */
+} Accuracy;
+
 typedef struct {
   const char *problem;
   PetscMPIInt ranks;
@@ -56,6 +85,7 @@ typedef struct {
   PetscInt    nbodies;
   const char **bodies;
   PetscInt   *assemblies; /* of each body's tangent */
+  const Accuracy *accuracy; /* what -accuracy chose and attained; NULL: not asked for */
   PetscInt    neffects;
   RunEffect  *effects;
   struct {

@@ -133,6 +133,7 @@ typedef struct {
   IS        fixed;                   /* variables of this rank with equal bounds; NULL if no rank has one */
   PetscInt  mi;                      /* inequality constraints, all ranks */
   PetscReal f0, gradient0, length0, equality0, xsize0; /* objective, norm of its gradient and sizes of c_I, c_E and x at the start */
+  PetscReal floor0;                  /* what rounding leaves of the gradient there */
 
   IPPair      pair[IP_NPAIRS];
   IPCondensed cond;

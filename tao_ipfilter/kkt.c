@@ -23,6 +23,18 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionReturn(0);
 }
 
+/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times this */
+static PetscErrorCode RoundingFloor(Tao tao, PetscReal *floor)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(ip->xwork2, ip->hdiag, tao->solution));
+  PetscCall(VecNorm(ip->xwork2, NORM_2, floor));
+  *floor *= 10.0 * PETSC_MACHINE_EPSILON;
+  PetscFunctionReturn(0);
+}
+
 /* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of H.
    Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves anything
    (a vertex at the edge of an overlap) counts as no more than 100 times as stiff as the mean: no scale may hang on it. */
@@ -40,6 +52,7 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   PetscCall(VecSum(ip->hdiag, &ip->hscale));
   PetscCall(VecGetSize(ip->hdiag, &n));
   ip->hscale = ip->hscale > 0.0 ? ip->hscale / n : 1.0;
+  PetscCall(RoundingFloor(tao, &ip->floor0));
   if (!ip->mi) PetscFunctionReturn(0);
   PetscCall(VecMax(ip->hdiag, NULL, &hmax));
   if (!(hmax > 0.0)) hmax = 1.0;
@@ -71,18 +84,6 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   PetscCall(VecGetArray(ip->stiffness, &rho));
   for (PetscInt i = 0; i < rend - rstart; i++) rho[i] = mean > 0.0 ? 1.0 / PetscMax(PetscRealPart(rho[i]), 1e-2 * mean) : 1.0;
   PetscCall(VecRestoreArray(ip->stiffness, &rho));
-  PetscFunctionReturn(0);
-}
-
-/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times this */
-static PetscErrorCode RoundingFloor(Tao tao, PetscReal *floor)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  PetscCall(VecPointwiseMult(ip->xwork2, ip->hdiag, tao->solution));
-  PetscCall(VecNorm(ip->xwork2, NORM_2, floor));
-  *floor *= 10.0 * PETSC_MACHINE_EPSILON;
   PetscFunctionReturn(0);
 }
 
@@ -132,7 +133,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   PetscCall(RoundingFloor(tao, &floor));
   s->dual = PetscMax(norm, (limited ? IP_SMALL : 1.0) * ip->gradient0);
-  s->dual = PetscMax(s->dual, Within(floor / ip->tol, ip->gradient0));
+  s->dual = PetscMax(s->dual, Within(floor / ip->tol, PetscMax(ip->gradient0, ip->floor0 / ip->tol)));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   xsize = PetscMax(Within(xsize, IP_MOST * ip->xsize0), ip->xsize0);
   if (ip->mi) PetscCall(InequalityScale(tao, xsize));

@@ -126,11 +126,16 @@ def judge_ssnv104(run):
         say("ssnv104: %s within 5 %% of the published reference" % what, abs(run[what] / reference - 1) <= 0.05, run[what])
 
 
-problem = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}[sys.argv[1]]()
-runs = [measure(problem, name) for name in sys.argv[2:] if name != "-v"]
-if "-v" in sys.argv:
-    print(json.dumps(runs, indent=2))
-elif sys.argv[1] == "ssnv104":
-    judge_ssnv104(runs[0])
-else:
-    judge_convergence(sys.argv[1], runs)
+def main():
+    problem = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}[sys.argv[1]]()
+    runs = [measure(problem, name) for name in sys.argv[2:] if name != "-v"]
+    if "-v" in sys.argv:
+        print(json.dumps(runs, indent=2))
+    elif sys.argv[1] == "ssnv104":
+        judge_ssnv104(runs[0])
+    else:
+        judge_convergence(sys.argv[1], runs)
+
+
+if __name__ == "__main__":
+    main()

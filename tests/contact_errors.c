@@ -2,20 +2,7 @@ static char help[] = "Contact: what is wrong with pairs, options and displacemen
 
 #include <mesh.h>
 #include <gap.h>
-
-/* Keeps the first message instead of printing the whole trace */
-static char message[512];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType p, const char *mess, void *ctx)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)ctx;
-  if (p == PETSC_ERROR_INITIAL && mess) snprintf(message, sizeof(message), "%s", mess);
-  return n;
-}
+#include "contact_attempt.h"
 
 static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[], const char option[], const char value[], PetscBool finite)
 {
@@ -23,10 +10,8 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
   ContactLinearization lin;
   Vec                  u;
   PetscErrorCode       ierr;
-  PetscMPIInt          failed, least;
 
   PetscFunctionBeginUser;
-  message[0] = 0;
   if (option) PetscCall(PetscOptionsSetValue(NULL, option, value));
   PetscCall(DMCreateGlobalVector(dm, &u));
   if (!finite) { /* on the last rank that has a value */
@@ -37,15 +22,12 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
     PetscCall(VecAssemblyBegin(u));
     PetscCall(VecAssemblyEnd(u));
   }
-  PetscCall(PetscPushErrorHandler(KeepMessage, NULL));
+  PetscCall(AttemptBegin());
   ierr = ContactCreate(dm, npairs, pairs, &contact);
   if (!ierr) ierr = ContactSetFromOptions(contact);
   if (!ierr) ierr = ContactLinearize(contact, u, &lin);
-  PetscCall(PetscPopErrorHandler());
+  PetscCall(AttemptEnd(ierr));
   if (contact) PetscCall(ContactDestroy(&contact));
-  failed = ierr ? 1 : 0;
-  PetscCallMPI(MPI_Allreduce(&failed, &least, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", least ? "error on every rank" : "no error on some rank", message));
   if (option) PetscCall(PetscOptionsClearValue(NULL, option));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);

@@ -7,12 +7,12 @@ what belongs to it left in the file, over those of a scene that never had it. On
 Runs alternate, so that a change of the machine's speed meets both; ratios are those of the medians.
 """
 import argparse
-import json
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
+
+from runner import execute, last_words, read_summary
 
 PLAIN = """bodies:
   - lower: {shape: box, lower: [0, 0, 0], upper: [4, 4, 2], cells: [8, 8, 4], young: 1, poisson: 0.3%(body)s}
@@ -43,12 +43,11 @@ def write(folder, name, body, rest):
 
 
 def run(args, scene, folder):
-    summary = os.path.join(folder, "summary.json")
-    done = subprocess.run([args.contact, scene, "-quiet", "-refine", str(args.refine), "-summary", summary], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit("effects.py: %s: %s" % (scene, done.stderr.strip()))
-    with open(summary) as file:
-        report = json.load(file)
+    base = os.path.join(folder, "summary")
+    code, said, _ = execute([args.contact, scene, "-quiet", "-refine", str(args.refine), "-summary", base + ".json"], None)
+    if code:
+        sys.exit("effects.py: %s: %s" % (scene, last_words(said)))
+    report = read_summary(base)
     on = [effect["name"] for effect in report["effects"] if effect["on"] and effect["name"] != "error estimate"]
     if on:
         sys.exit("effects.py: %s: switched on: %s" % (scene, ", ".join(on)))

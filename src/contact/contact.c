@@ -104,9 +104,9 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
 @*/
 PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], Contact *contact)
 {
-  Contact    c;
-  PetscInt   nbodies;
-  PetscReal *thickness;
+  Contact         c;
+  ContactBoundary boundary;
+  PetscReal      *thickness;
 
   PetscFunctionBegin;
   PetscCall(ContactInitializePackage());
@@ -120,7 +120,10 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
   c->overlap_drop = 1e-8;
   c->row_drop     = 1e-5;
   PetscCall(PetscCalloc1(npairs, &c->pairs));
-  PetscCall(ContactBodyThickness(dm, &nbodies, &thickness));
+  PetscCall(ContactBoundaryCreate(dm, &boundary));
+  PetscCall(PetscMalloc1(boundary.nbodies, &thickness));
+  PetscCall(ContactBoundaryThickness(&boundary, thickness));
+  PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
     c->pairs[p].gap   = pairs[p].gap;
     c->pairs[p].given = pairs[p].distance;

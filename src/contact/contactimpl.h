@@ -106,8 +106,17 @@ PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, co
 /* border.c */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
 
-/* thickness.c */
-PETSC_INTERN PetscErrorCode ContactBodyThickness(DM, PetscInt *nbodies, PetscReal *thickness[]);
+/* boundary.c: the facets on this rank that bound the bodies, undeformed */
+typedef struct {
+  MPI_Comm   comm;
+  PetscInt   nbodies, n, *body;
+  PetscReal *x; /* [12 n] corners, counterclockwise seen from outside [length] */
+} ContactBoundary;
+PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
+PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
+PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);
+PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
 
 /* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
 #define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */

@@ -39,12 +39,31 @@ static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k
   return PETSC_TRUE;
 }
 
+/*
+   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), D without trace: det(I + D) = 1 + q,
+   q = det D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Where q nears -1 its own digits go, and none cancel in the first form.
+*/
+static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
+{
+  const PetscReal scale = 1 / (1 + k->i1 / 3);
+  PetscReal       D[9], q, r;
+
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) D[3 * i + j] = scale * (H[3 * i + j] + H[3 * j + i] + H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j] - (i == j ? k->i1 / 3 : 0));
+  }
+  q = D[0] * (D[4] * D[8] - D[5] * D[7]) - D[1] * (D[3] * D[8] - D[5] * D[6]) + D[2] * (D[3] * D[7] - D[4] * D[6]);
+  for (int i = 0; i < 9; ++i) q -= 0.5 * D[i] * D[i];
+  if (q < -0.5) return k->i1 * k->power + 3 * k->less;
+  r = PetscCbrtReal(1 + q);
+  return -3 * q / (r * (r * r + r + 1));
+}
+
 static PetscReal MaterialEnergy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9])
 {
   Kinematics k;
 
   if (!NeoHookeanKinematics(H, &k)) return PETSC_INFINITY;
-  return 0.5 * mu * (k.i1 * k.power + 3 * k.less) + 0.5 * (lambda + 2 * mu / 3) * k.theta * k.theta;
+  return 0.5 * mu * NeoHookeanIsochoric(H, &k) + 0.5 * (lambda + 2 * mu / 3) * k.theta * k.theta;
 }
 
 /* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 - 3)/3 cof F */

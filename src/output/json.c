@@ -82,6 +82,7 @@ static void WriteStep(FILE *stream, const RunReport *report, const StepReport *s
   fprintf(stream, "\"gap_untrue\": %s%s", step->gap_untrue ? "true" : "false", next);
   WriteReal(stream, "complementarity", (double)step->complementarity, next);
   WriteReal(stream, "action_reaction", (double)step->action_reaction, next);
+  WriteReal(stream, "algebraic_error", (double)step->algebraic_error, next);
   WriteErrors(stream, report, step, next);
   WriteVector(stream, "contact_force", step->contact_force, next);
   WriteVector(stream, "reaction", step->reaction, next);
@@ -112,6 +113,30 @@ static void WriteEffects(FILE *stream, const RunReport *report)
   fputs("\n  ],\n  ", stream);
 }
 
+static void WriteAccuracy(FILE *stream, const Accuracy *acc)
+{
+  if (!acc) return;
+  fputs("\"accuracy\": {\n    ", stream);
+  WriteReal(stream, "target", (double)acc->target, ",\n    ");
+  WriteReal(stream, "share", (double)acc->share, ",\n    ");
+  WriteReal(stream, "tolerance", (double)acc->tolerance, ",\n    ");
+  fprintf(stream, "\"reached\": %s,\n    ", acc->reached ? "true" : "false");
+  WriteString(stream, "end", acc->end, ",\n    \"levels\": [");
+  for (PetscInt l = 0; l < acc->nlevels; ++l) {
+    const AccuracyLevel *level = &acc->levels[l];
+
+    fputs(l ? ",\n      {" : "\n      {", stream);
+    WriteInt(stream, "refine", level->refine, ", ");
+    WriteInt(stream, "dofs", level->dofs, ", ");
+    WriteReal(stream, "recovery", (double)level->recovery, ", ");
+    WriteReal(stream, "change", level->coarser ? (double)level->change : NAN, ", ");
+    WriteReal(stream, "error", (double)level->error, ", ");
+    WriteReal(stream, "algebraic", (double)level->algebraic, ", ");
+    WriteReal(stream, "time", level->time, "}");
+  }
+  fputs("\n    ]\n  },\n  ", stream);
+}
+
 static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
 {
   const RunReport *report = (const RunReport *)ctx;
@@ -140,6 +165,7 @@ static PetscErrorCode WriteReport(FILE *stream, const void *ctx)
   WriteReal(stream, "error_estimate", report->time.error_estimate, ",\n    ");
   WriteReal(stream, "other", report->time.other, "\n  },\n  ");
   WriteAssemblies(stream, report);
+  WriteAccuracy(stream, report->accuracy);
   WriteEffects(stream, report);
   fputs("\"contact_free\": {\n    ", stream);
   WriteInt(stream, "iterations", report->contact_free.iterations, ",\n    ");

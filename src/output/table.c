@@ -1,6 +1,14 @@
 /* The report of a run as a table for people */
 #include "outputimpl.h"
 
+/* A gap in ten characters, or that there is none */
+static const char *GapText(PetscReal gap, char text[16])
+{
+  if (PetscIsNanReal(gap)) return "no contact";
+  (void)snprintf(text, 16, "%10.2e", (double)gap);
+  return text;
+}
+
 static PetscErrorCode ViewSteps(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -9,9 +17,10 @@ static PetscErrorCode ViewSteps(const RunReport *report, PetscViewer viewer)
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
     PetscInt          pcg  = 0;
+    char              gap[16];
 
     for (PetscInt i = 0; i < step->nksp; ++i) pcg += step->ksp_iterations[i];
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8.4f %8" PetscInt_FMT " %8" PetscInt_FMT " %4" PetscInt_FMT " %6" PetscInt_FMT " %6.1f %6" PetscInt_FMT " %7" PetscInt_FMT "  %15.8e %9.2e %10.2e %9.2e%s\n", step->step, (double)step->load, step->constraints, step->filter_dofs, step->ip_iterations, pcg, step->nksp ? (double)pcg / (double)step->nksp : 0.0, step->amg_applications, step->amg_setups, (double)step->energy, (double)step->kkt_error, (double)step->gap_min, (double)step->complementarity, step->converged ? "" : "  not converged"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8.4f %8" PetscInt_FMT " %8" PetscInt_FMT " %4" PetscInt_FMT " %6" PetscInt_FMT " %6.1f %6" PetscInt_FMT " %7" PetscInt_FMT "  %15.8e %9.2e %10s %9.2e%s\n", step->step, (double)step->load, step->constraints, step->filter_dofs, step->ip_iterations, pcg, step->nksp ? (double)pcg / (double)step->nksp : 0.0, step->amg_applications, step->amg_setups, (double)step->energy, (double)step->kkt_error, GapText(step->gap_min, gap), (double)step->complementarity, step->converged ? "" : "  not converged"));
   }
   PetscFunctionReturn(0);
 }
@@ -36,31 +45,28 @@ static PetscErrorCode ViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %6s %5s %8s %8s  %15s %11s %9s %10s %10s %10s\n", "", "", "", "updates", "systems", "", "residual", "reaction", "KKT error", "gap", "change"));
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
+    char              gap[16];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %6" PetscInt_FMT " %5" PetscInt_FMT " %8" PetscInt_FMT " %8" PetscInt_FMT "  %15.8e %11.2e %9.2e %10.2e %10.2e %10.2e\n", step->step, step->substeps, step->cuts, step->contact_updates, step->regularizations, (double)step->potential, (double)step->equilibrium, (double)step->action_reaction, (double)step->kkt_error_unscaled, (double)step->gap_true, (double)step->gap_change));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %6" PetscInt_FMT " %5" PetscInt_FMT " %8" PetscInt_FMT " %8" PetscInt_FMT "  %15.8e %11.2e %9.2e %10.2e %10s %10.2e\n", step->step, step->substeps, step->cuts, step->contact_updates, step->regularizations, (double)step->potential, (double)step->equilibrium, (double)step->action_reaction, (double)step->kkt_error_unscaled, GapText(step->gap_true, gap), (double)step->gap_change));
   }
   PetscFunctionReturn(0);
 }
 
-/* How far the discretization is from the truth */
+/* How wrong the energy is, by the solver's doing and by the mesh's */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
-  PetscBool any = PETSC_FALSE;
-
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < report->nsteps; ++s) {
-    if (report->steps[s].body_errors) any = PETSC_TRUE;
-  }
-  if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %s\n%5s %10s", "step", "estimated discretization error in the energy norm, and the bodies' parts of it", "", "all"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n%5s  %13s %13s  %10s", "step", "relative error in energy", "discretization error in the energy norm, and the bodies' parts of it", "", "of the solver", "of the mesh", "all"));
   for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, " %10s", report->bodies[b]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
 
-    if (!step->body_errors) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %8.3f %%", step->step, (double)(100 * step->error_estimate)));
-    for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, " %*.3f %%", (int)PetscMax(10, strlen(report->bodies[b])) - 2, (double)(100 * step->body_errors[b])));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  %13.2e", step->step, (double)step->algebraic_error));
+    if (step->body_errors) {
+      PetscCall(PetscViewerASCIIPrintf(viewer, " %13.2e  %8.3f %%", (double)PetscSqr(step->error_estimate), (double)(100 * step->error_estimate)));
+      for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, " %*.3f %%", (int)PetscMax(10, strlen(report->bodies[b])) - 2, (double)(100 * step->body_errors[b])));
+    }
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
@@ -171,6 +177,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewAccuracy(report, viewer));
   PetscCall(ViewErrors(report, viewer));
+  if (report->accuracy) PetscCall(ReportViewAccuracy(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
   PetscCall(ViewContactFree(report, viewer));

@@ -1,5 +1,6 @@
 /* One try to reach a time: solve, and linearize the gap again until it is true. */
 #include "stepimpl.h"
+#include <math.h>
 
 static PetscErrorCode LinearizeGap(Simulation sim, Vec u, ContactLinearization *lin)
 {
@@ -30,7 +31,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   PetscInt  nrows;
 
   PetscFunctionBegin;
-  report->gap_true = 0.0;
+  report->gap_true = NAN;
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
@@ -208,6 +209,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscFunctionBegin;
   if (sim->contact && !sim->upcoming) PetscCall(LinearizeGap(sim, sim->path.u, &sim->upcoming));
+  if (sim->contact && sim->path.time == 0.0 && !report->cuts) PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(VecDuplicate(sim->path.u, &u));
   if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0) PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));

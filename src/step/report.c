@@ -1,5 +1,6 @@
 /* What a load step and a run report: forces, work of the preconditioner, time of the phases, memory. */
 #include "stepimpl.h"
+#include <math.h>
 #include <petsctime.h>
 #include <sys/resource.h>
 
@@ -103,6 +104,7 @@ static PetscErrorCode ReportGap(const ContactSolution *sol, StepReport *report)
   PetscReal most;
 
   PetscFunctionBegin;
+  report->gap_min = NAN;
   PetscCall(VecGetSize(sol->gap, &report->constraints));
   if (!report->constraints) PetscFunctionReturn(0);
   PetscCall(VecMin(sol->gap, NULL, &report->gap_min));
@@ -133,13 +135,38 @@ static PetscErrorCode ReportDiscretization(Simulation sim, Vec u, StepReport *re
 }
 
 /*
+   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance, and that of
+   the pressures on the difference of the true and the linearized gap; to first order in each, over twice the energy
+*/
+static PetscErrorCode ReportAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted, StepReport *report)
+{
+  PetscScalar work, duality = 0.0;
+  PetscReal   press = 0.0;
+  Vec         products;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(u, residual, &work));
+  if (weighted) {
+    PetscCall(VecDuplicate(weighted, &products));
+    PetscCall(VecPointwiseMult(products, weighted, sol->gap));
+    PetscCall(VecAbs(products));
+    PetscCall(VecSum(products, &duality));
+    PetscCall(VecDestroy(&products));
+    PetscCall(VecNorm(weighted, NORM_1, &press));
+  }
+  report->algebraic_error = PetscAbsScalar(duality) + PetscAbsScalar(work) + press * report->gap_change;
+  if (report->energy > 0.0) report->algebraic_error /= 2.0 * report->energy;
+  PetscFunctionReturn(0);
+}
+
+/*
    All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
    = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization error
 */
 PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
   Simulation sim = p->sim;
-  Vec        force, contact, weighted;
+  Vec        force, contact, weighted = NULL;
   PetscReal  size, residual;
 
   PetscFunctionBegin;
@@ -157,47 +184,53 @@ PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(ReportContactForce(sim, contact, report));
     PetscCall(ReportActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
-    PetscCall(VecDestroy(&weighted));
     PetscCall(VecDestroy(&contact));
   }
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;
+  PetscCall(ReportAlgebraicError(u, force, sol, weighted, report));
+  PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
   if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(ReportDiscretization(sim, u, report));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode EventTime(const char name[], PetscLogDouble *time)
+/* Time since PETSc's start of the events that make up a run; all 0 where PETSc does not log */
+PetscErrorCode ReportEventTimes(PetscLogDouble times[STEP_NEVENTS])
 {
-  PetscLogEvent      event;
-  PetscEventPerfInfo info;
+  static const char *const events[STEP_NEVENTS] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply", "ElastError"};
 
   PetscFunctionBegin;
-  *time = 0.0;
-  PetscCall(PetscLogEventGetId(name, &event));
-  if (event < 0) PetscFunctionReturn(0);
-  PetscCall(PetscLogEventGetPerfInfo(0, event, &info));
-  *time = info.time;
+  for (PetscInt i = 0; i < STEP_NEVENTS; ++i) {
+    PetscLogEvent      event;
+    PetscEventPerfInfo info;
+
+    times[i] = 0.0;
+    PetscCall(PetscLogEventGetId(events[i], &event));
+    if (event < 0) continue;
+    PetscCall(PetscLogEventGetPerfInfo(0, event, &info));
+    times[i] = info.time;
+  }
   PetscFunctionReturn(0);
 }
 
 /* Times are the largest over the ranks; "other" is what remains of the total */
 PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
 {
-  static const char *const events[] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply", "ElastError"};
-  PetscLogDouble           t[10], sum = 0.0, now;
+  PetscLogDouble t[STEP_NEVENTS + 2], sum = 0.0, now;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 8; ++i) {
-    PetscCall(EventTime(events[i], &t[i]));
+  PetscCall(ReportEventTimes(t));
+  for (PetscInt i = 0; i < STEP_NEVENTS; ++i) {
+    t[i] -= sim->events[i];
     sum += t[i];
   }
   PetscCall(PetscTime(&now));
-  t[8] = now - sim->start;
-  t[9] = PetscMax(0.0, t[8] - sum);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 10, MPI_DOUBLE, MPI_MAX, sim->comm));
+  t[STEP_NEVENTS]     = now - sim->start;
+  t[STEP_NEVENTS + 1] = PetscMax(0.0, t[STEP_NEVENTS] - sum);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, STEP_NEVENTS + 2, MPI_DOUBLE, MPI_MAX, sim->comm));
   report->time.mesh           = t[0];
   report->time.assembly       = t[1];
   report->time.contact        = t[2];
@@ -206,8 +239,8 @@ PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
   report->time.filter_setup   = t[5];
   report->time.filter_apply   = t[6];
   report->time.error_estimate = t[7];
-  report->time.total          = t[8];
-  report->time.other          = t[9];
+  report->time.total          = t[STEP_NEVENTS];
+  report->time.other          = t[STEP_NEVENTS + 1];
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,6 @@
 /* The life of a simulation: from the scene to the parts, then one load step after another. */
 #include "stepimpl.h"
+#include <math.h>
 #include <petsctime.h>
 
 PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
@@ -140,6 +141,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   s->scene = scene;
   PetscCall(SimulationSetFromOptions(s));
   PetscCall(PetscTime(&s->start));
+  PetscCall(ReportEventTimes(s->events));
   PetscCall(ReportResident(comm, &s->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreate(comm, scene->nbodies, scene->bodies, scene->refine, &s->dm));
@@ -235,6 +237,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 
   PetscFunctionBegin;
   report->step       = step + 1;
+  report->gap_min = report->gap_true = NAN;
   report->load       = sim->scene->ramps[0].factor[step];
   sim->report.nsteps = step + 1;
   while (again && sim->path.time < end) {

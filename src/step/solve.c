@@ -142,21 +142,15 @@ static PetscErrorCode SolveStart(StepProblem *p, PetscBool resume, Tao tao, Vec 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
+/* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero */
+static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
 {
   static const PCAMGFCounts none = {0, 0, 0, 0};
-  TaoConvergedReason        reason;
-  const char               *sentence;
   const PetscInt           *its;
   PetscInt                  n, systems, filtered, indefinite;
   KSP                       ksp;
 
   PetscFunctionBegin;
-  PetscCall(TaoGetConvergedReason(tao, &reason));
-  PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
-  PetscCall(TaoGetIterationNumber(tao, &n));
-  report->ip_iterations += n;
   PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
   PetscCall(ReportIterations(report, n, its));
   PetscCall(TaoIPFilterGetFilterUse(tao, &systems, &filtered));
@@ -167,6 +161,24 @@ static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
   PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
   PetscCall(TaoGetKSP(tao, &ksp));
   if (ksp) PetscCall(ReportPreconditioner(ksp, &none, report));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
+{
+  TaoConvergedReason reason;
+  const char        *sentence = NULL;
+  PetscInt           n;
+  PetscBool          ours;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &ours));
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
+  PetscCall(TaoGetIterationNumber(tao, &n));
+  report->ip_iterations += n;
+  if (ours) PetscCall(SolveReportIPFilter(tao, report));
   PetscCall(TaoComputeObjective(tao, u, &report->potential));
   PetscFunctionReturn(0);
 }
@@ -174,7 +186,8 @@ static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
 static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->linearization;
-  Vec                  slack, multipliers;
+  Vec                  slack = NULL, multipliers;
+  PetscBool            ours;
 
   PetscFunctionBegin;
   PetscCall(ContactSolutionDestroy(sol));
@@ -182,9 +195,11 @@ static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSo
   PetscCall(VecDuplicate(lin->g, &sol->pressure));
   PetscCall(StepConstraint(tao, u, sol->gap, p));
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
+  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP, "-tao_type gives no multipliers, and so no contact pressures");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
-  PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows: the optimizer has no slacks */
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &ours));
+  if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
+  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);
 }
 

@@ -39,6 +39,8 @@ typedef struct {
   PetscReal largest_increment; /* of any component in any step so far [length] */
 } LoadPath;
 
+#define STEP_NEVENTS 8
+
 struct _n_Simulation {
   MPI_Comm             comm;
   Scene                scene;
@@ -63,7 +65,7 @@ struct _n_Simulation {
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
-  PetscLogDouble       start;
+  PetscLogDouble       start, events[STEP_NEVENTS]; /* when it began, and the times of PETSc's events then */
 };
 
 /*
@@ -151,6 +153,7 @@ PETSC_INTERN PetscErrorCode ReportForces(const StepProblem *, Vec u, const Conta
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
+PETSC_INTERN PetscErrorCode ReportEventTimes(PetscLogDouble[STEP_NEVENTS]);
 PETSC_INTERN PetscErrorCode ReportResident(MPI_Comm, PetscLogDouble *bytes);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);

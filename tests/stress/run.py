@@ -1,13 +1,23 @@
 """make stress: bin/contact on the cases that break solvers, as tables that are printed and kept."""
 import argparse
 import fnmatch
+import json
 import os
+import resource
 
 import barrier
+import clip
 import steps
 import sweeps
 import units
 from runner import AMGF_DIR
+
+
+HEADER = """# Stress report
+
+`make stress` writes this (tests/stress/run.py). Status: converged; failed, which stops with a reason; refused, before anything is solved.
+PCG: iterations a Newton system. Drift: of the energy, relative, against MUMPS on the whole matrix at an optimizer tolerance of 1e-10. True gap: the
+smallest of the deformed bodies, negative where they overlap because the scene linearizes the gap once a load step. The two blocks are on mesh 1."""
 
 
 def number(value, form):
@@ -20,8 +30,14 @@ def counts(run):
     return [str(run.newton), f"{sum(pcg) / len(pcg):.1f}" if pcg else "", str(max(pcg, default=""))]
 
 
-def verdict(wrong):
-    return "**" + "; ".join(wrong) + "**" if wrong else "pass"
+def cpu_seconds():
+    """Of all runs so far."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def gap(run):
+    return "" if not run.steps else "no contact" if run.gap_true is None else format(run.gap_true, ".1e")
 
 
 def last_words(run):
@@ -32,11 +48,22 @@ def last_words(run):
 
 
 class Report:
-    """Markdown, printed line by line and kept in a file; what is wrong is repeated at the end."""
+    """Markdown, printed line by line and kept in a file; what is wrong is repeated at the end. Cases done are kept apart, to resume."""
 
-    def __init__(self, file):
-        self.stream = open(file, "w") if file else None
+    def __init__(self, args):
+        self.stream = open(args.report, "w") if args.report else None
+        self.done_file = os.path.join(args.folder, "done.json")
+        self.done = {}
+        self.title = None
         self.bad = []
+        self.rows = 0
+        self.seconds = 0.0
+        os.makedirs(args.folder, exist_ok=True)
+        if args.resume and os.path.exists(self.done_file):
+            with open(self.done_file) as file:
+                self.done = {entry["case"]: entry for entry in map(json.loads, file)}
+        elif os.path.exists(self.done_file):
+            os.remove(self.done_file)
 
     def say(self, line=""):
         print(line, flush=True)
@@ -44,83 +71,93 @@ class Report:
             self.stream.write(line + "\n")
             self.stream.flush()
 
-    def table(self, title, columns):
-        self.say(f"\n## {title}\n")
-        self.row(columns)
-        self.row(["---"] * len(columns))
-
-    def row(self, cells):
+    def row(self, title, columns, cells, wrong):
+        if title != self.title:
+            self.title = title
+            self.say(f"\n## {title}\n")
+            self.say("| " + " | ".join(columns) + " |")
+            self.say("|" + " --- |" * len(columns))
         self.say("| " + " | ".join(cells) + " |")
-
-    def judge(self, name, wrong):
+        self.rows += 1
         if wrong:
-            self.bad.append(f"{name}: {'; '.join(wrong)}")
+            self.bad.append(f"{title}, {cells[0]}: {'; '.join(wrong)}")
+
+    def case(self, name, part, case):
+        """Runs a case, or repeats its rows when it was done before."""
+        columns, entry = [*part.columns, "judgement", "said"], self.done.get(name)
+        if entry:
+            for row in entry["rows"]:
+                self.row(case.title, columns, row["cells"], row["wrong"])
+        else:
+            start, entry = cpu_seconds(), {"case": name, "rows": []}
+            for result in case.run():
+                wrong = result["wrong"]
+                verdict = "**" + "; ".join(wrong) + "**" if wrong else "pass"
+                cells = [*part.cells(result), verdict, result["said"] if "said" in result else last_words(result["run"])]
+                entry["rows"].append({"cells": cells, "wrong": wrong})
+                self.row(case.title, columns, cells, wrong)
+            entry["seconds"] = cpu_seconds() - start
+            with open(self.done_file, "a") as file:
+                file.write(json.dumps(entry) + "\n")
+        self.seconds += entry["seconds"]
 
     def end(self):
-        self.say(f"\n{len(self.bad)} not as they should be")
+        self.say(f"\n{self.rows} rows, {self.seconds / 60:.0f} minutes of CPU time; {len(self.bad)} not as they should be")
         for line in self.bad:
             self.say(f"- {line}")
         if self.stream:
             self.stream.close()
 
 
-def report_sweeps(report, args, wanted):
-    group = [None]
+class Part:
+    """cases(args): what to run; columns and cells: how a result is shown."""
 
-    def done(row, run, reference, wrong):
-        if row.group != group[0]:
-            group[0] = row.group
-            report.table(row.group, ["case", "status", "Newton", "PCG mean", "PCG max", "true gap", "energy", "drift", "judgement", "said"])
-        report.row([row.name, run.status, *counts(run), number(run.gap_true, ".1e"), number(run.energy, ".9g"), number(sweeps.drift(run, reference), ".1e"),
-                    verdict(wrong), last_words(run)])
-        report.judge(f"{row.group}, {row.name}", wrong)
-
-    sweeps.sweep(args.folder, lambda row: wanted(f"{row.group}, {row.name}"), done)
+    def __init__(self, cases, columns, cells):
+        self.cases, self.columns, self.cells = cases, columns, cells
 
 
-def report_barrier(report, args, wanted):
-    report.table("The barrier to its end (two_block)", ["case", "status", "Newton", "PCG mean", "PCG max", "bound", "D_max/D_min", "KKT error", "unscaled", "judgement", "said"])
-
-    def done(name, run, bound, spread, wrong):
-        report.row([name, run.status, *counts(run), number(bound, ".0f"), number(spread, ".1e"), number(run.last.get("kkt_error"), ".1e"),
-                    number(run.last.get("kkt_error_unscaled"), ".1e"), verdict(wrong), run.last.get("reason", last_words(run))])
-        report.judge(name, wrong)
-
-    for refine in args.barrier_refine:
-        barrier.sweep(args.folder, refine, wanted, done, args.limit)
+def sweep_cells(r):
+    run = r["run"]
+    return [r["name"], run.status, *counts(run), gap(run), number(run.energy, ".9g"), number(r["drift"], ".1e")]
 
 
-def report_units(report, args, wanted):
-    report.table("Change of units (shipped scenes)", ["scene", "units", "status", "Newton", "PCG mean", "PCG max", "largest difference", "of", "judgement", "said"])
-
-    def done(name, unit, run, worst, wrong):
-        report.row([name, unit, run.status, *counts(run), number(worst[0], ".1e"), worst[1], verdict(wrong), last_words(run)])
-        report.judge(f"units, {name}, {unit}", wrong)
-
-    units.compare(args.folder, wanted, done, args.limit)
+def barrier_cells(r):
+    run = r["run"]
+    return [r["name"], run.status, str(run.newton), " ".join(map(str, run.pcg)), number(r["bound"], ".0f"), number(r["spread"], ".1e"), number(run.last.get("kkt_error"), ".1e"),
+            number(run.last.get("kkt_error_unscaled"), ".1e")]
 
 
-def report_steps(report, args, wanted):
-    report.table("Number of load steps", ["scene", "steps", "updates allowed", "status", "Newton", "PCG mean", "PCG max", "true gap", "displacement off by", "energy off by", "judgement", "said"])
-
-    def done(name, count, updates, run, off, wrong):
-        report.row([name, str(count), str(updates), run.status, *counts(run), number(run.gap_true, ".1e"), number(off and off[0], ".1e"), number(off and off[1], ".1e"),
-                    verdict(wrong), last_words(run)])
-        report.judge(f"load steps, {name}, {count}", wrong)
-
-    steps.compare(args.folder, wanted, done, args.limit)
+def unit_cells(r):
+    return [r["name"], r["unit"], r["run"].status, *counts(r["run"]), number(r["difference"], ".1e"), r["of"]]
 
 
-PARTS = {"sweeps": report_sweeps, "barrier": report_barrier, "units": report_units, "steps": report_steps}
+def step_cells(r):
+    run = r["run"]
+    return [r["name"], str(r["steps"]), str(r["updates"]), run.status, *counts(run), gap(run), number(r["displacement"], ".1e"), number(r["energy"], ".1e")]
+
+
+def clip_cells(r):
+    return [r["name"], str(r["checks"]), f"{r['seconds']:.0f}"]
+
+
+COUNTS = ["status", "Newton", "PCG mean", "PCG max"]
+PARTS = {
+    "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "drift"], sweep_cells),
+    "barrier": Part(barrier.cases, ["case", "status", "Newton", "PCG of each Newton system", "bound", "D_max/D_min", "KKT error", "unscaled"], barrier_cells),
+    "units": Part(units.cases, ["scene", "units", *COUNTS, "largest difference", "of"], unit_cells),
+    "steps": Part(steps.cases, ["scene", "load steps", "gap updates allowed", *COUNTS, "true gap", "displacement off by", "energy off by"], step_cells),
+    "clip": Part(clip.cases, ["case", "checks", "time [s]"], clip_cells),
+}
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART", help=f"of {', '.join(PARTS)}; default all")
     parser.add_argument("--quick", action="store_true", help="the rows that make check runs, and only whether they are as they should be")
+    parser.add_argument("--resume", action="store_true", help="do not run again what is in --folder already")
     parser.add_argument("--only", default="*", help="cases whose name matches this pattern")
-    parser.add_argument("--limit", type=int, default=600, help="of one run outside the sweeps [s]")
-    parser.add_argument("--barrier-refine", type=int, nargs="*", default=[1, 2], help="meshes of two_block")
+    parser.add_argument("--refine", type=int, default=1, help="of the two blocks in the sweeps; 1 is the published mesh 1")
+    parser.add_argument("--limit", type=int, default=1800, help="of one run [CPU s]")
     parser.add_argument("--folder", default=os.path.join(AMGF_DIR, "build", "stress"), help="for scenes, summaries and fields")
     parser.add_argument("--report", help="file for the tables")
     return parser.parse_args()
@@ -128,17 +165,18 @@ def parse():
 
 def main():
     args = parse()
-
-    def wanted(name):
-        return fnmatch.fnmatch(name.lower(), args.only.lower())
-
     if args.quick:
-        sweeps.sweep(args.folder, lambda row: row.quick, lambda row, run, reference, wrong: print(f"{row.group}, {row.name}: {'; '.join(wrong) or row.end}"))
+        args.limit = 60
+        for row in sweeps.rows(args.folder, 0):
+            if row.quick:
+                print(f"{row.group}, {row.name}: {'; '.join(sweeps.solve_row(args, row)['wrong']) or row.end}")
         return 0
-    report = Report(args.report)
-    report.say("# Stress report")
-    for part in args.parts:
-        PARTS[part](report, args, wanted)
+    report = Report(args)
+    report.say(HEADER)
+    for name in args.parts:
+        for case in PARTS[name].cases(args):
+            if fnmatch.fnmatch(f"{case.title}, {case.name}".lower(), args.only.lower()):
+                report.case(f"{name}, {case.title}, {case.name}", PARTS[name], case)
     report.end()
     return 1 if report.bad else 0
 

@@ -14,6 +14,13 @@ DIRECT = os.path.join(AMGF_DIR, "share", "options", "direct.opts")
 SCENES = os.path.join(AMGF_DIR, "share", "scenes")
 
 
+class Case:
+    """What is run at once: run() yields its results, dictionaries that hold at least the run and what is wrong with it."""
+
+    def __init__(self, title, name, run):
+        self.title, self.name, self.run = title, name, run
+
+
 class Run:
     """One run: how it ended, its summary and, if it was asked to write, its fields."""
 
@@ -60,6 +67,7 @@ class Run:
 
     @property
     def gap_true(self):
+        """None where no faces are within reach of each other."""
         return self.last.get("gap_true")
 
     def fields(self, step):

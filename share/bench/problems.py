@@ -1,0 +1,143 @@
+"""The problems of the bench: their meshes, what is measured on them, and the answers they are held against."""
+import os
+import re
+import sys
+from dataclasses import dataclass
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(TOP, "tests"))
+import check_hertz  # noqa: E402  (what the tests hold Hertz's sphere against is what the bench holds it against)
+
+
+@dataclass(frozen=True)
+class Level:
+    """A mesh: edits of the scene's text, pattern and replacement, and uniform refinements of what results"""
+
+    name: str
+    refine: int
+    unknowns: int  # about; for the estimate of a run's time
+    edits: tuple = ()
+    factor: int = 0  # cells along an axis, over those of the scene as it is; 0: as many as refine makes
+
+    @property
+    def size(self):
+        """Of a cell, relative"""
+        return 1 / (self.factor or 2**self.refine)
+
+
+def last(summary):
+    return summary["steps"][-1]
+
+
+def force(summary):
+    return sum(f**2 for f in last(summary)["contact_force"]) ** 0.5
+
+
+class Problem:
+    """A scene of share/scenes, whose reference is extrapolated from its meshes"""
+
+    quantities = ("energy", "contact force")
+    fields = False  # whether a run must write its fields to be measured
+    steps = 1
+    careful = ("-contact_updates", "20", "-tao_ipfilter_tol", "1e-9")  # of the runs that are extrapolated
+    careful_body = ()
+
+    def __init__(self, name, levels, steps=1, title=None):
+        self.name = name
+        self.title = title or name.replace("_", " ")
+        self.levels = {level.name: level for level in levels}
+        self.steps = steps
+
+    def scene(self, level, body=()):
+        """The text of the scene on a mesh; body: keys and values that every body gets"""
+        with open(os.path.join(TOP, "share", "scenes", self.name + ".yaml")) as file:
+            text = file.read()
+        for pattern, value in self.levels[level].edits:
+            text, n = re.subn(pattern, value, text, flags=re.M)
+            if not n:
+                raise ValueError(f"{self.name}.yaml has nothing like {pattern}")
+        for key, value in body:
+            text = re.sub(rf"^ *{key}:.*\n", "", text, flags=re.M)
+            text = re.sub(r"^( *)(poisson:.*)$", rf"\1\2\n\1{key}: {value}", text, flags=re.M)
+        return text
+
+    def measure(self, base, summary):
+        """What is compared with the reference; base: of the fields, where the problem asks for them"""
+        return {"energy": last(summary)["energy"], "contact force": force(summary)}
+
+    def exact(self, references):
+        """None: known only once its meshes have been run"""
+        return references.get(self.name)
+
+
+class Cantilever(Problem):
+    quantities = ("energy",)
+    careful = ("-elasticity_ksp_rtol", "1e-11")
+
+    def measure(self, base, summary):
+        return {"energy": last(summary)["energy"]}
+
+
+class TwoBlock(Problem):
+    careful_body = (("element", "bbar"),)  # converges the fastest
+
+
+class HertzSphere(Problem):
+    """Peak pressure and radius at the computed force, force and energy at the prescribed approach"""
+
+    quantities = ("peak pressure", "contact radius", "contact force", "energy")
+    fields = True
+    sphere = check_hertz.Sphere()
+
+    def measure(self, base, summary):
+        errors = check_hertz.measure(self.sphere, base)["errors"]
+        return {"peak pressure": 1 + errors["peak pressure"], "contact radius": 1 + errors["contact radius"], "contact force": force(summary), "energy": last(summary)["energy"]}
+
+    def exact(self, references):
+        s = self.sphere
+        whole = 4 / 3 * s.modulus * s.radius**0.5 * s.approach**1.5
+        return {"peak pressure": 1.0, "contact radius": 1.0, "contact force": s.share * whole, "energy": s.share * 0.4 * whole * s.approach}
+
+
+def box_cells(factor):
+    """The two-block mesh, every box with `factor` times as many cells along each axis as level 0"""
+    counts = ((20, 6, 3), (4, 4, 4))
+    return tuple((r"cells: \[%d, %d, %d\]" % count, "cells: [%d, %d, %d]" % tuple(factor * n for n in count)) for count in counts)
+
+
+def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
+    """The meshes of tests/hertz.sh"""
+    return (
+        (r"^ *patches: .*", f"      patches: [{patch}, {patch}, 1]"),
+        (r"^ *grading: .*", f"      grading: [{grading}, {grading}, 1]"),
+        (r"^ *even: .*", f"      even: [{even}, {even}, 1]"),
+        (r"layers: .*", f"layers: {layers}"),
+        (r"layer_grading: .*", f"layer_grading: {layer_grading}"),
+        (r"layer_even: .*", f"layer_even: {layer_even}"),
+    )
+
+
+def two_block_unknowns(s):
+    return 3 * ((20 * s + 1) * (6 * s + 1) * (3 * s + 1) + (4 * s + 1) ** 3)
+
+
+PROBLEMS = {
+    problem.name: problem
+    for problem in (
+        HertzSphere(
+            "hertz_sphere",
+            [
+                Level("coarse", 0, 5397, ball_cells(11, 312.5, 5, 9, 0.005304, 3)),
+                Level("medium", 0, 11800, ball_cells(15, 334.5, 6, 12, 0.004552, 4)),
+                Level("0", 0, 29805),
+                Level("1", 1, 222660),
+            ],
+            title="Hertz sphere",
+        ),
+        TwoBlock("two_block", [Level(str(s), 0, two_block_unknowns(s), box_cells(s), s) for s in (1, 2, 3, 4, 6, 8)], steps=2, title="two-block"),
+        Problem("beam_sphere_linear", [Level("0", 0, 7902), Level("1", 1, 53547), Level("2", 2, 392661)], steps=6, title="beam-sphere"),
+        Problem("beam_sphere_neo_hookean", [Level("0", 0, 7902), Level("1", 1, 53547)], steps=6, title="beam-sphere, neo-Hookean"),
+        Problem("ironing", [Level("1", 1, 12876), Level("2", 2, 89370)], steps=10),
+        Cantilever("cantilever", [Level("0", 0, 3075), Level("1", 1, 19683), Level("2", 2, 140000), Level("3", 3, 1050000)]),
+    )
+}

@@ -1,0 +1,224 @@
+"""What the bench runs: studies that turn one knob at a time, the baselines, the growth with size, and the runs behind the roofline."""
+from dataclasses import dataclass
+
+from problems import PROBLEMS
+from store import Case
+
+SIZES = ("tiny", "quick", "full")
+
+
+@dataclass
+class Series:
+    """The runs of one line, in the order of the knob"""
+
+    label: str
+    points: list  # (value of the knob, Case)
+
+
+@dataclass
+class Panel:
+    """One problem of a study; careful: the run on the same mesh that shows what is left of the error without the mesh"""
+
+    problem: str
+    level: str
+    series: list
+    careful: Case = None
+
+    @property
+    def title(self):
+        return PROBLEMS[self.problem].title + (f", mesh {self.level}" if self.level else "")
+
+
+@dataclass
+class Study:
+    name: str
+    title: str
+    knob: str
+    panels: list
+    costs: tuple = ("time", "applications")
+    needs: str = ""  # an option without which the study makes no sense
+    kind: str = "knob"
+
+    def cases(self):
+        for panel in self.panels:
+            for series in panel.series:
+                yield from (case for _, case in series.points)
+            if panel.careful:
+                yield panel.careful
+
+
+# problem: its meshes in the studies that turn a knob on one mesh
+MESHES = {
+    "tiny": {"hertz_sphere": "coarse", "two_block": "1"},
+    "quick": {"hertz_sphere": "medium", "two_block": "2", "beam_sphere_linear": "0", "beam_sphere_neo_hookean": "0"},
+    "full": {"hertz_sphere": "0", "two_block": "4", "beam_sphere_linear": "0", "beam_sphere_neo_hookean": "0"},
+}
+# problem: its meshes where the mesh is the knob
+LEVELS = {
+    "tiny": {"hertz_sphere": ("coarse",), "two_block": ("1", "2")},
+    "quick": {"hertz_sphere": ("coarse", "medium", "0"), "two_block": ("1", "2", "3"), "beam_sphere_linear": ("0",), "cantilever": ("0", "1")},
+    "full": {"hertz_sphere": ("coarse", "medium", "0", "1"), "two_block": ("1", "2", "4", "8"), "beam_sphere_linear": ("0", "1", "2"), "cantilever": ("0", "1", "2", "3")},
+}
+IP = "-tao_ipfilter_"
+AMG = IP + "amgf_amg_"
+AIJ = ("-elasticity_mat_type", "aij")
+
+
+def boomeramg(prefix, down, up):
+    """BoomerAMG as both the published and the tuned configuration have it, but for the smoother"""
+    settings = {"coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": "4", "strong_threshold": "0.5", "agg_nl": "0", "relax_type_down": down, "relax_type_up": up}
+    return tuple(word for key, value in settings.items() for word in (f"{prefix}pc_hypre_boomeramg_{key}", value))
+
+
+TUNED = ("l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
+PUBLISHED = ("l1scaled-SOR/Jacobi", "l1scaled-SOR/Jacobi")
+LONG = (IP + "ksp_max_it", "20000")
+TOLERANCES = ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10")
+
+
+def values(option, *numbers):
+    return [(number, (option, number)) for number in numbers]
+
+
+def turn(size, problems, variants, careful=None, work=1.0):
+    """Panels of one line each: the variants (value, options[, body keys]) on the mesh of every problem"""
+    panels = []
+    for problem in problems:
+        level = MESHES[size].get(problem)
+        if level is None:
+            continue
+        points = [(variant[0], Case(problem, level, tuple(variant[1]), tuple(variant[2]) if len(variant) > 2 else (), work=work)) for variant in variants]
+        panels.append(Panel(problem, level, [Series("", points)], Case(problem, level, careful) if careful is not None else None))
+    return panels
+
+
+def mesh_studies(size):
+    meshes = [Panel(p, "", [Series("", [(level, Case(p, level, limit=1200)) for level in levels])]) for p, levels in LEVELS[size].items()]
+    yield Study("mesh", "Mesh", "mesh", meshes, costs=("time", "applications", "memory"))
+    panels = []
+    for problem, levels in LEVELS[size].items():
+        if problem == "beam_sphere_linear":
+            continue
+        lines = [Series(element, [(level, Case(problem, level, body=body, limit=1200)) for level in levels[:3]]) for element, body in (("full", ()), ("bbar", (("element", "bbar"),)))]
+        panels.append(Panel(problem, "", lines))
+    yield Study("element", "Element: full integration against mean dilatation (bbar)", "mesh", panels, costs=("time", "applications", "memory"))
+
+
+def algebraic_studies(size):
+    tight = (IP + "tol", "1e-11")
+    three = ("hertz_sphere", "two_block", "beam_sphere_linear")
+    yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, three, values(IP + "tol", *TOLERANCES), careful=tight))
+    forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
+    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, three, forcing, careful=tight, work=1.5))
+
+
+def path_studies(size):
+    true = ("-contact_updates", "20", IP + "tol", "1e-9")
+    yield Study("load_steps", "Load steps", "load steps", turn(size, ("two_block", "beam_sphere_linear"), values("-load_steps", "1", "2", "4", "8"), careful=true, work=1.5))
+    three = ("hertz_sphere", "two_block", "beam_sphere_linear")
+    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, three, values("-contact_updates", "1", "2", "3", "5", "10"), careful=true, work=1.5))
+
+
+def formulation_studies(size):
+    two = ("hertz_sphere", "two_block")
+    yield Study("gap", "Gap: mortar against node to segment", "gap", turn(size, two, values("-contact_gap", "mortar", "node")), costs=("time",))
+    yield Study("quadrature", "Gauss points per axis of a hexahedron", "points", turn(size, two, values("-elasticity_quadrature", "2", "3")), costs=("time",))
+    materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
+    yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
+    models = values("-model", "quadratic", "energy")
+    true = ("-model", "energy", "-load_steps", "12", "-contact_updates", "3")
+    panels = turn(size, ("beam_sphere_neo_hookean",), models, careful=true, work=4)
+    yield Study("model", "Load step at finite strain: quadratic model against true energy", "model", panels)
+
+
+def preconditioner_studies(size):
+    two = ("two_block", "beam_sphere_linear")
+    all_costs = ("time", "applications", "memory")
+    amg = [
+        ("tuned l1-GS", ()),
+        ("published l1-SGS", boomeramg(AMG, *PUBLISHED)),
+        ("GAMG", (AMG + "pc_type", "gamg", *AIJ)),
+        ("ML", (AMG + "pc_type", "ml", *AIJ)),
+    ]
+    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs)
+    yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), work=1.5))
+    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", "2", "4", "-1"), work=1.5))
+
+
+def rank_study(size):
+    panels = []
+    for problem in ("hertz_sphere", "two_block", "beam_sphere_linear"):
+        level = MESHES[size].get(problem)
+        if level:
+            panels.append(Panel(problem, level, [Series("", [(str(ranks), Case(problem, level, ranks=ranks)) for ranks in (1, 2)])]))
+    yield Study("ranks", "Ranks", "ranks", panels, costs=("time", "applications", "memory"))
+
+
+def accuracy_study(size):
+    """From the coarsest mesh: the option refines by itself, up to a limit on the unknowns"""
+    most = {"quick": "60000", "full": "1000000"}.get(size)
+    targets = [(target, Case("hertz_sphere", "coarse", ("-accuracy", target, "-accuracy_max_dofs", most), work=10)) for target in ("1e-1", "3e-2", "1e-2", "3e-3", "1e-3")] if most else []
+    yield Study("accuracy", "One knob: -accuracy", "target", [Panel("hertz_sphere", "coarse", [Series("", targets)])] if targets else [], needs="-accuracy")
+
+
+# name: options and how many times the default's time they may take
+BASELINES = {
+    "defaults": ((), 1),
+    "published configuration": (("-options_file", "published.opts"), 20),
+    "MUMPS Cholesky": (("-options_file", "direct.opts"), 4),
+    "AMG-PCG": ((IP + "pc_type", "hypre", *boomeramg(IP, *TUNED), *LONG), 10),
+    "GAMG-PCG": ((IP + "pc_type", "gamg", *AIJ, *LONG), 10),
+    "TAO almm": (("-tao_type", "almm"), 10),
+    "TAO pdipm": (("-tao_type", "pdipm"), 10),
+}
+
+
+def ways(problem, level, limits, work=1.0):
+    """The baselines of a mesh, a series each; limits: name: seconds"""
+    return [Series(name, [(level, Case(problem, level, BASELINES[name][0], limit=limit, work=work * BASELINES[name][1]))]) for name, limit in limits.items()]
+
+
+def baseline_study(size):
+    """Where a limit ends the published configuration, the load steps it has done are compared"""
+    every, filtered = tuple(BASELINES), ("defaults", "published configuration")
+    meshes = {"tiny": [("two_block", "1", dict.fromkeys(every, 10))], "quick": [("two_block", "1", dict.fromkeys(every, 30)), ("beam_sphere_linear", "0", dict.fromkeys(every, 30))]}
+    meshes["full"] = [
+        ("two_block", "2", dict.fromkeys(every, 120)),
+        ("two_block", "4", dict.fromkeys(every[:3], 1500)),
+        ("two_block", "8", dict.fromkeys(filtered, 2400)),
+        ("ironing", "2", dict.fromkeys(filtered, 600)),
+        ("beam_sphere_linear", "1", dict.fromkeys(every, 150) | {"published configuration": 600, "MUMPS Cholesky": 600}),
+        ("beam_sphere_linear", "2", dict.fromkeys(filtered, 900)),
+    ]
+    panels = []
+    for problem, level, limits in meshes[size]:
+        careful = Case(problem, level, (IP + "tol", "1e-11")) if "MUMPS Cholesky" in limits else None
+        panels.append(Panel(problem, level, ways(problem, level, limits), careful))
+    yield Study("baselines", "Against other ways to the same answer", "mesh", panels, kind="baselines")
+
+
+def growth_study(size):
+    """Two-block from 2,000 to 700,000 unknowns; name: the largest mesh and its limit"""
+    reach = {"tiny": {"defaults": (1, 10)}, "quick": {"defaults": (4, 90), "published configuration": (2, 90), "MUMPS Cholesky": (3, 90), "AMG-PCG": (1, 30)}}
+    reach["full"] = {"defaults": (8, 1200), "published configuration": (4, 1500), "MUMPS Cholesky": (6, 1200), "AMG-PCG": (2, 120), "GAMG-PCG": (2, 120)}
+    series = []
+    for name, (largest, limit) in reach[size].items():
+        options, work = BASELINES[name]
+        points = [(level, Case("two_block", level, options, limit=limit, work=work)) for level in PROBLEMS["two_block"].levels if int(level) <= largest]
+        series.append(Series(name, points))
+    yield Study("growth", "Growth with size", "mesh", [Panel("two_block", "", series)], kind="growth")
+
+
+def roofline_study(size):
+    levels = {"tiny": ("1",), "quick": ("2", "3"), "full": ("2", "4", "8")}[size]
+    cycles = ("fbf", "bfb", "additive")
+    lines = [Series(cycle, [(level, Case("two_block", level, (IP + "pc_amgf_cycle", cycle), log=True)) for level in (levels if cycle == "fbf" else levels[:2])]) for cycle in cycles]
+    yield Study("roofline", "Share of the memory bandwidth", "mesh", [Panel("two_block", "", lines)], kind="roofline")
+
+
+MAKERS = (mesh_studies, algebraic_studies, path_studies, formulation_studies, preconditioner_studies, rank_study, accuracy_study, baseline_study, growth_study, roofline_study)
+
+
+def studies(size):
+    """All of a size; those that have no problem of that size are left out"""
+    return [study for maker in MAKERS for study in maker(size) if study.panels]

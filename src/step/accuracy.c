@@ -1,0 +1,258 @@
+/* As accurate as asked and no more: which tolerances, and which mesh. */
+#include <accuracy.h>
+
+#define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
+#define ACCURACY_UPDATES 20
+
+/*@C
+   AccuracySetFromOptions - How accurate a run is to be
+
+   Collective
+
+   Input Parameter:
+.  comm - the communicator
+
+   Output Parameter:
+.  acc - the plan; its target is 0 where -accuracy is not given
+
+   Options Database Keys:
++  -accuracy <target>         - relative error wanted in energy and contact force
+.  -accuracy_share <0.1>      - what of it the solver may leave
+-  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
+
+   Level: beginner
+
+.seealso: `AccuracyPlan()`, `AccuracyAssess()`, `ReportViewAccuracy()`
+@*/
+PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
+{
+  PetscReal most = 1e6;
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(acc, sizeof(*acc)));
+  acc->share = 0.1;
+  PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
+  PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
+  PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", most, &most, NULL));
+  PetscOptionsEnd();
+  PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
+  PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
+  PetscCheck(most > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)most);
+  acc->most_dofs = (PetscInt)PetscMin(most, (PetscReal)PETSC_MAX_INT);
+  acc->tolerance = acc->share * acc->target;
+  acc->update_tolerance = 0.25 * acc->share * acc->target;
+  PetscFunctionReturn(0);
+}
+
+/* *given: the user has, and that stays */
+static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBool *given)
+{
+  char text[32];
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, given));
+  if (*given) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%g", (double)value));
+  PetscCall(PetscOptionsSetValue(NULL, name, text));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   AccuracyPlan - Chooses the tolerances of the next run
+
+   Collective
+
+   Input Parameters:
++  acc   - what is asked for
+-  scene - the scene; its contact_updates is raised, unless -contact_updates was given
+
+   Level: developer
+
+   Notes:
+   The gap is linearized until it is true, so that load steps of any size end in the same state. The optimizer's tolerance
+   starts at share x target and is tightened where that left too much. Tolerances are set as PETSc options (-accuracy_view
+   shows them); those that the user has given stay.
+
+.seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`
+@*/
+PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene)
+{
+  const char *const solver   = scene->npairs ? "-tao_ipfilter_tol" : "-elasticity_ksp_rtol";
+  PetscBool         estimate = PETSC_TRUE, set;
+
+  PetscFunctionBegin;
+  if (acc->target == 0.0) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
+  PetscCheck(estimate, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
+  if (acc->nlevels && !acc->given) PetscCall(PetscOptionsClearValue(NULL, solver));
+  PetscCall(SetUnlessGiven(solver, acc->tolerance, &acc->given));
+  acc->contact = (PetscBool)(scene->npairs > 0);
+  if (acc->nlevels || !acc->contact) PetscFunctionReturn(0);
+  PetscCall(SetUnlessGiven("-contact_update_tol", acc->update_tolerance, &set));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-contact_updates", &set));
+  if (!set) scene->contact_updates = PetscMax(scene->contact_updates, ACCURACY_UPDATES);
+  acc->updates = scene->contact_updates;
+  PetscFunctionReturn(0);
+}
+
+/* The largest difference of the load steps, relative to the largest value */
+static PetscReal LargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
+{
+  PetscReal difference = 0.0, size = 0.0;
+
+  for (PetscInt s = 0; s < n; ++s) {
+    difference = PetscMax(difference, PetscAbsReal(now[s] - before[s]));
+    size       = PetscMax(size, PetscAbsReal(now[s]));
+  }
+  return size > 0.0 ? difference / size : 0.0;
+}
+
+/* The last run on a coarser mesh than the last run's, NULL if there is none */
+static const AccuracyLevel *Coarser(const Accuracy *acc)
+{
+  const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
+
+  for (PetscInt l = acc->nlevels - 2; l >= 0; --l) {
+    if (acc->levels[l].refine < now->refine) return &acc->levels[l];
+  }
+  return NULL;
+}
+
+/* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results. Where
+   results hardly differ by chance, a quarter of the recovered error stands */
+static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
+{
+  PetscReal ratio;
+
+  now->error   = now->recovery;
+  now->coarser = (PetscBool)(before != NULL);
+  if (!before) return;
+  now->change = PetscMax(LargestChange(nsteps, now->energy, before->energy), LargestChange(nsteps, now->force, before->force));
+  ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
+  ratio       = PetscMax(ratio, 2.0);
+  now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
+}
+
+static PetscErrorCode RecordLevel(Accuracy *acc, const RunReport *report)
+{
+  AccuracyLevel *level;
+  PetscReal      largest = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((acc->nlevels + 1) * sizeof(*acc->levels), &acc->levels));
+  level = &acc->levels[acc->nlevels++];
+  PetscCall(PetscMemzero(level, sizeof(*level)));
+  PetscCall(PetscMalloc2(report->nsteps, &level->energy, report->nsteps, &level->force));
+  level->refine = report->refine;
+  level->dofs   = report->dofs;
+  level->time   = report->time.total;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+    const PetscReal  *f    = step->contact_force;
+
+    level->energy[s] = step->energy;
+    level->force[s]  = PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    largest          = PetscMax(largest, step->energy);
+  }
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step   = &report->steps[s];
+    const PetscReal   weight = largest > 0.0 ? step->energy / largest : 0.0;
+
+    level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
+    level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
+  }
+  AssessMesh(level, Coarser(acc), report->nsteps);
+  PetscFunctionReturn(0);
+}
+
+/* Refined once more, unless the error is within a factor 2 of the target or the unknowns do not allow it */
+static PetscErrorCode DecideOnMesh(Accuracy *acc, PetscBool *refine)
+{
+  const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];
+  const PetscReal      next = 8.0 * (PetscReal)now->dofs;
+
+  PetscFunctionBegin;
+  acc->reached = (PetscBool)(now->error <= 2.0 * acc->target);
+  *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->most_dofs);
+  if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
+  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->most_dofs));
+  PetscFunctionReturn(0);
+}
+
+/* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
+static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
+{
+  const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
+  const PetscReal      allowed = acc->share * acc->target;
+  PetscInt             runs    = 0;
+
+  PetscFunctionBegin;
+  *tighten = PETSC_FALSE;
+  if (now->algebraic <= allowed) PetscFunctionReturn(0);
+  for (PetscInt l = 0; l < acc->nlevels; ++l) runs += (acc->levels[l].refine == now->refine);
+  *tighten = (PetscBool)(!acc->given && runs <= 2);
+  if (*tighten) acc->tolerance *= PetscMax(0.01, 0.5 * allowed / now->algebraic);
+  else {
+    acc->reached = PETSC_FALSE;
+    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the solver leaves %g, more than its share", (double)now->algebraic));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   AccuracyAssess - Was the run accurate enough, and what is to be done if not?
+
+   Collective
+
+   Input Parameters:
++  acc    - what is asked for
+.  report - the run's
+-  scene  - the scene; its refinement becomes that of the next run
+
+   Output Parameter:
+.  again - whether the scene is to be run again
+
+   Level: developer
+
+   Notes:
+   The first mesh's error in energy is that of stress recovery. From the second mesh on it is extrapolated from the change of
+   energy and contact force between two meshes, whichever is larger, with the rate that recovery shows; it is taken for a quarter of
+   recovery's at least. A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides
+   it by 4, and costs 8 times as much, so that all the coarser meshes together cost a seventh of the last.
+
+   Where the solver left more than its share, its tolerance is tightened; on the finest mesh the run is repeated with it.
+
+.seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
+@*/
+PetscErrorCode AccuracyAssess(Accuracy *acc, const RunReport *report, Scene scene, PetscBool *again)
+{
+  PetscBool refine, tighten;
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  if (acc->target == 0.0) PetscFunctionReturn(0);
+  PetscCall(RecordLevel(acc, report));
+  PetscCall(DecideOnMesh(acc, &refine));
+  PetscCall(DecideOnTolerance(acc, &tighten));
+  if (refine) ++scene->refine;
+  *again = (PetscBool)(refine || tighten);
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   AccuracyDestroy - Frees what was recorded
+
+   Not Collective
+
+   Level: beginner
+@*/
+PetscErrorCode AccuracyDestroy(Accuracy *acc)
+{
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree2(acc->levels[l].energy, acc->levels[l].force));
+  PetscCall(PetscFree(acc->levels));
+  acc->nlevels = 0;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,29 @@
+# -accuracy TARGET: Hertz's cylinder from a coarse mesh, its force against the exact one, and a cantilever; what the estimates
+# are worth, and what cannot be reached is said. check_accuracy.py holds the summaries against the exact solution.
+contact=$AMGF_DIR/bin/contact
+
+sed -e 's/^ *patches: .*/      patches: [8, 19, 14]/' -e 's/^ *grading: .*/      grading: [1, 361.2, 0.004865]/' -e 's/^ *even: .*/      even: [1, 6, 2]/' \
+    "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" > cylinder.yaml
+cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
+
+run() { # summary, scene, options
+  name=$1
+  scene=$2
+  shift 2
+  "$contact" "$scene.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
+}
+run exact cylinder -refine 1
+run cylinder_1 cylinder -accuracy 1e-2
+run cylinder_2 cylinder -accuracy 3e-3
+run cylinder_tight cylinder -accuracy 1e-2 -accuracy_share 1e-4
+run cylinder_given cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_ipfilter_tol 1e-2
+run cylinder_small cylinder -accuracy 1e-4 -accuracy_max_dofs 20000
+run cantilever cantilever -accuracy 1e-2
+run cantilever_fine cantilever -refine 2
+"$PYTHON" "$AMGF_DIR/tests/check_accuracy.py"
+
+for wrong in '-accuracy 0' '-accuracy 2' '-accuracy little' '-accuracy 0.1 -accuracy_share 1' '-accuracy 0.1 -error_estimate 0'; do
+  # shellcheck disable=SC2086
+  "$contact" cantilever.yaml -quiet $wrong 2>&1 | grep -a '^contact: error' | head -n 1
+done
+"$contact" cantilever.yaml -quiet -accuracy_view

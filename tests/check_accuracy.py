@@ -1,0 +1,56 @@
+"""Holds runs with -accuracy against exact solutions: the cylinder's force at its approach is Hertz's."""
+import math
+
+from check_hertz import Cylinder
+from summaries import load, say
+
+cylinder = Cylinder()
+
+
+def hertz_force():
+    """At the scene's approach, which grows with the force"""
+    low, high = 1e-12, 1e4
+    for _ in range(200):
+        middle = math.sqrt(low * high)
+        if cylinder.at(middle)[2] < cylinder.approach:
+            low = middle
+        else:
+            high = middle
+    return low * cylinder.share
+
+
+def force_error(run):
+    return abs(abs(run["steps"][-1]["contact_force"][2]) / hertz_force() - 1)
+
+
+def judge(name, target):
+    run = load(name)
+    accuracy = run["accuracy"]
+    last = accuracy["levels"][-1]
+    error = force_error(run)
+    say("%s: the target is reached" % name, accuracy["reached"], accuracy["end"])
+    say("%s: the true error is within a factor 2 of the target" % name, target / 2 <= error <= 2 * target, error)
+    say("%s: the estimate is within a factor 1.5 of the true error" % name, error / 1.5 <= last["error"] <= 1.5 * error, (last["error"], error))
+    say("%s: the solver leaves less than its share" % name, last["algebraic"] <= accuracy["share"] * target, last["algebraic"])
+    return run
+
+
+judge("cylinder_1", 1e-2)
+fine = judge("cylinder_2", 3e-3)
+exact = load("exact")
+step, full = fine["steps"][-1], exact["steps"][-1]
+say("the same mesh costs fewer AMG applications than solving to the default tolerance", step["amg_applications"] < full["amg_applications"], (step["amg_applications"], full["amg_applications"]))
+difference = abs(step["energy"] / full["energy"] - 1)
+say("the solver's error estimate bounds the difference in energy", difference <= step["algebraic_error"], (difference, step["algebraic_error"]))
+
+tight = load("cylinder_tight")
+say("a smaller share is kept", tight["accuracy"]["reached"] and tight["steps"][-1]["algebraic_error"] <= 1e-6, tight["steps"][-1]["algebraic_error"])
+given = load("cylinder_given")["accuracy"]
+say("a tolerance that was given stays, and what it costs is said", not given["reached"] and "the solver leaves" in given["end"], given["end"])
+small = load("cylinder_small")["accuracy"]
+say("a target out of reach is said", not small["reached"] and "-accuracy_max_dofs" in small["end"] and small["levels"][-1]["dofs"] <= 20000, small["end"])
+
+beam, fine = load("cantilever"), load("cantilever_fine")
+truth = fine["steps"][-1]["energy"] + (fine["steps"][-1]["energy"] - beam["steps"][-1]["energy"]) / 3
+error = abs(beam["steps"][-1]["energy"] / truth - 1)
+say("cantilever: the energy is within a factor 2 of the target", beam["accuracy"]["reached"] and 0.5e-2 <= error <= 2e-2, error)

@@ -1,0 +1,82 @@
+"""Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own summaries.
+
+python check_bench.py FOLDER, of a bench with the study `forcing`
+"""
+import csv
+import json
+import math
+import os
+import sys
+
+from summaries import say
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "share", "bench"))
+import growth  # noqa: E402
+import references  # noqa: E402
+import roofline  # noqa: E402
+from plots import front  # noqa: E402
+from problems import PROBLEMS  # noqa: E402
+from runner import last_words  # noqa: E402
+
+
+def check_extrapolation():
+    sizes = (1, 1 / 2, 1 / 3)
+    limit, order = references.richardson(sizes, [3 - 0.7 * h**1.5 for h in sizes])
+    say("Richardson: limit and order", abs(limit - 3) < 1e-12 and abs(order - 1.5) < 1e-12, (limit, order))
+    limit, order = references.richardson((1, 1 / 2, 1 / 4), (1.0, 1.1, 1.3))
+    say("Richardson: nothing is extrapolated from differences that grow", limit == 1.3 and math.isnan(order), (limit, order))
+
+
+def check_growth():
+    unknowns = [1000, 10000, 80000, 640000]
+    slope = growth.exponent(unknowns, [n**1.25 for n in unknowns])
+    say("exponent", abs(slope - 1.25) < 1e-12, slope)
+    ours, theirs = {n: 2.0 * n for n in unknowns}, {n: 2.0 * n * (n / 30000) ** 0.5 for n in unknowns}
+    say("crossover", abs(growth.crossover(ours, theirs) / 30000 - 1) < 1e-12, growth.crossover(ours, theirs))
+    say("crossover: never, always", (growth.crossover(theirs, {n: 1.0 for n in unknowns}), growth.crossover({1: 1.0}, {1: 2.0})) == (math.inf, 0.0), None)
+
+
+def check_front():
+    points = [(1.0, 5.0), (2.0, 6.0), (3.0, 1.0), (3.5, 1.0), (0.5, 9.0)]
+    say("front", front(points) == [(0.5, 9.0), (1.0, 5.0), (3.0, 1.0)], front(points))
+
+
+def check_roofline():
+    """Products of 1 ms that read 84.4 MB and 2.4 MB; V-cycles that take 10 of them"""
+    events = {"MatMult": {"count": 5, "seconds": 5e-3, "flops": 5 * 2e7}, "PCAMGFAMGApply": {"count": 2, "seconds": 2e-2}, "PCAMGFFltApply": {"count": 4, "seconds": 4e-3}, "PCApply": {"count": 2, "seconds": 2.4e-2}}
+    log = {"events": events, "levels": [{"rows": 1e5, "entries": 1e7}], "complexity": {"grid": 1.5, "operator": 1.5, "memory": 1.6}}
+    row = roofline.analyse({"log": log}, "fbf", [(1e6, 1e12), (1e8, 1e11)])
+    say("roofline: bandwidth of a product", abs(row["product_rate"] / (1e7 * (8 + 4 / 9) + 2.4e6) / 1e3 - 1) < 1e-12, row["product_rate"])
+    seen = (row["triad"], row["cycle_products"], row["application_products"], row["model_products"])
+    say("roofline: costs in products", seen == (1e11, 10.0, 12.0, 12.0), seen)
+
+
+def check_scenes():
+    text = PROBLEMS["two_block"].scene("3", (("element", "bbar"),))
+    say("scene: cells and element", "[60, 18, 9]" in text and "[12, 12, 12]" in text and text.count("element: bbar") == 2, text)
+    exact = PROBLEMS["hertz_sphere"].exact({})
+    say("Hertz: force of the scene's comment", abs(4 * exact["contact force"] / 9.157 - 1) < 1e-3, exact)
+    say("the sentence of a run that failed", last_words("a\ncontact: error: no scene\n--\n") == "contact: error: no scene", None)
+
+
+def check_table(folder):
+    with open(os.path.join(folder, "bench.csv")) as file:
+        rows = list(csv.DictReader(file))
+    say("table: the three tolerances on both problems", [row["value"] for row in rows] == 2 * ["adaptive", "1e-6", "1e-10"], rows)
+    say("table: all within 1e-8 of the same mesh solved to the end", all(float(row["same mesh energy"]) < 1e-8 for row in rows), rows)
+    with open(os.path.join(folder, "bench.json")) as file:
+        machine = json.load(file)["machine"]
+    say("the machine is described", all(machine[key] for key in ("processor", "cores", "memory_bytes", "versions")), machine)
+    row = next(row for row in rows if row["value"] == "1e-6")
+    with open(os.path.join(folder, "runs", next(name for name in os.listdir(os.path.join(folder, "runs")) if name.startswith(row["key"])))) as file:
+        summary = json.load(file)["summary"]
+    say("table: what the summary says", int(row["applications"]) == sum(s["amg_applications"] for s in summary["steps"]) and int(row["unknowns"]) == summary["dofs"] == 5397, row)
+    say("table: the contact force of Hertz, to 5 %", all(float(row["error contact force"]) < 0.05 for row in rows if row["problem"] == "hertz_sphere"), rows)
+
+
+check_extrapolation()
+check_growth()
+check_front()
+check_roofline()
+check_scenes()
+check_table(sys.argv[1])
