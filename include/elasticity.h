@@ -17,7 +17,9 @@ typedef struct _n_Elasticity *Elasticity;
 PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], const ElementType elements[], Elasticity *);
 /* Global rows (owned by this rank) whose displacement is prescribed */
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
-/* Preallocated, values zero; type by -elasticity_mat_type (baij default), near null space attached, marked symmetric */
+/* Type of the tangent, unless -elasticity_mat_type is given */
+PETSC_EXTERN PetscErrorCode ElasticitySetMatType(Elasticity, MatType);
+/* Preallocated, values zero; BAIJ unless another type was set, near null space attached, marked symmetric */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
 /* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not, and
    the matrix is the one of the last call and unchanged since */

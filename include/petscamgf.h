@@ -41,6 +41,16 @@ typedef struct {
   PetscInt filter_applies; /* solves with the filtered matrix */
 } PCAMGFCounts;
 
+/* What a TaoSolve() did where a Krylov method by itself did not solve a Newton system */
+typedef struct {
+  PetscInt  refinements;    /* solves continued from the attained iterate, whose true residual was too large */
+  PetscInt  amg_rebuilds;   /* the AMG, kept from an older matrix, was rebuilt */
+  PetscInt  filters;        /* the filter was switched on, or took in the neighbours of the constraints' unknowns */
+  PetscInt  direct;         /* systems solved by MUMPS on the whole matrix */
+  PetscInt  failures;       /* systems that nothing solved */
+  PetscReal backward_error; /* largest of a direction that was used: ||b - A d|| / (||diag(A) d|| + ||b||) */
+} TaoIPFilterFallbacks;
+
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);
 PETSC_EXTERN PetscErrorCode PetscAMGFFinalizePackage(void);
 
@@ -51,6 +61,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterActive(PC, PetscBool);
 PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
+PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
@@ -64,6 +75,7 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetKSPIterations(Tao, PetscInt *, const P
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetKKTError(Tao, PetscReal *, PetscReal *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetFilterUse(Tao, PetscInt *, PetscInt *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetRegularizations(Tao, PetscInt *, PetscInt *, PetscReal *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetFallbacks(Tao, TaoIPFilterFallbacks *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
 
 #endif

@@ -75,6 +75,13 @@ static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PCAMGFGetAMGAge_AMGF(PC pc, PetscInt *age)
+{
+  PetscFunctionBegin;
+  *age = ((PC_AMGF *)pc->data)->lag.age;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode PCAMGFGetAMGPC_AMGF(PC pc, PC *amg)
 {
   PetscFunctionBegin;
@@ -106,6 +113,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterActive_C", PCAMGFSetFilterActive_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetAMGLag_C", PCAMGFSetAMGLag_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGAge_C", PCAMGFGetAMGAge_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCounts_C", PCAMGFGetCounts_AMGF));
@@ -115,7 +123,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
   static const char *const names[] = {"PCAMGFSetCycle_C",        "PCAMGFGetCycle_C",  "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGPC_C",    "PCAMGFGetFilterKSP_C",           "PCAMGFGetCounts_C"};
+                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C",    "PCAMGFGetFilterKSP_C",           "PCAMGFGetCounts_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
@@ -314,6 +322,30 @@ PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveInt(pc, lag, 2);
   PetscTryMethod(pc, "PCAMGFSetAMGLag_C", (PC, PetscInt), (pc, lag));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFGetAMGAge - gets how many changed operators the AMG has served since it was built
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameter:
+. age - 0: it was built from the present operator
+
+  Level: advanced
+
+.seealso: `PCAMGF`, `PCAMGFSetAMGLag()`
+@*/
+PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(age, 2);
+  PetscUseMethod(pc, "PCAMGFGetAMGAge_C", (PC, PetscInt *), (pc, age));
   PetscFunctionReturn(0);
 }
 

@@ -18,6 +18,7 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscCall(VecDestroy(&aug->rhs));
   PetscCall(VecDestroy(&aug->sol));
   PetscCall(VecDestroy(&aug->sol2));
+  PetscCall(VecDestroy(&aug->correction));
   PetscFunctionReturn(0);
 }
 
@@ -70,17 +71,40 @@ static PetscErrorCode AssembleAugmented(Tao tao, Mat A)
   if (!aug->rhs) {
     PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
     PetscCall(VecDuplicate(aug->rhs, &aug->sol2));
+    PetscCall(VecDuplicate(aug->rhs, &aug->correction));
   }
   PetscFunctionReturn(0);
 }
 
-/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular */
+/* One factorization, with the given percentage of work space beyond MUMPS's estimate; 0: its own choice */
+static PetscErrorCode FactorWithin(IPAugmented *aug, PetscInt relaxation, PCFailedReason *failed)
+{
+  PC  pc;
+  Mat F;
+
+  PetscFunctionBegin;
+  PetscCall(KSPReset(aug->ksp));
+  PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCFactorSetUpMatSolverType(pc));
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
+  if (relaxation) PetscCall(MatMumpsSetIcntl(F, 14, relaxation));
+  PetscCall(KSPSetUp(aug->ksp));
+  PetscCall(PCGetFailedReason(pc, failed));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails for want of
+   memory, or otherwise, that says nothing about the matrix: ip->linear_failed. */
 static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
-  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented   *aug = &ip->aug;
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented   *aug  = &ip->aug;
+  const PetscInt most = 320;
   PC             pc;
-  PCFailedReason failed;
+  PCFailedReason failed = PC_FACTOR_OUTMEMORY;
   Mat            F;
   PetscInt       negative, zero, positive, n;
   PetscReal      norm;
@@ -88,18 +112,21 @@ static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
   PetscFunctionBegin;
   *singular = *inertia = PETSC_FALSE;
   PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
-  if (PetscIsInfOrNanReal(norm)) PetscFunctionReturn(0); /* MUMPS takes none */
-  PetscCall(KSPReset(aug->ksp));
-  PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
-  PetscCall(KSPGetPC(aug->ksp, &pc));
-  PetscCall(PCFactorSetUpMatSolverType(pc));
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
-  PetscCall(KSPSetUp(aug->ksp));
-  PetscCall(PCGetFailedReason(pc, &failed));
-  *singular = (PetscBool)(failed != PC_NOERROR);
-  *inertia  = PETSC_FALSE;
+  if (PetscIsInfOrNanReal(norm)) { /* MUMPS takes none */
+    PetscCall(IPLinearNotANumber(tao));
+    PetscFunctionReturn(0);
+  }
+  for (PetscInt relaxation = 0; failed == PC_FACTOR_OUTMEMORY && relaxation <= most; relaxation = relaxation ? 2 * relaxation : 40) PetscCall(FactorWithin(aug, relaxation, &failed));
+  *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
+  if (failed != PC_NOERROR) {
+    PetscCall(PetscStrncpy(ip->linear_reason, failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system" : "MUMPS failed on the augmented system", sizeof(ip->linear_reason)));
+    ip->fallbacks.failures++;
+    ip->linear_failed = PETSC_TRUE;
+    ip->ksp_reason    = KSP_DIVERGED_PC_FAILED;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatGetInertia(F, &negative, &zero, &positive));
   PetscCall(VecGetSize(tao->solution, &n));
@@ -128,6 +155,36 @@ static PetscErrorCode Join(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in sol2 */
+static PetscErrorCode Refine(Tao tao)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug   = &ip->aug;
+  const PetscInt  most  = 3;
+  const PetscReal exact = 1e-14;
+  PetscReal       rhs, before = PETSC_INFINITY;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
+  for (PetscInt k = 0; k <= most; k++) {
+    PetscCall(MatMult(aug->K, aug->sol, aug->sol2));
+    PetscCall(VecAYPX(aug->sol2, -1.0, aug->rhs));
+    PetscCall(VecNorm(aug->sol2, NORM_2, &ip->linear_residual));
+    if (!(ip->linear_residual <= before)) {
+      PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
+      ip->linear_residual = before;
+    }
+    if (!(ip->linear_residual > exact * rhs) || !(ip->linear_residual <= 0.5 * before) || k == most) break;
+    before = ip->linear_residual;
+    PetscCall(KSPSolve(aug->ksp, aug->sol2, aug->correction));
+    PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
+    ip->fallbacks.refinements++;
+  }
+  ip->backward_error           = rhs > 0.0 ? ip->linear_residual / rhs : 0.0;
+  ip->fallbacks.backward_error = PetscMax(ip->fallbacks.backward_error, ip->backward_error);
+  PetscFunctionReturn(0);
+}
+
 /* Solves for dx and the new multipliers with the matrix cond.A; ce is the residual of the equality constraints.
    matrix tells whether A is new since the last call. *usable is false where the inertia is wrong. */
 PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
@@ -139,6 +196,9 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
+  ip->linear_failed    = PETSC_FALSE;
+  ip->linear_reason[0] = '\0';
+  PetscCall(VecNorm(b, NORM_2, &ip->linear_rhs));
   PetscCall(CreateAugmented(tao));
   if (matrix) {
     PetscCall(AssembleAugmented(tao, ip->cond.A));
@@ -161,11 +221,9 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscCall(KSPGetConvergedReason(aug->ksp, &reason));
   ip->ksp_reason = reason;
   *usable        = (PetscBool)(reason > 0);
+  if (*usable) PetscCall(Refine(tao));
   PetscCall(Join(aug->sol, dx, ip->dy, PETSC_TRUE));
   PetscCall(VecAXPY(ip->dy, -1.0, ip->y));
-  PetscCall(MatMult(aug->K, aug->sol, aug->sol2));
-  PetscCall(VecAXPY(aug->sol2, -1.0, aug->rhs));
-  PetscCall(VecNorm(aug->sol2, NORM_2, &ip->linear_residual));
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
   PetscFunctionReturn(0);
 }

@@ -4,8 +4,9 @@
      A d = b,   A = H + Sigma + J^T D J + delta M_u,   D = M_s z/s,
      b = -grad f + J^T (M_s target/s - D (c - s)) + bound terms.
 
-   A has H's type. Its pattern is the union of H's and J^T J's and is preallocated; while H is unchanged only the rows
-   that J^T D J touches are written again, so a constant H is copied once.
+   A has H's type, except that it is BAIJ where one process has an SBAIJ H, unless the preconditioner factors SBAIJ: H then
+   takes half the memory, while products with A and hypre work on whole rows. A's pattern is the union of H's and J^T J's and is
+   preallocated; while H is unchanged only the rows that J^T D J touches are written again, so a constant H is copied once.
 */
 #include "ipfilterimpl.h"
 
@@ -225,6 +226,21 @@ static PetscErrorCode ZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt r
   PetscFunctionReturn(0);
 }
 
+/* Whether H has its upper triangle only, and A is to have whole rows */
+static PetscErrorCode Unfolds(Tao tao, Mat H, PetscBool *unfolds)
+{
+  PC        pc;
+  PetscBool half, factored;
+
+  PetscFunctionBegin;
+  *unfolds = PETSC_FALSE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)H, MATSEQSBAIJ, &half));
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, &factored, PCCHOLESKY, PCICC, ""));
+  *unfolds = (PetscBool)(half && !factored);
+  PetscFunctionReturn(0);
+}
+
 /* A_r = H_r or A_r += H_r for one row */
 static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
 {
@@ -235,6 +251,21 @@ static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
   PetscFunctionBegin;
   PetscCall(MatGetRow(H, row, &nc, &c, &v));
   PetscCall(MatSetValues(A, 1, &row, nc, c, v, mode));
+  PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
+  PetscFunctionReturn(0);
+}
+
+/* One row of an upper triangle and its mirror image; entries with c < row come with row c, if that is written too */
+static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
+{
+  const PetscInt    *c;
+  const PetscScalar *v;
+  PetscInt           nc;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(H, row, &nc, &c, &v));
+  PetscCall(MatSetValues(A, 1, &row, nc, c, v, INSERT_VALUES));
+  PetscCall(MatSetValues(A, nc, c, 1, &row, v, INSERT_VALUES));
   PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
   PetscFunctionReturn(0);
 }
@@ -270,30 +301,67 @@ static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
   PetscFunctionReturn(0);
 }
 
-/* Writes H into A: all rows, or those that J^T D J touches */
-static PetscErrorCode WriteHessian(Tao tao, PetscBool all)
+/* Writes all of H into A */
+static PetscErrorCode WriteHessian(Mat A, Mat H)
 {
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed  *cond = &ip->cond;
-  Mat           H    = tao->hessian;
-  PetscInt      rstart, rend, bs;
-  PetscBool     baij, sbaij;
+  PetscInt  rstart, rend, bs;
+  PetscBool baij, sbaij;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
-  if (cond->JtDJ) PetscCall(ZeroTouched(cond->A, cond->JtDJ, cond->nrows, cond->rows));
   PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
-  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
-  if (all && baij) {
+  if (baij) {
     PetscCall(MatGetBlockSize(H, &bs));
-    PetscCall(CopyBlocked(cond->A, H, bs));
-  } else if (all) {
-    for (PetscInt i = rstart; i < rend; i++) PetscCall(SetRow(cond->A, H, i, INSERT_VALUES));
-  } else {
-    for (PetscInt r = 0; r < cond->nrows; r++) PetscCall(SetRow(cond->A, H, cond->rows[r], INSERT_VALUES));
+    PetscCall(CopyBlocked(A, H, bs));
+    PetscFunctionReturn(0);
+  }
+  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(SetRow(A, H, i, INSERT_VALUES));
+  if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* Writes the rows of H into A that J^T D J touches */
+static PetscErrorCode RestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
+{
+  PetscBool sbaij;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
+  for (PetscInt r = 0; r < cond->nrows; r++) {
+    if (unfolds) PetscCall(SetRowMirrored(cond->A, H, cond->rows[r]));
+    else PetscCall(SetRow(cond->A, H, cond->rows[r], INSERT_VALUES));
   }
   if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* A = H for a new A or a new H; nothing but the entries that J^T D J has changed where both are the last system's */
+static PetscErrorCode WriteMatrix(Tao tao, PetscBool pattern, PetscBool values)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = tao->hessian;
+  MatNullSpace near;
+  PetscBool    unfolds = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(Unfolds(tao, H, &unfolds));
+  if (unfolds && values) {
+    PetscCall(MatConvert(tao->hessian, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
+    PetscCall(MatGetNearNullSpace(tao->hessian, &near));
+    if (near) PetscCall(MatSetNearNullSpace(H, near));
+  } else PetscCall(PetscObjectReference((PetscObject)H));
+  if (pattern) {
+    PetscCall(MatDestroy(&cond->A));
+    PetscCall(CreateCondensed(H, cond->JtDJ, &cond->A));
+    cond->shifted = PETSC_FALSE;
+  }
+  if (cond->JtDJ) PetscCall(ZeroTouched(cond->A, cond->JtDJ, cond->nrows, cond->rows));
+  if (values) PetscCall(WriteHessian(cond->A, H));
+  else PetscCall(RestoreTouched(cond, H, unfolds));
+  PetscCall(MatDestroy(&H));
   PetscFunctionReturn(0);
 }
 
@@ -361,11 +429,6 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
   all     = (PetscBool)(pattern || state != cond->H_state);
-  if (pattern) {
-    PetscCall(MatDestroy(&cond->A));
-    PetscCall(CreateCondensed(H, cond->JtDJ, &cond->A));
-    cond->shifted = PETSC_FALSE;
-  }
   if (!cond->shift) {
     PetscCall(VecDuplicate(tao->solution, &cond->shift));
     PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
@@ -373,7 +436,7 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   cond->H_state   = state;
   cond->H_nonzero = nonzero;
   cond->H_id      = ((PetscObject)H)->id;
-  PetscCall(WriteHessian(tao, all));
+  PetscCall(WriteMatrix(tao, pattern, all));
   PetscCall(WriteDiagonal(tao));
   if (cond->JtDJ) {
     PetscCall(MatAssemblyBegin(cond->A, MAT_FLUSH_ASSEMBLY));

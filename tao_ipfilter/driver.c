@@ -74,7 +74,8 @@ static PetscErrorCode ResetRecord(Tao tao)
   PetscFunctionBegin;
   ip->niter_ksp    = ip->most_ksp = 0;
   ip->nsystems     = ip->nfiltered = 0;
-  ip->filtered     = PETSC_FALSE;
+  ip->filtered     = ip->filter_forced = ip->linear_failed = PETSC_FALSE;
+  ip->ndirect      = 0;
   ip->nerror       = 0;
   ip->equality0    = 0.0;
   ip->free_mu      = (PetscBool)(ip->barrier == IP_BARRIER_MEHROTRA);
@@ -85,6 +86,7 @@ static PetscErrorCode ResetRecord(Tao tao)
   ip->nrestored    = 0;
   ip->relaxed      = 0.0;
   ip->nvanished    = 0;
+  ip->least_slack  = PETSC_INFINITY;
   ip->delta        = ip->delta_last = ip->delta_largest = 0.0;
   ip->nregularized = ip->nretried = 0;
   ip->theta0       = -1.0;
@@ -96,6 +98,7 @@ static PetscErrorCode ResetRecord(Tao tao)
   tao->ksp_its     = 0;
   tao->ksp_tot_its = 0;
   tao->reason      = TAO_CONTINUE_ITERATING;
+  PetscCall(PetscMemzero(&ip->fallbacks, sizeof(ip->fallbacks)));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
@@ -158,7 +161,7 @@ static PetscErrorCode CountTinySteps(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  ip->ntiny = tao->niter && ip->step_tag != 'R' && ip->dx_norm <= 10.0 * PETSC_MACHINE_EPSILON * size ? ip->ntiny + 1 : 0;
+  ip->ntiny = tao->niter && ip->step_tag != 'R' && ip->dx_norm <= IP_TINY_STEP * size ? ip->ntiny + 1 : 0;
   PetscFunctionReturn(0);
 }
 
@@ -195,6 +198,7 @@ static PetscErrorCode TestConvergence(Tao tao)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->f, (double)tao->fmin));
   } else if (Unbounded(ip)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->f0, (double)ip->f));
+    ip->best_error = PETSC_INFINITY; /* the last point shows it, no other does */
   } else if (ip->nacceptable >= ip->acceptable_it) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
   } else if (ip->ntiny >= most_tiny) {
@@ -225,6 +229,16 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode LinearFailure(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal residual = IPUndefined(ip->linear_residual) ? ip->linear_rhs : ip->linear_residual; /* no direction, no reduction */
+
+  PetscFunctionBegin;
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s", KSPConvergedReasons[ip->ksp_reason], (double)residual, (double)ip->linear_rhs, ip->linear_reason[0] ? "; " : "", ip->linear_reason));
+  PetscFunctionReturn(0);
+}
+
 /* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then the violation is
    reduced by itself. */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
@@ -239,6 +253,10 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
     PetscFunctionReturn(0);
   }
+  if (!solved && ip->linear_failed) {
+    PetscCall(LinearFailure(tao));
+    PetscFunctionReturn(0);
+  }
   if (ip->free_mu) {
     PetscCall(IPBarrierHold(tao, hold));
     PetscFunctionReturn(0);
@@ -251,7 +269,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     ip->step_tag = 'R';
     tao->niter++;
   } else if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
-  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g, with the Hessian shifted by up to %g", KSPConvergedReasons[ip->ksp_reason], (double)ip->linear_residual, (double)ip->delta));
+  else if (!solved && ip->linear_failed) PetscCall(LinearFailure(tao));
+  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s", (double)ip->delta, KSPConvergedReasons[ip->ksp_reason]));
   else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
   else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
   PetscFunctionReturn(0);
@@ -284,6 +303,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   PetscBool     finite = PETSC_FALSE;
 
   PetscFunctionBegin;
+  PetscCall(IPSetUpSizes(tao));
   PetscCall(ResetRecord(tao));
   PetscCall(FirstPoint(tao, &finite));
   if (!finite) {
@@ -303,6 +323,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
     PetscCall(Step(tao));
     if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(AssessIterate(tao));
   }
+  PetscCall(IPDirectDestroy(&ip->direct));
   PetscCall(RestoreBest(tao));
   PetscCall(IPSetMultipliers(tao));
   if (ip->mi) PetscCall(IPScalingPair(tao, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z, PETSC_TRUE));

@@ -123,6 +123,13 @@ static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallbacks *fallbacks)
+{
+  PetscFunctionBegin;
+  *fallbacks = ((TAO_IPFILTER *)tao->data)->fallbacks;
+  PetscFunctionReturn(0);
+}
+
 /* Attaches the implementations to the object, or detaches them */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
@@ -137,6 +144,7 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFilterUse_C", attach ? TaoIPFilterGetFilterUse_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C", attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
@@ -407,5 +415,35 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
   PetscFunctionBegin;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscUseMethod(tao, "TaoIPFilterGetRegularizations_C", (Tao, PetscInt *, PetscInt *, PetscReal *), (tao, steps, retries, largest));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetFallbacks - Gets what the linear algebra of the last `TaoSolve()` had to do beyond one Krylov solve a system
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. fallbacks - counts, and the largest backward error of a direction that was used
+
+  Options Database Key:
+. -tao_ipfilter_direct_memory <2000> - MB over all ranks that MUMPS may take for the whole matrix; 0: never
+
+  Level: intermediate
+
+  Note:
+  All counts are zero in a solve without difficulties, but for refinements.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterFallbacks`, `TaoIPFilterGetReason()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`
+@*/
+PetscErrorCode TaoIPFilterGetFallbacks(Tao tao, TaoIPFilterFallbacks *fallbacks)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscAssertPointer(fallbacks, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetFallbacks_C", (Tao, TaoIPFilterFallbacks *), (tao, fallbacks));
   PetscFunctionReturn(0);
 }

@@ -37,7 +37,7 @@ static PetscErrorCode DuplicateInto(Vec layout, size_t n, Vec *const v[])
 }
 
 /* Vectors of the unknowns, of the inequality and of the equality constraints */
-#define IP_PRIMAL_VECS(ip)     {&(ip)->rx, &(ip)->dx, &(ip)->dxfirst, &(ip)->xtrial, &(ip)->xbest, &(ip)->xwork, &(ip)->xwork2, &(ip)->rhs, &(ip)->hdiag}
+#define IP_PRIMAL_VECS(ip)     {&(ip)->rx, &(ip)->dx, &(ip)->dxfirst, &(ip)->xtrial, &(ip)->xbest, &(ip)->xwork, &(ip)->xwork2, &(ip)->rhs, &(ip)->hdiag, &(ip)->residual, &(ip)->correction}
 #define IP_INEQUALITY_VECS(ip) {&(ip)->c, &(ip)->lambda, &(ip)->rc, &(ip)->rcsoc, &(ip)->dlambda, &(ip)->ctrial, &(ip)->cwork, &(ip)->cwork2, &(ip)->stiffness, &(ip)->sbest, &(ip)->zbest, &(ip)->lambdabest}
 #define IP_EQUALITY_VECS(ip)   {&(ip)->ce, &(ip)->y, &(ip)->dy, &(ip)->dyfirst, &(ip)->cetrial, &(ip)->cesoc, &(ip)->ybest}
 
@@ -99,6 +99,50 @@ static PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Whether v, made in TaoSetUp(), still is laid out as its model; there is none where n is 0 */
+static PetscErrorCode SameLayout(Vec v, Vec model, PetscInt n, PetscBool *same)
+{
+  PetscInt  size = 0, local[2] = {0, 0};
+  PetscBool equal;
+
+  PetscFunctionBegin;
+  if (model) PetscCall(VecGetSize(model, &size));
+  equal = (PetscBool)(size == n);
+  if (equal && n) {
+    PetscCall(VecGetLocalSize(v, &local[0]));
+    PetscCall(VecGetLocalSize(model, &local[1]));
+    equal = (PetscBool)(local[0] == local[1]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)model)));
+  *same = (PetscBool)(*same && equal);
+  PetscFunctionReturn(0);
+}
+
+/* Sets up again where the caller has replaced the solution or the constraints by others of another size since */
+PetscErrorCode IPSetUpSizes(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscBool     same = PETSC_TRUE;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(ip->rx, &n));
+  PetscCall(SameLayout(ip->rx, tao->solution, n, &same));
+  if (tao->ineq_constrained) PetscCall(SameLayout(ip->c, tao->constraints_inequality, ip->mi, &same));
+  if (tao->eq_constrained) PetscCall(SameLayout(ip->ce, tao->constraints_equality, ip->me, &same));
+  if (same) PetscFunctionReturn(0);
+  PetscCall(VecDestroy(&tao->gradient));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPAugmentedDestroy(&ip->aug));
+  PetscCall(KSPDestroy(&ip->flexible));
+  PetscCall(KSPReset(tao->ksp));
+  PetscCall(ISDestroy(&ip->fixed));
+  PetscCall(MatDestroy(&ip->JE));
+  PetscCall(TaoSetUp_IPFilter(tao));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip      = (TAO_IPFILTER *)tao->data;
@@ -117,6 +161,8 @@ static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ip->cscale));
   PetscCall(VecDestroy(&ip->cescale));
   PetscCall(IPAugmentedDestroy(&ip->aug));
+  PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(KSPDestroy(&ip->flexible));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->ksp_iterations));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
@@ -165,6 +211,7 @@ static const RealOption real_options[] = {
   IP_REAL("gamma_alpha", gamma_alpha, 0.05, "safety factor of the smallest step"),
   IP_REAL("theta_min_fact", theta_min_fact, 1e-4, "violation below which Armijo may decide, as a fraction of the first"),
   IP_REAL("theta_max_fact", theta_max_fact, 1e4, "largest violation accepted, as a multiple of the first"),
+  IP_REAL("obj_max_inc", obj_max_inc, 1e5, "largest rise of the barrier function accepted for less violation, against its size"),
   IP_REAL("kappa_soc", kappa_soc, 0.99, "reduction a second-order correction must give to be continued"),
   IP_REAL("forcing_max", forcing_max, 0.1, "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
   IP_REAL("forcing_reduce", forcing_reduce, 0.5, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
@@ -181,6 +228,7 @@ static const RealOption real_options[] = {
   IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
   IP_REAL("row_ratio", row_ratio, 100.0, "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
   IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
+  IP_REAL("direct_memory", direct_memory, 2000, "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
 
@@ -204,6 +252,7 @@ static PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscO
   PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER, ip->max_mu_later, &ip->max_mu_later, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, ip->max_soc, &ip->max_soc, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it", "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, ip->acceptable_it, &ip->acceptable_it, NULL));
+  PetscCall(PetscOptionsBool("-tao_ipfilter_direct", "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, ip->direct_always, &ip->direct_always, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "print a line an iteration", TAOIPFILTER, ip->monitor, &ip->monitor, NULL));
   PetscOptionsHeadEnd();
   PetscCall(KSPSetFromOptions(tao->ksp));
@@ -212,8 +261,9 @@ static PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscO
 
 static PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscBool     ascii;
+  TAO_IPFILTER               *ip = (TAO_IPFILTER *)tao->data;
+  const TaoIPFilterFallbacks *f  = &ip->fallbacks;
+  PetscBool                   ascii;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
@@ -223,6 +273,7 @@ static PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)ip->tol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->nsystems, ip->nfiltered));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
   PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->nrestored));
   PetscCall(PetscViewerASCIIPrintf(viewer, "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT "\n", ip->nregularized, (double)ip->delta_largest, ip->nretried));
   if (ip->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->reason));
@@ -261,6 +312,9 @@ static PetscErrorCode CreateKSP(Tao tao)
 . -tao_ipfilter_scaling <problem> (problem,none)       - constants that follow the units, or stand as they are
 . -tao_ipfilter_filter_switch <10>                     - `PCAMGF` filters once (J^T D J)_ii exceeds this many times H_ii
                                                          for some i; 0: always
+. -tao_ipfilter_direct                                 - MUMPS on the whole matrix, with its inertia, from the start
+. -tao_ipfilter_direct_memory <2000>                   - MB over all ranks that MUMPS may take for the whole matrix
+                                                         where the Krylov method fails; 0: never
 . -tao_ipfilter_monitor                                - a line an iteration
 - -tao_ipfilter_ksp_type, -tao_ipfilter_pc_type        - solver of the condensed system, `KSPCG` and `PCAMGF` by default
 
@@ -272,6 +326,11 @@ static PetscErrorCode CreateKSP(Tao tao)
 
   `TaoSetHessian()` must give the Hessian of f - DI^T c_I as an assembled matrix, DI being what `TaoGetDualVariables()`
   returns. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
+
+  The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
+  iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns are
+  filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory`
+  (its options have the prefix `-tao_ipfilter_direct_`); else the solve ends. `TaoIPFilterGetFallbacks()` counts this.
 
   An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
   constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of

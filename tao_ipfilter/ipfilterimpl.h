@@ -58,6 +58,17 @@ typedef struct {
   Vec       trial;  /* t at a trial point */
 } IPPair;
 
+/* What came of a linear solve */
+typedef enum {
+  IP_LINEAR_SOLVED,
+  IP_LINEAR_INDEFINITE, /* the matrix is not positive definite */
+  IP_LINEAR_FAILED      /* the solver has failed, which says nothing about the matrix */
+} IPLinearVerdict;
+
+#define IP_TINY_STEP       (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
+#define IP_LEAST_SLACK     1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
+#define IP_MANY_ITERATIONS 500 /* of a Krylov method, when others of the same problem took few */
+
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
 typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
@@ -100,12 +111,19 @@ typedef struct {
   IS               filter;                   /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
+/* The condensed matrix factored by MUMPS, where the Krylov method fails */
+typedef struct {
+  Mat      A, F;     /* the matrix as MUMPS takes it, and its factors */
+  PetscInt system;   /* which condensed matrix that was, by ip->nsystems */
+  PetscInt negative; /* its negative pivots */
+} IPDirect;
+
 /* The symmetric system [A J_E^T; J_E -delta_c] that equality constraints lead to, and its factorization */
 typedef struct {
   KSP ksp;
   Mat K;
   Mat shift; /* -delta_c I */
-  Vec rhs, sol, sol2;
+  Vec rhs, sol, sol2, correction;
 } IPAugmented;
 
 typedef struct {
@@ -124,6 +142,8 @@ typedef struct {
   Vec       dxfirst, dyfirst, rcsoc, cesoc;         /* second-order correction: the direction before it, its residuals */
   PetscReal ftrial, fbest;
   Vec       xwork, xwork2, cwork, cwork2, rhs;
+  Vec       residual, correction;    /* b - A d of the last linear solve, and what refines d */
+  KSP       flexible;                /* for corrections; NULL until one is needed */
   Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
   Vec       warm_s, warm_z;          /* the caller's starting values */
   Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
@@ -138,6 +158,7 @@ typedef struct {
   IPPair      pair[IP_NPAIRS];
   IPCondensed cond;
   IPAugmented aug;
+  IPDirect    direct;
   IPFilterSet filter;
   IPScale     scale;
   IPKKT       kkt;
@@ -163,6 +184,7 @@ typedef struct {
   PetscReal zeta;                    /* weight of the distance from the last point against the violation */
   PetscInt  nrestored;               /* restorations in this solve */
   PetscReal relaxed;                 /* what c_I is raised by, for constraints without an interior */
+  PetscReal least_slack;             /* that the last step left */
   PetscInt  nvanished;               /* iterates in a row that have a slack of next to nothing */
 
   /* regularization */
@@ -174,7 +196,14 @@ typedef struct {
   /* record */
   PetscInt  niter_ksp, max_ksp, *ksp_iterations; /* Krylov iterations of every linear solve */
   PetscInt  most_ksp;                            /* most of them in a solve that gave a direction */
-  PetscReal linear_residual;                     /* ||b - A d|| of the last solve */
+  PetscInt  ksp_last, linear_limit;              /* iterations of the last solve, and their limit */
+  PetscReal linear_target, linear_rhs;           /* ||b - A d|| asked of the last solve, and ||b|| */
+  PetscReal linear_residual, backward_error;     /* ||b - A d|| of the last solve, and over the terms it is the difference of */
+  PetscBool linear_failed;                       /* no solver gave the last direction, for reasons other than the matrix's inertia */
+  char      linear_reason[128];                  /* why the last resort did not help */
+  PetscInt  ndirect;                             /* solves in a row that only the last resort could do */
+  PetscBool filter_forced;                       /* the filter stays on */
+  TaoIPFilterFallbacks fallbacks;
   PetscInt  nsystems, nfiltered;                 /* condensed matrices, and those preconditioned with the filter */
   PetscBool filtered;                            /* the present one is */
   PetscReal best_error;
@@ -197,13 +226,15 @@ typedef struct {
   PetscReal    mu0, s0, z0, mu_start, mu_warm, forcing_start;
   PetscReal    kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
   PetscInt     max_mu_first, max_mu_later;
-  PetscReal    gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact;
+  PetscReal    gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
   PetscInt     max_soc;
   PetscReal    kappa_soc;
   PetscReal    forcing_max, forcing_reduce, forcing_last;
   PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
   PetscReal    filter_threshold, filter_switch, row_ratio;
   PetscReal    bound_push, unbounded_factor;
+  PetscReal    direct_memory;
+  PetscBool    direct_always;
 } TAO_IPFILTER;
 
 /* No value of a function there: NaN, or infinite, be it C's infinity or PETSc's large number */
@@ -227,6 +258,7 @@ PETSC_INTERN PetscErrorCode IPPairLogSlope(const IPPair *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairProducts(const IPPair *, PetscReal, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairStepProducts(const IPPair *, PetscReal, PetscReal, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairSafeguard(IPPair *, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPPairLift(IPPair *, Vec, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairMoveTrial(IPPair *, PetscReal);
 
 /* fixed.c */
@@ -274,9 +306,23 @@ PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
 /* subspace.c */
 PETSC_INTERN PetscErrorCode IPSubspaceFind(Tao, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
+PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, IS *);
 
 /* linsolve.c */
 PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *);
+PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
+PETSC_INTERN PetscErrorCode IPMeasureResidual(Tao, Vec, Vec);
+PETSC_INTERN PetscBool      IPLinearReached(const TAO_IPFILTER *, KSPConvergedReason);
+PETSC_INTERN PetscErrorCode IPLinearRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec), KSPConvergedReason);
+
+/* fallback.c */
+PETSC_INTERN PetscErrorCode IPFallback(Tao, Vec, Vec, IPLinearVerdict *);
+PETSC_INTERN PetscErrorCode IPLinearNotANumber(Tao);
+PETSC_INTERN PetscBool      IPFallbackHolds(const TAO_IPFILTER *);
+
+/* direct.c */
+PETSC_INTERN PetscErrorCode IPDirectSolve(Tao, Vec, Vec, IPLinearVerdict *);
+PETSC_INTERN PetscErrorCode IPDirectDestroy(IPDirect *);
 
 /* augmented.c */
 PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool, PetscBool *);
@@ -316,6 +362,9 @@ PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscReal, PetscReal *, Pe
 /* monitor.c */
 PETSC_INTERN PetscErrorCode IPMonitor(Tao);
 PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...);
+
+/* ipfilter.c */
+PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
 
 /* driver.c */
 PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);

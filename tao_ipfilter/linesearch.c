@@ -157,10 +157,11 @@ static PetscErrorCode Acceptable(Tao tao, PetscReal alpha, PetscReal slope, Pets
   const PetscReal first = ip->scaling == IP_SCALING_NONE ? PetscMax(1.0, ip->theta0) : PetscMax(ip->theta_ref, ip->theta0);
   const PetscReal least = ip->theta_min_fact * first, slack = ip->rounding;
   const PetscBool alone = (PetscBool)(ip->theta <= 0.0); /* no violation that could fall instead */
+  const PetscReal most  = ip->scaling == IP_SCALING_NONE ? PETSC_INFINITY : ip->obj_max_inc * PetscMax(PetscAbsReal(ip->phi), ip->phi_ref);
 
   PetscFunctionBegin;
   *objective = (PetscBool)(alone || (ip->theta <= least && Switching(ip, alpha, slope)));
-  if (theta > ip->theta_max_fact * first) *accepted = PETSC_FALSE;
+  if (theta > ip->theta_max_fact * first || phi - ip->phi > most) *accepted = PETSC_FALSE;
   else if (*objective) *accepted = (PetscBool)(phi - ip->phi <= ip->eta_phi * alpha * PetscMin(slope, 0.0) + slack);
   else *accepted = (PetscBool)(theta <= (1.0 - ip->gamma_theta) * ip->theta || phi - ip->phi <= -ip->gamma_phi * (ip->phi_ref / ip->theta_ref) * ip->theta + slack);
   if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - slack, accepted));
@@ -180,7 +181,8 @@ static PetscReal SmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
   return PetscMax(ip->gamma_alpha * least, 1e-12);
 }
 
-/* Takes the accepted step: primal part by alpha, multipliers of the pairs by their own step */
+/* Takes the accepted step: primal part by alpha, multipliers of the pairs by their own step. A slack so small that J^T D J would drown
+   the Hessian in rounding is lifted, by next to nothing. */
 static PetscErrorCode TakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -198,6 +200,8 @@ static PetscErrorCode TakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   if (ip->mi) {
     PetscCall(VecCopy(ip->ctrial, ip->c));
     PetscCall(VecAXPY(ip->lambda, alpha, ip->dlambda));
+    PetscCall(VecMin(ip->pair[IP_SLACK].t, NULL, &ip->least_slack));
+    if (ip->scaling == IP_SCALING_PROBLEM) PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiffness, ip->scale.length, IP_LEAST_SLACK));
   }
   if (ip->me) {
     PetscCall(VecCopy(ip->cetrial, ip->ce));

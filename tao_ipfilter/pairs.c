@@ -266,6 +266,24 @@ PetscErrorCode IPPairSafeguard(IPPair *p, PetscReal mu, PetscReal kappa)
   PetscFunctionReturn(0);
 }
 
+/* t >= least min(z / rho, length) */
+PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
+{
+  const Vec          v[2] = {p->z, rho};
+  const PetscScalar *a[2];
+  PetscScalar       *t;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(p->t, &n));
+  PetscCall(PairRead(2, v, a));
+  PetscCall(VecGetArray(p->t, &t));
+  for (PetscInt i = 0; i < n; i++) t[i] = PetscMax(PetscRealPart(t[i]), least * PetscMin(length, PetscRealPart(a[0][i] / a[1][i])));
+  PetscCall(VecRestoreArray(p->t, &t));
+  PetscCall(PairRestore(2, v, a));
+  PetscFunctionReturn(0);
+}
+
 /* trial = t + alpha dt */
 PetscErrorCode IPPairMoveTrial(IPPair *p, PetscReal alpha)
 {

@@ -5,14 +5,19 @@
 #include "ipfilterimpl.h"
 
 /* d^T W d + max(lambda+^T M (c - s), 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
-   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. */
+   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A step that rounding makes of x has no
+   curvature to speak of. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscScalar   dHd, dd, dSd = 0.0;
-  PetscReal     curvature, kappa;
+  PetscReal     curvature, kappa, step, size;
 
   PetscFunctionBegin;
+  PetscCall(VecNorm(ip->dx, NORM_INFINITY, &step));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *passes = (PetscBool)(step <= IP_TINY_STEP * size);
+  if (*passes) PetscFunctionReturn(0);
   PetscCall(MatMult(tao->hessian, ip->dx, ip->xwork2));
   PetscCall(VecDot(ip->dx, ip->xwork2, &dHd));
   PetscCall(VecDot(ip->dx, ip->dx, &dd));
@@ -171,14 +176,17 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
 }
 
 /* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve
-   there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. */
+   there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A matrix with an entry that is
+   not a number is a failure. */
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     smallest;
+  PetscReal     smallest, size;
 
   PetscFunctionBegin;
   PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork));
+  PetscCall(VecNorm(ip->xwork, NORM_2, &size));
+  if (PetscIsInfOrNanReal(size)) PetscCall(IPLinearNotANumber(tao));
   if (ip->primal_mass) PetscCall(VecPointwiseDivide(ip->xwork, ip->xwork, ip->primal_mass));
   PetscCall(VecMin(ip->xwork, NULL, &smallest));
   *least = ip->delta - smallest;
@@ -186,7 +194,7 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 }
 
 /* Solves with delta raised, from first times its unit on, until the caller's solve calls its solution usable, and tells
-   whether that was reached */
+   whether that was reached. A solver that fails is not helped by a larger delta. */
 PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)(Tao), PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -194,14 +202,16 @@ PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
-  *ok       = PETSC_FALSE;
-  ip->delta = first * unit;
+  *ok               = PETSC_FALSE;
+  ip->delta         = first * unit;
+  ip->linear_failed = PETSC_FALSE;
   while (ip->delta <= ip->delta_max * unit) {
     PetscCall((*assemble)(tao));
     if (least == PETSC_NINFINITY && !ip->me) PetscCall(LeastDelta(tao, &least));
+    if (ip->linear_failed) break;
     if (ip->delta > least) {
       PetscCall((*solve)(tao, ok));
-      if (*ok) break;
+      if (*ok || ip->linear_failed) break;
       ip->nretried++;
     }
     do ip->delta = NextDelta(ip, unit);

@@ -5,9 +5,6 @@
 */
 #include "ipfilterimpl.h"
 
-/* The smallest slack that a step towards the central path leaves, as a fraction of the constraints' size */
-#define IP_LEAST_SLACK (0.1 * PETSC_MACHINE_EPSILON)
-
 /* Slacks moved by r, and pairs put back on the central path: multipliers of vanishing slacks are of no use */
 static PetscErrorCode Recenter(Tao tao, PetscReal r)
 {
@@ -30,17 +27,16 @@ static PetscErrorCode Recenter(Tao tao, PetscReal r)
 PetscErrorCode IPRelax(Tao tao)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscInt most = 2;
-  PetscReal      least, size;
+  const PetscInt most = 3;
+  PetscReal      size;
 
   PetscFunctionBegin;
   if (!ip->mi || ip->relaxed > 0.0 || ip->free_mu) PetscFunctionReturn(0);
-  PetscCall(VecMin(ip->pair[IP_SLACK].t, NULL, &least));
-  ip->nvanished = least > IP_LEAST_SLACK * ip->scale.length ? 0 : ip->nvanished + 1;
+  ip->nvanished = ip->least_slack > IP_LEAST_SLACK * ip->scale.length ? 0 : ip->nvanished + 1;
   if (ip->nvanished < most) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
   ip->relaxed = ip->tol * PetscMax(size, ip->length0);
-  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)least, (double)ip->relaxed));
+  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->least_slack, (double)ip->relaxed));
   PetscCall(Recenter(tao, ip->relaxed));
   PetscCall(IPFilterSetReset(&ip->filter));
   ip->best_error = PETSC_INFINITY;

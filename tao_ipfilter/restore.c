@@ -256,7 +256,8 @@ static PetscErrorCode Leave(Tao tao)
     PetscCall(VecCopy(p->z, ip->lambda));
   }
   if (ip->me) PetscCall(IPEstimateMultipliers(tao));
-  ip->nerror = 0;
+  ip->nerror      = 0;
+  ip->least_slack = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -330,8 +331,9 @@ static PetscErrorCode JacobianSize(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before it */
-static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient)
+/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before it. *descent is false
+   where the bounds' barrier turns the step away from less violation. */
+static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient, PetscBool *descent)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal little = 1e-12;
@@ -339,7 +341,8 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
   PetscScalar     slope;
 
   PetscFunctionBegin;
-  *alpha = 0.0;
+  *alpha   = 0.0;
+  *descent = PETSC_TRUE;
   PetscCall(ViolationGradient(tao, ip->xwork));
   PetscCall(RelativeGradient(tao, ip->xwork, size, *psi, gradient));
   if (*gradient <= little) PetscFunctionReturn(0);
@@ -348,20 +351,22 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
   if (!usable) PetscFunctionReturn(0);
   PetscCall(ViolationGradient(tao, ip->xwork));
   PetscCall(VecDot(ip->xwork, ip->dx, &slope));
-  PetscCall(Search(tao, PetscMin(PetscRealPart(slope), 0.0), psi, alpha));
+  *descent = (PetscBool)(PetscRealPart(slope) < 0.0);
+  if (*descent) PetscCall(Search(tao, PetscRealPart(slope), psi, alpha));
   PetscFunctionReturn(0);
 }
 
 /*
   Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then tells whether
-  because the violation has a minimum that is not zero: it falls no longer, and its gradient is small but for what bounds stop.
+  because the violation has a minimum that is not zero: it falls no longer, and its gradient, which may fall for longer, is small but
+  for what bounds stop.
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscReal theta0  = ip->theta, still = 1e-8, small = 1e-3;
+  const PetscReal theta0  = ip->theta, still = 1e-8, small = 1e-3, falling = 0.9;
   const PetscInt  most    = 15;
-  PetscReal       psi, size = 0.0, gradient = 1.0;
+  PetscReal       psi, size = 0.0, gradient = 1.0, least = PETSC_INFINITY;
   PetscInt        idle = 0;
 
   PetscFunctionBegin;
@@ -373,18 +378,24 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
   PetscCall(SquaredViolation(tao, ip->c, ip->ce, &psi));
   PetscCall(Acceptable(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
   for (PetscInt k = 0; k < IP_RESTORE_MAX && !*ok && idle < most; k++) {
-    const PetscReal before = psi;
-    PetscReal       alpha  = 0.0;
+    const PetscReal before  = psi;
+    PetscReal       alpha   = 0.0;
+    PetscBool       descent = PETSC_TRUE;
 
-    PetscCall(RestoreStep(tao, size, &psi, &alpha, &gradient));
+    PetscCall(RestoreStep(tao, size, &psi, &alpha, &gradient, &descent));
     PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k, (double)PetscSqrtReal(2.0 * psi), (double)gradient, (double)alpha, (double)ip->zeta));
-    idle = psi >= (1.0 - still) * before ? idle + 1 : 0;
-    ip->zeta *= alpha > 0.5 ? 0.1 : (alpha > 0.0 ? 1.0 : 10.0);
+    if (psi < (1.0 - still) * before) {
+      idle  = 0;
+      least = PETSC_INFINITY;
+    }
+    if (psi >= (1.0 - still) * before && (gradient <= small || gradient > falling * least)) idle++;
+    least = PetscMin(least, gradient);
+    ip->zeta *= alpha > 0.5 || !descent ? 0.1 : (alpha > 0.0 ? 1.0 : 10.0);
     if (alpha == 0.0) continue;
     PetscCall(TakeTrial(tao));
     PetscCall(Acceptable(tao, theta0, ok));
   }
-  *infeasible = (PetscBool)(!*ok && idle >= most && gradient <= small && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->theta_ref);
+  *infeasible = (PetscBool)(!*ok && idle >= most && least <= small && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->theta_ref);
   PetscCall(CenterBounds(tao));
   if (*ok) PetscCall(Leave(tao));
   PetscFunctionReturn(0);

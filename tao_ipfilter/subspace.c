@@ -47,6 +47,39 @@ PetscErrorCode IPSubspaceFind(Tao tao, IS *is)
   PetscFunctionReturn(0);
 }
 
+/* The filter's unknowns with those that A couples to them. Their couplings are weighed irregularly, so that none cancel. */
+PetscErrorCode IPSubspaceGrow(Tao tao, IS *is)
+{
+  TAO_IPFILTER      *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal    weak     = 1e-8, golden = 0.6180339887498949;
+  const PetscScalar *coupling, *a;
+  const PetscInt    *rows;
+  PetscInt           rstart, n, count = 0, *idx;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->xwork, 0.0));
+  PetscCall(ISGetLocalSize(ip->cond.filter, &n));
+  PetscCall(ISGetIndices(ip->cond.filter, &rows));
+  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(ip->xwork, rows[i], 1.0 + fmod(golden * rows[i], 1.0), INSERT_VALUES));
+  PetscCall(ISRestoreIndices(ip->cond.filter, &rows));
+  PetscCall(VecAssemblyBegin(ip->xwork));
+  PetscCall(VecAssemblyEnd(ip->xwork));
+  PetscCall(MatMult(ip->cond.A, ip->xwork, ip->xwork2));
+  PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork));
+  PetscCall(VecGetOwnershipRange(ip->xwork, &rstart, NULL));
+  PetscCall(VecGetLocalSize(ip->xwork, &n));
+  PetscCall(PetscMalloc1(n, &idx));
+  PetscCall(VecGetArrayRead(ip->xwork2, &coupling));
+  PetscCall(VecGetArrayRead(ip->xwork, &a));
+  for (PetscInt i = 0; i < n; i++)
+    if (PetscAbsScalar(coupling[i]) > weak * PetscAbsScalar(a[i])) idx[count++] = rstart + i;
+  PetscCall(VecRestoreArrayRead(ip->xwork, &a));
+  PetscCall(VecRestoreArrayRead(ip->xwork2, &coupling));
+  PetscCall(ISCreateGeneral(PetscObjectComm((PetscObject)tao), count, idx, PETSC_COPY_VALUES, is));
+  PetscCall(PetscFree(idx));
+  PetscFunctionReturn(0);
+}
+
 /* Largest (J^T D J)_ii / H_ii: how much stiffer than the Hessian the constraints make an unknown. A row that only the
    constraints hold counts as infinite. */
 static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
@@ -87,7 +120,7 @@ PetscErrorCode IPSubspaceSwitch(Tao tao)
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf || ip->me) PetscFunctionReturn(0);
   if (ip->filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
-  ip->filtered = (PetscBool)(ratio > ip->filter_switch);
+  ip->filtered = (PetscBool)(ip->filter_forced || ratio > ip->filter_switch);
   ip->nfiltered += ip->filtered;
   PetscCall(PCAMGFSetFilterActive(pc, ip->filtered));
   PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio, ip->filtered ? "on" : "off"));

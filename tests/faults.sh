@@ -13,9 +13,12 @@ try() {
     sed -e "s|$PWD/||g" -e 's/KKT error .*/KKT error/' -e 's/||b - A d|| = .*/.../' -e 's/full? .*/full?/')"
 }
 
-try "MUMPS without work space" "$contact" "$blocks" -refine 0 -load_steps 1 -load_max_cuts 0 -options_file "$AMGF_DIR/share/options/direct.opts" \
-  -tao_ipfilter_mat_mumps_icntl_23 1 -tao_ipfilter_mat_mumps_icntl_14 0
-try "limit of PCG" "$contact" "$blocks" -refine 0 -load_steps 1 -load_max_cuts 0 -tao_ipfilter_ksp_max_it 1 -tao_max_it 20
+one_step=(-refine 0 -load_steps 1 -load_max_cuts 0 -tao_max_it 20)
+no_space=(-options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_mat_mumps_icntl_23 1 -tao_ipfilter_mat_mumps_icntl_14 0)
+for memory in 2000 0; do
+  try "MUMPS without work space, allowed for another: $memory MB" "$contact" "$blocks" "${one_step[@]}" "${no_space[@]}" -tao_ipfilter_direct_memory $memory
+  try "limit of PCG, allowed for MUMPS: $memory MB" "$contact" "$blocks" "${one_step[@]}" -tao_ipfilter_ksp_max_it 1 -tao_ipfilter_direct_memory $memory
+done
 
 cat > crush.yaml <<'YAML'
 bodies:

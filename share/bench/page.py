@@ -14,7 +14,7 @@ def number(value, digits=3):
 
 
 def percent(value):
-    return f"{100 * value:.2g} %"
+    return f"{100 * value:.0f} %" if value >= 0.1 else f"{100 * value:.2g} %"
 
 
 def table(columns, rows):
@@ -137,7 +137,7 @@ def baseline_words(study, rows):
         others = [f"{row['series']} {number(row['seconds'] / ours['seconds'], 2)}" for row in runs if ours and row is not ours]
         if others:
             sentences.append(f"{panel.title}: in units of the defaults' {number(ours['seconds'])} s, " + ", ".join(others) + ".")
-    return " ".join(sentences) + " The penalty method is not among them: `contact` has no penalty formulation."
+    return " ".join([*sentences, "The penalty method is not among them: `contact` has no penalty formulation."])
 
 
 def growth_words(entries):
@@ -182,13 +182,20 @@ def head(results):
     m = results["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
     memory = f"{m['memory_bytes'] / 2**30:.0f} GiB" if m["memory_bytes"] else "unknown memory"
-    command = "make bench" if results["size"] == "full" else f"make bench-{results['size']}"
+    command = {"full": "make bench", "quick": "make bench-quick"}.get(results["size"], f"share/bench/run.py --size {results['size']}")
+    small = "" if results["size"] == "full" else "\nThese are the figures of a small run; `make bench` makes those of the problems at full size.\n"
     return f"""# What accuracy costs in time
-
+{small}
 `{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
 One rank unless said otherwise. Times are of the whole run, mesh and assembly included; runs below {results["short"]:g} s are repeated, the quickest
 of three counts. Errors are relative: against Hertz's solution, or against an extrapolation of careful runs (last section). Hertz's own
 model is right to about 0.1 % at this contact. Rows and keys of all runs: `bench.csv`, `bench.json`.
+
+    make bench             # three hours at most: page, tables and figures in build/bench; interrupted, it goes on where it stopped
+    make bench-quick       # ten minutes on two cores
+    make bench-page        # takes the page and its figures into share/bench
+    make bench BENCH="--only tolerance forcing"     # some studies; BENCH=--plan says what would be run, BENCH=--no-run draws what has been
+    share/bench/effects.py                          # what an effect costs that a scene does not call for
 """
 
 

@@ -159,6 +159,7 @@ def pareto_figure(rows, folder):
     panels = [(p, q) for p, q in panels if any(math.isfinite(worst_error(row, q)) for row in select(runs, problem=p))]
     if not panels:
         return False
+    names = [name for name in names if any(math.isfinite(worst_error(row, q)) for p, q in panels for row in select(runs, problem=p, study=name))]
     columns = min(2, len(panels))
     lines = -(-len(panels) // columns)
     figure, grid = plt.subplots(lines, columns, figsize=(4.2 * columns, 3.2 * lines), squeeze=False)

@@ -8,6 +8,7 @@ An interrupted bench goes on where it stopped. Only a full one works out the ref
 import argparse
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -58,7 +59,7 @@ class Progress:
         self.foreseen += self.expected[case.key]
         self.left -= self.expected[case.key]
         rate = (self.spent + TRUST) / (self.foreseen + TRUST)
-        print(f"{record['status']}, {clock(record['elapsed'])} (expected {clock(self.expected[case.key])}); about {clock(self.left * rate)} left", flush=True)
+        print(f"{record['status']}, {clock(record['elapsed'])} (expected {clock(self.expected[case.key])}); about {clock(max(0.0, self.left * rate))} left", flush=True)
 
 
 def missing_cases(cases, store):
@@ -153,5 +154,13 @@ def main():
     report(args, store, chosen, skipped)
 
 
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
 if __name__ == "__main__":
-    main()
+    signal.signal(signal.SIGTERM, interrupt)  # so that the run under way ends, too
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit("\nrun.py: interrupted; the same command goes on from here")

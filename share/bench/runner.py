@@ -6,8 +6,18 @@ import subprocess
 
 
 def environment():
-    """Ranks must not be refused to root, must have cores of their own, and leave threads to nobody"""
-    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
+    """Root may start ranks; a rank that waits leaves its core to others; no rank makes threads"""
+    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1")
+
+
+def end(process):
+    """mpiexec must have the time to end its ranks"""
+    process.terminate()
+    try:
+        return process.communicate(timeout=10)[0]
+    except subprocess.TimeoutExpired:
+        process.kill()
+        return process.communicate()[0]
 
 
 def execute(command, limit):
@@ -19,13 +29,12 @@ def execute(command, limit):
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGUSR1)
         except BaseException:
-            process.kill()
+            end(process)
             raise
         try:
             said, _ = process.communicate(timeout=max(5.0, 0.3 * limit))
         except subprocess.TimeoutExpired:
-            process.kill()
-            said, _ = process.communicate()
+            said = end(process)
         return process.returncode, said, True
 
 

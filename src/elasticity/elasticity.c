@@ -27,7 +27,7 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscCall(PetscStrncpy(e->mattype, MATBAIJ, sizeof(e->mattype)));
   PetscOptionsBegin(PetscObjectComm((PetscObject)e->dm), NULL, "Elasticity options", NULL);
   PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3", "ElasticityCreate", points, &points, NULL));
-  PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList, e->mattype, e->mattype, sizeof(e->mattype), NULL));
+  PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList, e->mattype, e->mattype, sizeof(e->mattype), &e->mattype_given));
   PetscOptionsEnd();
   PetscCall(HexBasisCreate(points, &e->basis));
   PetscFunctionReturn(0);

@@ -21,6 +21,7 @@ typedef struct {
 struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
+  PetscBool        mattype_given; /* by an option */
   HexBasis         basis;
   PetscInt         nbodies;
   Body            *bodies;

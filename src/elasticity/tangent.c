@@ -74,6 +74,29 @@ static PetscErrorCode ElasticitySetNearNullSpace(Elasticity e, Mat A)
   PetscFunctionReturn(0);
 }
 
+/*@C
+  ElasticitySetMatType - Sets the type of tangents to be created
+
+  Logically Collective
+
+  Input Parameters:
++ e    - the elasticity
+- type - MATBAIJ, MATAIJ or MATSBAIJ
+
+  Options Database Key:
+. -elasticity_mat_type <baij> - the type, whatever the program sets
+
+  Level: developer
+
+.seealso: `ElasticityCreateTangent()`
+@*/
+PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
+{
+  PetscFunctionBegin;
+  if (!e->mattype_given) PetscCall(PetscStrncpy(e->mattype, type, sizeof(e->mattype)));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ElasticityCreateTangent - Creates the tangent matrix, all its entries allocated and zero
 

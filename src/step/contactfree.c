@@ -5,7 +5,9 @@
 /* PCAMGF without a subspace is its AMG alone, so the solve takes its options from the optimizer's prefix */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
-  PC pc;
+  PC        pc;
+  Mat       K = sim->K;
+  PetscBool half;
 
   PetscFunctionBegin;
   PetscCall(KSPCreate(sim->comm, ksp));
@@ -16,7 +18,17 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
-  PetscCall(KSPSetOperators(*ksp, sim->K, sim->K));
+  /* the format that the optimizer's matrix has */
+  PetscCall(PetscObjectTypeCompare((PetscObject)K, MATSEQSBAIJ, &half));
+  if (half) {
+    MatNullSpace near;
+
+    PetscCall(MatConvert(sim->K, MATSEQBAIJ, MAT_INITIAL_MATRIX, &K));
+    PetscCall(MatGetNearNullSpace(sim->K, &near));
+    PetscCall(MatSetNearNullSpace(K, near));
+  } else PetscCall(PetscObjectReference((PetscObject)K));
+  PetscCall(KSPSetOperators(*ksp, K, K));
+  PetscCall(MatDestroy(&K));
   PetscFunctionReturn(0);
 }
 

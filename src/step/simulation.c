@@ -27,6 +27,7 @@ static PetscErrorCode SimulationCreateElasticity(Simulation sim)
   Material    *materials;
   ElementType *elements;
   PetscBool    linear;
+  PetscMPIInt  size;
   IS           rows;
 
   PetscFunctionBegin;
@@ -44,6 +45,9 @@ static PetscErrorCode SimulationCreateElasticity(Simulation sim)
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  /* the optimizer copies a constant K into its own matrix, and only multiplies by K: half of it will do */
+  if (scene->npairs && sim->quadratic && size == 1) PetscCall(ElasticitySetMatType(sim->elasticity, MATSBAIJ));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
   if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));

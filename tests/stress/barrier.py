@@ -7,7 +7,7 @@ from runner import SCENES, Case, solve
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 AMG = {"coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": 4, "strong_threshold": 0.5, "relax_type_down": "l1scaled-SOR/Jacobi", "relax_type_up": "l1scaled-SOR/Jacobi"}
-EXACT = ["-tao_ipfilter_barrier", "monotone", "-tao_ipfilter_forcing", "fixed", "-tao_ipfilter_ksp_rtol", 1e-10, "-tao_ipfilter_ksp_norm_type", "preconditioned", "-tao_ipfilter_ksp_max_it", 10000]
+EXACT = ["-tao_ipfilter_forcing", "fixed", "-tao_ipfilter_ksp_rtol", 1e-10, "-tao_ipfilter_ksp_norm_type", "preconditioned", "-tao_ipfilter_ksp_max_it", 10000]
 SOLVERS = {
     "amgf": ["-tao_ipfilter_filter_switch", 0, "-tao_ipfilter_pc_amgf_cycle", "bfb", "-tao_ipfilter_pc_amgf_amg_lag", 1,
              *(x for key, value in AMG.items() for x in (f"-tao_ipfilter_amgf_amg_pc_hypre_boomeramg_{key}", value))],
@@ -22,23 +22,28 @@ def spread(run):
     return (pressure.max() / pressure.min()) ** 2 if pressure.size else None
 
 
-def compare(args, refine, steps, solver, tolerance):
+def compare(args, refine, steps, solver, tolerance, exact):
     free = ["-contact_free"] if solver == "amgf" else []
-    run = solve(os.path.join(args.folder, "barrier"), f"{refine}_{solver[:3]}_{tolerance:g}", os.path.join(SCENES, "two_block.yaml"),
-                ["-refine", refine, "-load_steps", steps, "-tao_ipfilter_tol", tolerance, *EXACT, *SOLVERS[solver], *free], args.limit, write=True)
+    name = f"{solver}, {tolerance:g}" + (", every system to 1e-10" if exact else "")
+    run = solve(os.path.join(args.folder, "barrier"), f"{refine}_{solver[:3]}_{tolerance:g}_{len(name)}", os.path.join(SCENES, "two_block.yaml"),
+                ["-refine", refine, "-load_steps", steps, "-tao_ipfilter_tol", tolerance, "-tao_ipfilter_barrier", "monotone", *(EXACT if exact else []), *SOLVERS[solver], *free],
+                args.limit, write=True)
     wrong = []
     bound = run.summary["contact_free"]["bound"] if free and run.summary else None
     if solver == "amgf" and not run.converged:
         wrong.append(run.status)
     if bound and max(run.pcg, default=0) > bound:
         wrong.append(f"{max(run.pcg)} PCG iterations, the bound is {bound:.0f}")
-    yield {"name": f"{solver}, {tolerance:g}", "run": run, "bound": bound, "spread": spread(run) if run.converged else None, "wrong": wrong, "said": run.last.get("reason") or run.said}
+    yield {"name": name, "run": run, "bound": bound, "spread": spread(run) if run.converged else None, "wrong": wrong, "said": run.last.get("reason") or run.said}
 
 
 def cases(args):
-    """Mesh 2 takes one load step, and AMG alone one tolerance, until a system takes 1000 iterations."""
+    """Systems are solved as the KKT error asks for; to 1e-10, as the bound has it, only while rounding lets them: A loses the digits of
+    K in which D is larger, and at an optimizer tolerance of 1e-10 the iteration stays at 4e-5."""
     for refine, steps in ((1, 2), (2, 1)):
-        for solver in SOLVERS:
-            for tolerance in TOLERANCES if refine == 1 or solver == "amgf" else TOLERANCES[:1]:
-                yield Case(f"The barrier to its end, two_block, mesh {refine}", f"{solver}, {tolerance:g}",
-                           lambda refine=refine, steps=steps, solver=solver, tolerance=tolerance: compare(args, refine, steps, solver, tolerance))
+        for exact in (False, True):
+            for solver in SOLVERS:
+                for tolerance in TOLERANCES[:2] if exact else TOLERANCES:
+                    if refine == 1 or solver == "amgf":
+                        yield Case(f"The barrier to its end, two_block, mesh {refine}", f"{solver}, {tolerance:g}" + (", every system to 1e-10" if exact else ""),
+                                   lambda refine=refine, steps=steps, solver=solver, tolerance=tolerance, exact=exact: compare(args, refine, steps, solver, tolerance, exact))

@@ -157,7 +157,7 @@ def parse():
     parser.add_argument("--resume", action="store_true", help="do not run again what is in --folder already")
     parser.add_argument("--only", default="*", help="cases whose name matches this pattern")
     parser.add_argument("--refine", type=int, default=1, help="of the two blocks in the sweeps; 1 is the published mesh 1")
-    parser.add_argument("--limit", type=int, default=1800, help="of one run [CPU s]")
+    parser.add_argument("--limit", type=int, default=600, help="of one run [CPU s]")
     parser.add_argument("--folder", default=os.path.join(AMGF_DIR, "build", "stress"), help="for scenes, summaries and fields")
     parser.add_argument("--report", help="file for the tables")
     return parser.parse_args()

@@ -1,0 +1,151 @@
+/*
+   The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether the matrix is
+   positive definite. MUMPS's analysis estimates the memory before anything large is allocated.
+*/
+#include "ipfilterimpl.h"
+
+PetscErrorCode IPDirectDestroy(IPDirect *direct)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&direct->F));
+  PetscCall(MatDestroy(&direct->A));
+  direct->system = 0;
+  PetscFunctionReturn(0);
+}
+
+/* A as MUMPS takes a symmetric matrix, AIJ or SBAIJ; NULL where PETSc has no MUMPS for it */
+static PetscErrorCode TakeMatrix(Mat A, Mat *taken)
+{
+  PetscBool baij, mumps;
+  MatType   type;
+
+  PetscFunctionBegin;
+  *taken = NULL;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  if (baij) PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, taken));
+  else {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *taken = A;
+  }
+  PetscCall(MatGetType(*taken, &type));
+  PetscCall(MatSolverTypeGet(MATSOLVERMUMPS, type, MAT_FACTOR_CHOLESKY, NULL, &mumps, NULL));
+  if (!mumps) PetscCall(MatDestroy(taken));
+  else PetscCall(MatSetOption(*taken, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* Analysis, with the given percentage of memory beyond its estimate; *memory: what the factors will take, in 1e6 bytes over all ranks,
+   negative where the analysis failed */
+static PetscErrorCode Analyse(Tao tao, PetscInt relaxation, PetscReal *memory)
+{
+  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct = &ip->direct;
+  MatFactorError error;
+  MatFactorInfo  info;
+  const char    *prefix;
+  char           own[PETSC_MAX_PATH_LEN];
+  PetscInt       estimate;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&direct->F));
+  PetscCall(MatGetFactor(direct->A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &direct->F));
+  PetscCall(TaoGetOptionsPrefix(tao, &prefix));
+  PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
+  PetscCall(MatSetOptionsPrefix(direct->F, own));
+  PetscCall(MatMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
+  PetscCall(MatMumpsSetIcntl(direct->F, 14, relaxation));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
+  PetscCall(MatFactorGetError(direct->F, &error));
+  *memory = -1.0;
+  if (error != MAT_FACTOR_NOERROR) PetscFunctionReturn(0);
+  PetscCall(MatMumpsGetInfog(direct->F, 17, &estimate));
+  *memory = (PetscReal)estimate;
+  PetscFunctionReturn(0);
+}
+
+/* What the matrix itself takes, which the factors exceed, in 1e6 bytes: too much of that needs no analysis */
+static PetscErrorCode LeastMemory(Mat A, PetscReal *memory)
+{
+  MatInfo info;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  *memory = 0.5 * info.nz_used * sizeof(PetscScalar) / 1e6;
+  PetscFunctionReturn(0);
+}
+
+/* Factors the present matrix unless it is; *factored is false where it cannot be, for which the record then has a reason */
+static PetscErrorCode Factor(Tao tao, PetscBool *factored, PetscBool *singular)
+{
+  TAO_IPFILTER  *ip         = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct     = &ip->direct;
+  PetscInt       relaxation = 20;
+  const PetscInt most       = 320;
+  PetscReal      memory     = 0.0;
+  MatFactorError error      = MAT_FACTOR_OUTMEMORY;
+  MatFactorInfo  info;
+
+  PetscFunctionBegin;
+  *factored = *singular = PETSC_FALSE;
+  PetscCall(IPDirectDestroy(direct));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(LeastMemory(ip->cond.A, &memory));
+  if (memory <= ip->direct_memory) PetscCall(TakeMatrix(ip->cond.A, &direct->A));
+  if (memory <= ip->direct_memory && !direct->A) {
+    PetscCall(PetscStrncpy(ip->linear_reason, "no MUMPS to factor the whole matrix", sizeof(ip->linear_reason)));
+    PetscFunctionReturn(0);
+  }
+  /* more work space each time that MUMPS finds its own estimate too small */
+  for (; error == MAT_FACTOR_OUTMEMORY && relaxation <= most; relaxation *= 2) {
+    if (memory <= ip->direct_memory) PetscCall(Analyse(tao, relaxation, &memory));
+    if (memory > ip->direct_memory) {
+      PetscCall(PetscSNPrintf(ip->linear_reason, sizeof(ip->linear_reason), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->direct_memory));
+      break;
+    }
+    error = MAT_FACTOR_OTHER;
+    if (memory < 0.0) break;
+    PetscCall(MatCholeskyFactorNumeric(direct->F, direct->A, &info));
+    PetscCall(MatFactorGetError(direct->F, &error));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
+    PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)memory, (int)error));
+  }
+  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
+  if (*factored) direct->system = ip->nsystems;
+  else {
+    PetscCall(IPDirectDestroy(direct));
+    if (memory <= ip->direct_memory) PetscCall(PetscStrncpy(ip->linear_reason, "MUMPS failed on the whole matrix", sizeof(ip->linear_reason)));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Apply(Tao tao, Vec r, Vec e)
+{
+  PetscFunctionBegin;
+  PetscCall(MatSolve(((TAO_IPFILTER *)tao->data)->direct.F, r, e));
+  PetscFunctionReturn(0);
+}
+
+/* A d = b by L D L^T, refined to rounding; failed where that takes more memory than allowed or MUMPS fails */
+PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPDirect     *direct   = &ip->direct;
+  PetscBool     factored = PETSC_TRUE, singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *verdict = IP_LINEAR_FAILED;
+  if (!direct->F || direct->system != ip->nsystems) {
+    PetscCall(Factor(tao, &factored, &singular));
+    if (factored) PetscCall(MatGetInertia(direct->F, &direct->negative, NULL, NULL));
+  }
+  if (singular || (factored && direct->negative)) *verdict = IP_LINEAR_INDEFINITE;
+  if (!factored || direct->negative) PetscFunctionReturn(0);
+  PetscCall(Apply(tao, b, d));
+  PetscCall(IPMeasureResidual(tao, b, d));
+  PetscCall(IPLinearRefine(tao, b, d, PETSC_TRUE, Apply, KSP_CONVERGED_ITS));
+  if (IPLinearReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
+  else PetscCall(PetscSNPrintf(ip->linear_reason, sizeof(ip->linear_reason), "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->backward_error));
+  PetscFunctionReturn(0);
+}
