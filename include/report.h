@@ -17,6 +17,14 @@ typedef struct {
   PetscInt    contact_updates;        /* linearizations of the gap in the last solve */
   PetscInt    regularizations;        /* Newton systems whose matrix was not positive definite */
   PetscInt    systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
+  struct { /* linear solves that took more than the Krylov method by itself */
+    PetscInt  refinements;    /* continued from the attained iterate */
+    PetscInt  amg_rebuilds;   /* with an AMG that was rebuilt for it */
+    PetscInt  filters;        /* with a filter that was switched on or enlarged for it */
+    PetscInt  direct;         /* by MUMPS on the whole matrix */
+    PetscInt  failures;       /* not solved at all */
+    PetscReal backward_error; /* largest of all that were used */
+  } linear;
   PetscReal   energy;                 /* elastic, from the elements [force length] */
   PetscReal   potential;              /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
   PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */

@@ -301,6 +301,8 @@ PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPCondenseJacobian(Tao);
 PETSC_INTERN PetscErrorCode IPCondenseRHS(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPBackSubstitute(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);
+PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
 
 /* subspace.c */

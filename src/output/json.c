@@ -71,6 +71,14 @@ static void WriteStep(FILE *stream, const RunReport *report, const StepReport *s
   WriteInt(stream, "regularizations", step->regularizations, next);
   WriteInt(stream, "systems", step->systems, next);
   WriteInt(stream, "filtered_systems", step->filtered_systems, next);
+  fputs("\"linear\": {", stream);
+  WriteInt(stream, "refinements", step->linear.refinements, ", ");
+  WriteInt(stream, "amg_rebuilds", step->linear.amg_rebuilds, ", ");
+  WriteInt(stream, "filters", step->linear.filters, ", ");
+  WriteInt(stream, "direct", step->linear.direct, ", ");
+  WriteInt(stream, "failures", step->linear.failures, ", ");
+  WriteReal(stream, "backward_error", (double)step->linear.backward_error, "}");
+  fputs(next, stream);
   WriteReal(stream, "energy", (double)step->energy, next);
   WriteReal(stream, "potential", (double)step->potential, next);
   WriteReal(stream, "equilibrium", (double)step->equilibrium, next);

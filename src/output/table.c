@@ -52,6 +52,19 @@ static PetscErrorCode ViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
+static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+
+    if (!step->linear.refinements && !step->linear.amg_rebuilds && !step->linear.filters && !step->linear.direct && !step->linear.failures) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  linear solves: %" PetscInt_FMT " refined, %" PetscInt_FMT " with the AMG rebuilt, %" PetscInt_FMT " with more filter, %" PetscInt_FMT " by MUMPS, %" PetscInt_FMT " failed; backward error at most %.1e\n", step->step, step->linear.refinements, step->linear.amg_rebuilds, step->linear.filters, step->linear.direct, step->linear.failures, (double)step->linear.backward_error));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* How wrong the energy is, by the solver's doing and by the mesh's */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
@@ -176,6 +189,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewAccuracy(report, viewer));
+  PetscCall(ViewFallbacks(report, viewer));
   PetscCall(ViewErrors(report, viewer));
   if (report->accuracy) PetscCall(ReportViewAccuracy(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));

@@ -147,6 +147,7 @@ static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
 {
   static const PCAMGFCounts none = {0, 0, 0, 0};
   const PetscInt           *its;
+  TaoIPFilterFallbacks      fallbacks;
   PetscInt                  n, systems, filtered, indefinite;
   KSP                       ksp;
 
@@ -158,6 +159,13 @@ static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
   report->filtered_systems += filtered;
   PetscCall(TaoIPFilterGetRegularizations(tao, &indefinite, NULL, NULL));
   report->regularizations += indefinite;
+  PetscCall(TaoIPFilterGetFallbacks(tao, &fallbacks));
+  report->linear.refinements += fallbacks.refinements;
+  report->linear.amg_rebuilds += fallbacks.amg_rebuilds;
+  report->linear.filters += fallbacks.filters;
+  report->linear.direct += fallbacks.direct;
+  report->linear.failures += fallbacks.failures;
+  report->linear.backward_error = PetscMax(report->linear.backward_error, fallbacks.backward_error);
   PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
   PetscCall(TaoGetKSP(tao, &ksp));
   if (ksp) PetscCall(ReportPreconditioner(ksp, &none, report));
