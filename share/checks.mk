@@ -3,8 +3,8 @@
 
 SUPPRESSIONS   := $(CURDIR)/tests/suppressions
 # After an error PETSc leaves its objects as they are: those tests are not asked for leaks
-SANITIZE_TESTS  ?= scene_view* material_* output_* elasticity_derivatives* contact_clip* contact_patch
-SANITIZE_ERRORS ?= fuzz_corpus* mesh_gmsh* mesh_errors* scene_errors*
+SANITIZE_TESTS  ?= scene_view* material_* output_* elasticity_derivatives* contact_clip* contact_patch contact_deep* ipfilter_reasons* ipfilter_fallbacks* ipfilter_bounds*
+SANITIZE_ERRORS ?= fuzz_corpus* mesh_gmsh* mesh_errors* scene_errors* ipfilter_complete*
 SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
