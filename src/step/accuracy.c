@@ -27,7 +27,7 @@
 PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
 {
   PetscReal most = 1e6;
-  PetscBool set;
+  PetscBool set, estimate = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(acc, sizeof(*acc)));
@@ -40,6 +40,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
   PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
   PetscCheck(most > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)most);
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
+  PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
   acc->most_dofs = (PetscInt)PetscMin(most, (PetscReal)PETSC_MAX_INT);
   acc->tolerance = acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
@@ -79,13 +81,11 @@ static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBo
 @*/
 PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene)
 {
-  const char *const solver   = scene->npairs ? "-tao_ipfilter_tol" : "-elasticity_ksp_rtol";
-  PetscBool         estimate = PETSC_TRUE, set;
+  const char *const solver = scene->npairs ? "-tao_ipfilter_tol" : "-elasticity_ksp_rtol";
+  PetscBool         set;
 
   PetscFunctionBegin;
   if (acc->target == 0.0) PetscFunctionReturn(0);
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
-  PetscCheck(estimate, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
   if (acc->nlevels && !acc->given) PetscCall(PetscOptionsClearValue(NULL, solver));
   PetscCall(SetUnlessGiven(solver, acc->tolerance, &acc->given));
   acc->contact = (PetscBool)(scene->npairs > 0);

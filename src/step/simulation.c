@@ -241,7 +241,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 
   PetscFunctionBegin;
   report->step       = step + 1;
-  report->gap_min = report->gap_true = NAN;
+  report->gap_min    = report->gap_true = NAN;
   report->load       = sim->scene->ramps[0].factor[step];
   sim->report.nsteps = step + 1;
   while (again && sim->path.time < end) {
