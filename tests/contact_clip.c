@@ -4,6 +4,8 @@ static char help[] = "Contact geometry: overlaps of facets against independent a
 #include "../src/contact/contactimpl.h"
 #include "contact_report.h"
 
+static ContactRule rule;
+
 static const ContactOverlapLimits limits = {-0.174, 1e-8, 1e30, 1e30};
 
 /* A random rotation and shift */
@@ -126,7 +128,7 @@ static PetscErrorCode TestRandomAreas(PetscRandom r)
     Move(&motion, x1);
     Move(&motion, x2);
     for (PetscInt i = 0; i < 12; ++i) normals[i] = motion.R[i % 3][2];
-    if (!ContactOverlapFind(x1, x2, &limits, &o)) {
+    if (!ContactOverlapFind(x1, x2, &limits, &rule, &o)) {
       if (exact > 1.001e-8 * size) area = PetscMax(area, exact / size);
       continue;
     }
@@ -183,7 +185,7 @@ static PetscErrorCode TestTiling(PetscRandom r)
         }
         Facet((const PetscReal(*)[2])q, 0.1, PETSC_FALSE, x2);
         Move(&motion, x2);
-        if (ContactOverlapFind(x1, x2, &all, &o)) area += o.area;
+        if (ContactOverlapFind(x1, x2, &all, &rule, &o)) area += o.area;
       }
     }
     error = PetscMax(error, PetscAbsReal(area / ContactPolygonArea(4, (const PetscReal(*)[2])p) - 1.0));
@@ -237,7 +239,7 @@ static PetscErrorCode TestParallelograms(PetscRandom r)
     Facet((const PetscReal(*)[2])p[1], 0.0, PETSC_FALSE, x2);
     Move(&motion, x1);
     Move(&motion, x2);
-    PetscCheck(ContactOverlapFind(x1, x2, &limits, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB, "Overlapping parallelograms were not found");
+    PetscCheck(ContactOverlapFind(x1, x2, &limits, &rule, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB, "Overlapping parallelograms were not found");
     ContactIntegrate(&o, x1, x2, normals, &m);
     size = (to[0] - from[0]) * (to[1] - from[1]);
     for (PetscInt a = 0; a < 4; ++a) {
@@ -303,7 +305,7 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
       Facet((const PetscReal(*)[2])(swap ? p : q), 0.1 * scale, PETSC_FALSE, x2);
       Move(&motion, x1);
       Move(&motion, x2);
-      if (ContactOverlapFind(x1, x2, &limits, &o)) {
+      if (ContactOverlapFind(x1, x2, &limits, &rule, &o)) {
         ContactIntegrate(&o, x1, x2, normals, &m);
         for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
       }
@@ -345,7 +347,7 @@ static PetscErrorCode TestWarped(PetscRandom r)
       d1[i]      = Random(r, -1, 1);
       d2[i]      = Random(r, -1, 1);
     }
-    if (!ContactOverlapFind(x1, x2, &limits, &o)) continue;
+    if (!ContactOverlapFind(x1, x2, &limits, &rule, &o)) continue;
     ++noverlap;
     ContactIntegrate(&o, x1, x2, normals, &m);
     for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
@@ -407,7 +409,7 @@ static PetscErrorCode TestLimits(void)
 
     Facet(square, 0.0, PETSC_TRUE, x1);
     Facet(square, cases[c].z, cases[c].up, x2);
-    wrong += ContactOverlapFind(x1, x2, &near, &o) != cases[c].pairs;
+    wrong += ContactOverlapFind(x1, x2, &near, &rule, &o) != cases[c].pairs;
   }
   for (PetscInt k = 0; k < 2; ++k) { /* the mortar facet turned about the line x = 0.5 */
     const PetscReal c = steep[k], s = PetscSqrtReal(1.0 - c * c);
@@ -420,7 +422,7 @@ static PetscErrorCode TestLimits(void)
       x2[3 * a + 2] = s * (x2[3 * a] - 0.5);
       x2[3 * a]     = 0.5 + c * (x2[3 * a] - 0.5);
     }
-    wrong += ContactOverlapFind(x1, x2, &near, &o) != (k == 1);
+    wrong += ContactOverlapFind(x1, x2, &near, &rule, &o) != (k == 1);
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "search limits: %" PetscInt_FMT " wrong\n", wrong));
   PetscFunctionReturn(0);
@@ -665,7 +667,7 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
   ProjectExtended(x1, x2, p, q);
   exact = (PetscReal)QuadOverlap(p, q);
   size  = PetscSqr(PetscMin(Diameter(x1), Diameter(x2)));
-  if (!ContactOverlapFind(x1, x2, &all, &o)) {
+  if (!ContactOverlapFind(x1, x2, &all, &rule, &o)) {
     error[0] = PetscMax(error[0], exact / size);
     return;
   }
@@ -731,6 +733,32 @@ static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
   PetscFunctionReturn(0);
 }
 
+/* Means of monomials of the barycentric coordinates over a triangle: 2 i! j! k!/(i + j + k + 2)! */
+static PetscErrorCode TestRules(void)
+{
+  const PetscReal factorial[] = {1, 1, 2, 6, 24, 120, 720, 5040, 40320, 362880, 3628800};
+  PetscReal       error = 0.0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt degree = 1; degree <= CONTACT_RULE_DEGREE; ++degree) {
+    ContactRule r;
+
+    PetscCall(ContactRuleCreate(degree, &r));
+    for (PetscInt i = 0; i <= degree; ++i) {
+      for (PetscInt j = 0; i + j <= degree; ++j) {
+        for (PetscInt k = 0; i + j + k <= degree; ++k) {
+          PetscReal mean = 0.0;
+
+          for (PetscInt q = 0; q < r.n; ++q) mean += r.weight[q] * PetscPowRealInt(r.barycentric[q][0], i) * PetscPowRealInt(r.barycentric[q][1], j) * PetscPowRealInt(r.barycentric[q][2], k);
+          error = PetscMax(error, PetscAbsReal(mean - 2.0 * factorial[i] * factorial[j] * factorial[k] / factorial[i + j + k + 2]));
+        }
+      }
+    }
+  }
+  PetscCall(Report("rules for triangles", error, 1e-14));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscRandom r;
@@ -738,8 +766,10 @@ int main(int argc, char **argv)
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(ContactRuleCreate(5, &rule));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-pairs", &npairs, NULL));
   PetscCall(PetscRandomCreate(PETSC_COMM_SELF, &r));
+  PetscCall(TestRules());
   PetscCall(TestRandomAreas(r));
   PetscCall(TestTiling(r));
   PetscCall(TestParallelograms(r));

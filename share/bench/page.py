@@ -137,7 +137,7 @@ def baseline_words(study, rows):
         others = [f"{row['series']} {number(row['seconds'] / ours['seconds'], 2)}" for row in runs if ours and row is not ours]
         if others:
             sentences.append(f"{panel.title}: in units of the defaults' {number(ours['seconds'])} s, " + ", ".join(others) + ".")
-    return " ".join([*sentences, "The penalty method is not among them: `contact` has no penalty formulation."])
+    return " ".join(sentences)
 
 
 def growth_words(entries):

@@ -112,8 +112,6 @@ def wanted(args):
             chosen.append(study)
     if args.only and not chosen and not skipped and args.only != ["references"]:
         sys.exit(f"run.py: no study of size {args.size} is called {' or '.join(args.only)}: they are {', '.join(s.name for s in studies(args.size))}")
-    skipped.append("Quadrature of the mortar integrals: its rule is fixed, there is no option")
-    skipped.append("Penalty method by one Newton-PCG: `contact` has no penalty formulation")
     return chosen, skipped
 
 

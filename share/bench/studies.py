@@ -122,6 +122,8 @@ def path_studies(size):
 def formulation_studies(size):
     two = ("hertz_sphere", "two_block")
     yield Study("gap", "Gap: mortar against node to segment", "gap", turn(size, two, values("-contact_gap", "mortar", "node")), costs=("time",))
+    degrees = values("-contact_quadrature", "1", "2", "4", "5", "8")
+    yield Study("mortar_quadrature", "Degree to which the mortar integrals are exact", "degree", turn(size, two, degrees, careful=(IP + "tol", "1e-11")), costs=("time",))
     yield Study("quadrature", "Gauss points per axis of a hexahedron", "points", turn(size, two, values("-elasticity_quadrature", "2", "3")), costs=("time",))
     materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
     yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
@@ -168,6 +170,8 @@ BASELINES = {
     "MUMPS Cholesky": (("-options_file", "direct.opts"), 4),
     "AMG-PCG": ((IP + "pc_type", "hypre", *boomeramg(IP, *TUNED), *LONG), 10),
     "GAMG-PCG": ((IP + "pc_type", "gamg", *AIJ, *LONG), 10),
+    "penalty, stiffness 10": (("-contact_penalty", "10"), 5),
+    "penalty, stiffness 1000": (("-contact_penalty", "1000"), 10),
     "TAO almm": (("-tao_type", "almm"), 10),
     "TAO pdipm": (("-tao_type", "pdipm"), 10),
 }

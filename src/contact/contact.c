@@ -5,6 +5,8 @@
 #define SEARCH_FRACTION 0.25
 /* and never deeper in one another than this part of what both bodies are thick */
 #define THROUGH_FRACTION 0.9
+/* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and 7 points */
+#define RULE_DEGREE 5
 
 const char *const GapTypes[] = {"mortar", "node", "GapType", "GAP_", NULL};
 
@@ -119,6 +121,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
   c->cosine       = -0.174;
   c->overlap_drop = 1e-8;
   c->row_drop     = 1e-5;
+  PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule));
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBoundaryCreate(dm, &boundary));
   PetscCall(PetscMalloc1(boundary.nbodies, &thickness));
@@ -148,6 +151,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], 
   Options Database Keys:
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
 . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the normals of the facets
+. -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every triangle of an overlap
 . -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area
 . -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner body, or the
                                        pair's own distance up to 0.9 of what both bodies are thick
@@ -164,12 +168,14 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 {
   GapType   gap      = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
   PetscReal distance = contact->npairs ? contact->pairs[0].given : 0.0;
+  PetscInt  degree   = contact->rule.degree;
   PetscBool set_gap, set_distance;
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
   PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes, (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
   PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
+  PetscCall(PetscOptionsInt("-contact_quadrature", "Degree of polynomials that mortar integrals are exact for on every triangle of an overlap", "ContactSetFromOptions", degree, &degree, NULL));
   PetscCall(PetscOptionsReal("-contact_search_distance", "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth", "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)", "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
   PetscCall(PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this", "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
@@ -178,6 +184,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every linearization", "ContactView", NULL, NULL, NULL));
   PetscOptionsEnd();
   PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_distance must not be negative, but is %g", (double)distance);
+  PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
   PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
   PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
@@ -186,6 +193,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_distance) contact->pairs[p].given = distance;
   }
+  PetscCall(ContactRuleCreate(degree, &contact->rule));
   PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }

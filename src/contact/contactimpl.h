@@ -71,6 +71,15 @@ typedef struct {
   PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
 } ContactAssembly;
 
+/* quadrature.c: a rule for triangles */
+#define CONTACT_RULE_DEGREE 8 /* at most */
+#define CONTACT_RULE_POINTS 16
+typedef struct {
+  PetscInt  degree, n;
+  PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
+} ContactRule;
+PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
+
 struct _n_Contact {
   DM               dm;
   MPI_Comm         comm;
@@ -78,6 +87,7 @@ struct _n_Contact {
   ContactPairData *pairs;
   ContactRows      rows;
   ContactNormals   normals;
+  ContactRule      rule;         /* of the triangles that overlaps are cut into */
   PetscReal        reach;        /* distance that pairs without one of their own look for at least [length] */
   PetscReal        reach_depth;  /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
   PetscReal        depth;        /* 0: from the thickness of the bodies */
@@ -158,10 +168,6 @@ PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
 PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
 
-/* quadrature.c */
-#define CONTACT_TRIANGLE_POINTS 7
-PETSC_INTERN void ContactTriangleRule(PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], PetscReal weight[CONTACT_TRIANGLE_POINTS]);
-
 /* facet.c: bilinear facets */
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
 PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
@@ -182,7 +188,7 @@ PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal
 
 /* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
    frozen, the weighted gap is linear in the coordinates. */
-#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_TRIANGLE_POINTS)
+#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
   PetscInt  n;
   PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
@@ -193,7 +199,7 @@ typedef struct {
 typedef struct {
   PetscReal cosine, overlap_drop, distance, depth;
 } ContactOverlapLimits;
-PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, ContactOverlap *);
+PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, const ContactRule *, ContactOverlap *);
 
 /* integrate.c */
 typedef struct {

@@ -34,11 +34,8 @@ static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal
 }
 
 /* Adds the points of the fan of triangles about the polygon's first vertex, with this sign */
-static void AddPolygon(PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+static void AddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
-  PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], weight[CONTACT_TRIANGLE_POINTS];
-
-  ContactTriangleRule(barycentric, weight);
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
       {polygon[0][0],     polygon[0][1]    },
@@ -49,13 +46,13 @@ static void AddPolygon(PetscReal sign, PetscInt n, const PetscReal polygon[][2],
 
     if (area == 0.0) continue;
     o->area += area;
-    for (PetscInt q = 0; q < CONTACT_TRIANGLE_POINTS; ++q) {
+    for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};
 
       for (PetscInt v = 0; v < 3; ++v) {
-        for (PetscInt d = 0; d < 2; ++d) y[d] += barycentric[q][v] * tri[v][d];
+        for (PetscInt d = 0; d < 2; ++d) y[d] += rule->barycentric[q][v] * tri[v][d];
       }
-      o->weight[o->n] = area * weight[q];
+      o->weight[o->n] = area * rule->weight[q];
       ContactInverseMap(p1, y, o->xi1[o->n]);
       ContactInverseMap(p2, y, o->xi2[o->n]);
       ++o->n;
@@ -82,7 +79,7 @@ static PetscReal MeanGap(const ContactOverlap *o, const PetscReal h1[4], const P
   Projects both facets to the plane of the nonmortar facet x1 (through its centre, along its mean normal), clips, and
   places the quadrature points. False where the facets do not face each other within the limits or hardly overlap.
 */
-PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, ContactOverlap *o)
+PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
   PetscReal    n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
   PetscInt     size[2], nparts;
@@ -104,7 +101,7 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     PetscReal      polygon[CONTACT_MAX_POLYGON][2];
     const PetscInt n = ContactClip(4, reversed, size[k], part[k], polygon);
 
-    if (n && PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller) AddPolygon(sign[k], n, polygon, p1, p2, o);
+    if (n && PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller) AddPolygon(rule, sign[k], n, polygon, p1, p2, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   gap = MeanGap(o, h1, h2);

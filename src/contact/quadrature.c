@@ -1,27 +1,26 @@
 /* Quadrature on triangles */
 #include "contactimpl.h"
+#include <petscdt.h>
 
-/*
-  Radon's 7-point rule, exact for polynomials of degree 5: the product of two bilinear functions on parallelograms has
-  degree 4. The weights sum to 1.
-
-  J. Radon, Zur mechanischen Kubatur, Monatshefte fuer Mathematik 52 (1948)
-*/
-void ContactTriangleRule(PetscReal barycentric[CONTACT_TRIANGLE_POINTS][3], PetscReal weight[CONTACT_TRIANGLE_POINTS])
+/* PETSc's rule of fewest points that is exact for polynomials of this degree: barycentric coordinates, weights that sum to 1 */
+PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *rule)
 {
-  const PetscReal root = PetscSqrtReal(15.0);
+  PetscQuadrature  quadrature;
+  PetscInt         n;
+  const PetscReal *x, *weight; /* on the triangle (-1, -1), (1, -1), (-1, 1), whose area is 2 */
 
-  for (PetscInt c = 0; c < 3; ++c) barycentric[0][c] = 1.0 / 3.0;
-  weight[0] = 9.0 / 40.0;
-  for (PetscInt orbit = 0; orbit < 2; ++orbit) {
-    const PetscReal sign = orbit ? 1.0 : -1.0;
-    const PetscReal a    = (6.0 + sign * root) / 21.0;
-
-    for (PetscInt k = 0; k < 3; ++k) {
-      const PetscInt q = 1 + 3 * orbit + k;
-
-      for (PetscInt c = 0; c < 3; ++c) barycentric[q][c] = c == k ? 1.0 - 2.0 * a : a;
-      weight[q] = (155.0 + sign * root) / 1200.0;
-    }
+  PetscFunctionBegin;
+  PetscCall(PetscDTSimplexQuadrature(2, degree, PETSCDTSIMPLEXQUAD_MINSYM, &quadrature));
+  PetscCall(PetscQuadratureGetData(quadrature, NULL, NULL, &n, &x, &weight));
+  PetscCheck(n <= CONTACT_RULE_POINTS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "The rule of degree %" PetscInt_FMT " has %" PetscInt_FMT " points, more than %d", degree, n, CONTACT_RULE_POINTS);
+  rule->degree = degree;
+  rule->n      = n;
+  for (PetscInt q = 0; q < n; ++q) {
+    rule->barycentric[q][1] = 0.5 * (1.0 + x[2 * q]);
+    rule->barycentric[q][2] = 0.5 * (1.0 + x[2 * q + 1]);
+    rule->barycentric[q][0] = 1.0 - rule->barycentric[q][1] - rule->barycentric[q][2];
+    rule->weight[q]         = 0.5 * weight[q];
   }
+  PetscCall(PetscQuadratureDestroy(&quadrature));
+  PetscFunctionReturn(0);
 }

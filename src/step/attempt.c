@@ -19,6 +19,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(SolveLinear(p, u, report));
+  else if (p->sim->penalty > 0.0 && p->J) PetscCall(SolvePenalty(p, resume, u, report, sol));
   else PetscCall(SolveTao(p, resume, u, report, sol));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -5,9 +5,8 @@
 /* PCAMGF without a subspace is its AMG alone, so the solve takes its options from the optimizer's prefix */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
-  PC        pc;
-  Mat       K = sim->K;
-  PetscBool half;
+  PC  pc;
+  Mat K;
 
   PetscFunctionBegin;
   PetscCall(KSPCreate(sim->comm, ksp));
@@ -18,15 +17,7 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
-  /* the format that the optimizer's matrix has */
-  PetscCall(PetscObjectTypeCompare((PetscObject)K, MATSEQSBAIJ, &half));
-  if (half) {
-    MatNullSpace near;
-
-    PetscCall(MatConvert(sim->K, MATSEQBAIJ, MAT_INITIAL_MATRIX, &K));
-    PetscCall(MatGetNearNullSpace(sim->K, &near));
-    PetscCall(MatSetNearNullSpace(K, near));
-  } else PetscCall(PetscObjectReference((PetscObject)K));
+  PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format that the optimizer's matrix has */
   PetscCall(KSPSetOperators(*ksp, K, K));
   PetscCall(MatDestroy(&K));
   PetscFunctionReturn(0);

@@ -27,7 +27,6 @@ static PetscErrorCode SimulationCreateElasticity(Simulation sim)
   Material    *materials;
   ElementType *elements;
   PetscBool    linear;
-  PetscMPIInt  size;
   IS           rows;
 
   PetscFunctionBegin;
@@ -40,14 +39,13 @@ static PetscErrorCode SimulationCreateElasticity(Simulation sim)
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
+  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP, "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model quadratic");
   PetscCall(PrescribedCreate(sim->dm, scene, &sim->prescribed));
   PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
-  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
-  /* the optimizer copies a constant K into its own matrix, and only multiplies by K: half of it will do */
-  if (scene->npairs && sim->quadratic && size == 1) PetscCall(ElasticitySetMatType(sim->elasticity, MATSBAIJ));
+  PetscCall(StiffnessSetType(sim));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
   if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
@@ -85,7 +83,9 @@ static PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->update_tol, &sim->update_tol, NULL));
+  PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
   PetscOptionsEnd();
+  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
   PetscFunctionReturn(0);
 }
 
@@ -127,7 +127,10 @@ static PetscErrorCode SimulationCreateReport(Simulation sim)
 .  -load_max_cuts <5>         - how often a load step that fails is halved
 .  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
--  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
+.  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
+-  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of TAOIPFILTER: the
+                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc solvers have
+                                the prefix penalty_. The faces penetrate by about pressure times the bodies' flexibility over this
 
    Level: beginner
 

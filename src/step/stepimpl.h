@@ -63,6 +63,7 @@ struct _n_Simulation {
   PetscBool            estimate;   /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;    /* of one load step */
   int                  interrupted; /* the signal that asked for an end */
+  PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
   PetscLogDouble       start, events[STEP_NEVENTS]; /* when it began, and the times of PETSc's events then */
@@ -110,6 +111,9 @@ PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
 PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
 PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 
+PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
+PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
+
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
@@ -132,6 +136,7 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 }
 
 PETSC_INTERN PetscErrorCode SolveLinear(StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode SolvePenalty(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode SolveTao(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
 
