@@ -100,33 +100,21 @@ static PetscErrorCode Solve(MaterialType type, ElementType element, PetscInt n, 
   const Material  material = {type, 240.565, published[type].poisson};
   SceneBody       panel;
   DM              dm;
-  Elasticity      e;
-  Mat             K;
   IS              rows;
-  Vec             u, load;
+  ProblemBody     body;
 
   PetscFunctionBeginUser;
   ProblemBox(name, lower, upper, cells, &panel);
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &panel, 0, &dm));
   PetscCall(ProblemMapVertices(dm, Map));
-  PetscCall(ElasticityCreate(dm, 1, &material, &element, &e));
   PetscCall(PrescribedRows(dm, &rows));
-  PetscCall(ElasticitySetPrescribed(e, rows));
-  PetscCall(ElasticityCreateTangent(e, &K));
-  PetscCall(DMCreateGlobalVector(dm, &u));
-  PetscCall(VecDuplicate(u, &load));
-  PetscCall(VecZeroEntries(u));
+  PetscCall(ProblemBodyCreate(dm, &material, element, rows, &body));
   for (PetscInt step = 1; step <= published[type].loadsteps; ++step) {
-    PetscCall(ShearLoad(e, 6.25 * step / published[type].loadsteps, load));
-    PetscCall(ProblemNewton(e, rows, load, K, u));
+    PetscCall(ShearLoad(body.e, 6.25 * step / published[type].loadsteps, body.load));
+    PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
   }
-  PetscCall(CornerDisplacement(dm, u, value));
-  PetscCall(VecDestroy(&load));
-  PetscCall(VecDestroy(&u));
-  PetscCall(MatDestroy(&K));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(ElasticityDestroy(&e));
-  PetscCall(DMDestroy(&dm));
+  PetscCall(CornerDisplacement(dm, body.u, value));
+  PetscCall(ProblemBodyDestroy(&body));
   PetscFunctionReturn(0);
 }
 

@@ -189,41 +189,27 @@ static PetscErrorCode Run(const Context *context, PetscInt level)
   const PetscReal weight[3] = {0, 0, -0.001};
   PetscReal       potential = -3.319e-4; /* the beam's, within 1e-7: extrapolated with both elements, up to 64 x 16 x 16 cells */
   PetscReal       estimate, truth;
-  SceneBody       body;
+  SceneBody       shape;
   DM              dm;
-  Elasticity      e;
-  Mat             K;
   IS              rows;
-  Vec             u, load;
+  ProblemBody     body;
 
   PetscFunctionBeginUser;
-  MakeBody(context, &body);
-  PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &body, level, &dm));
-  PetscCall(ElasticityCreate(dm, 1, &context->material, &context->element, &e));
+  MakeBody(context, &shape);
+  PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &shape, level, &dm));
   PetscCall(PrescribedRows(context, dm, &rows));
-  PetscCall(ElasticitySetPrescribed(e, rows));
-  PetscCall(ElasticityCreateTangent(e, &K));
-  PetscCall(DMCreateGlobalVector(dm, &load));
-  PetscCall(VecZeroEntries(load));
+  PetscCall(ProblemBodyCreate(dm, &context->material, context->element, rows, &body));
   if (context->problem == PROBLEM_CUBE) {
-    PetscCall(ProblemInterpolate(dm, CubeDisplacement, &u));
-    PetscCall(CubeLoad(dm, &context->material, load, &potential));
-  } else {
-    PetscCall(VecDuplicate(load, &u));
-    PetscCall(VecZeroEntries(u));
-    if (context->problem == PROBLEM_SPHERE) PetscCall(ElasticityAddPressure(e, "body.inner", pressure, load));
-    else PetscCall(ElasticityAddBodyForce(e, 0, weight, load));
-  }
-  PetscCall(ProblemNewton(e, rows, load, K, u));
-  PetscCall(ElasticityEstimateError(e, u, &estimate, NULL));
-  PetscCall(Truth(context, dm, e, u, load, potential, &truth));
+    PetscCall(VecDestroy(&body.u));
+    PetscCall(ProblemInterpolate(dm, CubeDisplacement, &body.u));
+    PetscCall(CubeLoad(dm, &context->material, body.load, &potential));
+  } else if (context->problem == PROBLEM_SPHERE) PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, body.load));
+  else PetscCall(ElasticityAddBodyForce(body.e, 0, weight, body.load));
+  PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
+  PetscCall(ElasticityEstimateError(body.e, body.u, &estimate, NULL));
+  PetscCall(Truth(context, dm, body.e, body.u, body.load, potential, &truth));
   PetscCall(ReportEffectivity(level, estimate, truth, level < LEVELS - 1 ? 2 : 1.2));
-  PetscCall(VecDestroy(&load));
-  PetscCall(VecDestroy(&u));
-  PetscCall(MatDestroy(&K));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(ElasticityDestroy(&e));
-  PetscCall(DMDestroy(&dm));
+  PetscCall(ProblemBodyDestroy(&body));
   PetscFunctionReturn(0);
 }
 

@@ -177,6 +177,43 @@ static inline PetscErrorCode ProblemNewton(Elasticity e, IS prescribed, Vec load
   PetscFunctionReturn(0);
 }
 
+/* One body of elements, held on prescribed rows, under dead loads */
+typedef struct {
+  DM         dm;
+  Elasticity e;
+  IS         rows;
+  Mat        K;
+  Vec        u, load; /* zero at first */
+} ProblemBody;
+
+/* Takes over dm and rows */
+static inline PetscErrorCode ProblemBodyCreate(DM dm, const Material *material, ElementType element, IS rows, ProblemBody *body)
+{
+  PetscFunctionBeginUser;
+  body->dm   = dm;
+  body->rows = rows;
+  PetscCall(ElasticityCreate(dm, 1, material, &element, &body->e));
+  PetscCall(ElasticitySetPrescribed(body->e, rows));
+  PetscCall(ElasticityCreateTangent(body->e, &body->K));
+  PetscCall(DMCreateGlobalVector(dm, &body->u));
+  PetscCall(VecDuplicate(body->u, &body->load));
+  PetscCall(VecZeroEntries(body->u));
+  PetscCall(VecZeroEntries(body->load));
+  PetscFunctionReturn(0);
+}
+
+static inline PetscErrorCode ProblemBodyDestroy(ProblemBody *body)
+{
+  PetscFunctionBeginUser;
+  PetscCall(VecDestroy(&body->load));
+  PetscCall(VecDestroy(&body->u));
+  PetscCall(MatDestroy(&body->K));
+  PetscCall(ISDestroy(&body->rows));
+  PetscCall(ElasticityDestroy(&body->e));
+  PetscCall(DMDestroy(&body->dm));
+  PetscFunctionReturn(0);
+}
+
 /* Prints whether a figure is within its tolerance, and the figure itself only if it is not */
 static inline PetscErrorCode ProblemReport(const char name[], PetscReal value, PetscReal tolerance)
 {

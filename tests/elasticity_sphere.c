@@ -122,10 +122,8 @@ static PetscErrorCode Solve(PetscInt level, ElementType element, PetscReal poiss
   const Lame     lame     = LameSolution(poisson);
   SceneBody      shell    = {0};
   DM             dm;
-  Elasticity     e;
-  Mat            K;
   IS             rows;
-  Vec            u, load;
+  ProblemBody    body;
 
   PetscFunctionBeginUser;
   shell.name                = name;
@@ -136,23 +134,12 @@ static PetscErrorCode Solve(PetscInt level, ElementType element, PetscReal poiss
   shell.octant.outer.radius = outer;
   for (PetscInt d = 0; d < 3; ++d) shell.cells[d] = 2;
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &shell, level, &dm));
-  PetscCall(ElasticityCreate(dm, 1, &material, &element, &e));
   PetscCall(SymmetryRows(dm, &rows));
-  PetscCall(ElasticitySetPrescribed(e, rows));
-  PetscCall(ElasticityCreateTangent(e, &K));
-  PetscCall(DMCreateGlobalVector(dm, &u));
-  PetscCall(VecDuplicate(u, &load));
-  PetscCall(VecZeroEntries(u));
-  PetscCall(VecZeroEntries(load));
-  PetscCall(ElasticityAddPressure(e, "shell.inner", pressure, load));
-  PetscCall(ProblemNewton(e, rows, load, K, u));
-  PetscCall(Errors(dm, e, &lame, u, errors));
-  PetscCall(VecDestroy(&load));
-  PetscCall(VecDestroy(&u));
-  PetscCall(MatDestroy(&K));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(ElasticityDestroy(&e));
-  PetscCall(DMDestroy(&dm));
+  PetscCall(ProblemBodyCreate(dm, &material, element, rows, &body));
+  PetscCall(ElasticityAddPressure(body.e, "shell.inner", pressure, body.load));
+  PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
+  PetscCall(Errors(dm, body.e, &lame, body.u, errors));
+  PetscCall(ProblemBodyDestroy(&body));
   PetscFunctionReturn(0);
 }
 

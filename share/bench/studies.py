@@ -99,7 +99,7 @@ def mesh_studies(size):
     for problem, levels in LEVELS[size].items():
         if problem == "beam_sphere_linear":
             continue
-        lines = [Series(element, [(level, Case(problem, level, body=body, limit=1200)) for level in levels[:3]]) for element, body in (("full", ()), ("bbar", (("element", "bbar"),)))]
+        lines = [Series(element, [(level, Case(problem, level, body=body, limit=1200)) for level in levels[: 3 if size == "full" else 2]]) for element, body in (("full", ()), ("bbar", (("element", "bbar"),)))]
         panels.append(Panel(problem, "", lines))
     yield Study("element", "Element: full integration against mean dilatation (bbar)", "mesh", panels, costs=("time", "applications", "memory"))
 
@@ -107,7 +107,7 @@ def mesh_studies(size):
 def algebraic_studies(size):
     tight = (IP + "tol", "1e-11")
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, three, values(IP + "tol", *TOLERANCES), careful=tight))
+    yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, three, values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
     yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, three, forcing, careful=tight, work=1.5))
 
@@ -116,7 +116,7 @@ def path_studies(size):
     true = ("-contact_updates", "20", IP + "tol", "1e-9")
     yield Study("load_steps", "Load steps", "load steps", turn(size, ("two_block", "beam_sphere_linear"), values("-load_steps", "1", "2", "4", "8"), careful=true, work=1.5))
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, three, values("-contact_updates", "1", "2", "3", "5", "10"), careful=true, work=1.5))
+    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, three, values("-contact_updates", "1", "2", "3", "5", *(("10",) if size == "full" else ())), careful=true, work=1.5))
 
 
 def formulation_studies(size):
@@ -128,7 +128,7 @@ def formulation_studies(size):
     materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
     yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
     models = values("-model", "quadratic", "energy")
-    true = ("-model", "energy", "-load_steps", "12", "-contact_updates", "3")
+    true = ("-model", "energy", "-load_steps", "12" if size == "full" else "6", "-contact_updates", "3")
     panels = turn(size, ("beam_sphere_neo_hookean",), models, careful=true, work=4)
     yield Study("model", "Load step at finite strain: quadratic model against true energy", "model", panels)
 
@@ -144,7 +144,7 @@ def preconditioner_studies(size):
     ]
     yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs)
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), work=1.5))
-    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", "2", "4", "-1"), work=1.5))
+    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5))
 
 
 def rank_study(size):
@@ -185,7 +185,7 @@ def ways(problem, level, limits, work=1.0):
 def baseline_study(size):
     """Where a limit ends the published configuration, the load steps it has done are compared"""
     every, filtered = tuple(BASELINES), ("defaults", "published configuration")
-    meshes = {"tiny": [("two_block", "1", dict.fromkeys(every, 10))], "quick": [("two_block", "1", dict.fromkeys(every, 30)), ("beam_sphere_linear", "0", dict.fromkeys(every, 30))]}
+    meshes = {"tiny": [("two_block", "1", dict.fromkeys(every, 10))], "quick": [("two_block", "1", dict.fromkeys(every, 15)), ("beam_sphere_linear", "0", dict.fromkeys(every, 15) | {"published configuration": 40})]}
     meshes["full"] = [
         ("two_block", "2", dict.fromkeys(every, 120)),
         ("two_block", "4", dict.fromkeys(every[:3], 1500)),
@@ -203,7 +203,7 @@ def baseline_study(size):
 
 def growth_study(size):
     """Two-block from 2,000 to 700,000 unknowns; name: the largest mesh and its limit"""
-    reach = {"tiny": {"defaults": (1, 10)}, "quick": {"defaults": (4, 90), "published configuration": (2, 90), "MUMPS Cholesky": (3, 90), "AMG-PCG": (1, 30)}}
+    reach = {"tiny": {"defaults": (1, 10)}, "quick": {"defaults": (3, 90), "published configuration": (1, 90), "MUMPS Cholesky": (2, 90), "AMG-PCG": (1, 15)}}
     reach["full"] = {"defaults": (8, 1200), "published configuration": (4, 1500), "MUMPS Cholesky": (6, 1200), "AMG-PCG": (2, 120), "GAMG-PCG": (2, 120)}
     series = []
     for name, (largest, limit) in reach[size].items():
@@ -216,7 +216,7 @@ def growth_study(size):
 def roofline_study(size):
     levels = {"tiny": ("1",), "quick": ("2", "3"), "full": ("2", "4", "8")}[size]
     cycles = ("fbf", "bfb", "additive")
-    lines = [Series(cycle, [(level, Case("two_block", level, (IP + "pc_amgf_cycle", cycle), log=True)) for level in (levels if cycle == "fbf" else levels[:2])]) for cycle in cycles]
+    lines = [Series(cycle, [(level, Case("two_block", level, (IP + "pc_amgf_cycle", cycle), log=True)) for level in (levels if cycle == "fbf" else levels[: 2 if size == "full" else 1])]) for cycle in cycles]
     yield Study("roofline", "Share of the memory bandwidth", "mesh", [Panel("two_block", "", lines)], kind="roofline")
 
 
