@@ -188,7 +188,6 @@ typedef struct {
   { "-tao_ipfilter_" name, text, offsetof(TAO_IPFILTER, member), value }
 
 static const RealOption real_options[] = {
-  IP_REAL("tol", tol, 1e-8, "KKT error at which the solver has converged"),
   IP_REAL("acceptable_tol", acceptable_tol, 1e-6, "KKT error accepted when no further progress is made"),
   IP_REAL("mu_init", mu0, 1.0, "cold start: barrier parameter"),
   IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
@@ -214,7 +213,7 @@ static const RealOption real_options[] = {
   IP_REAL("obj_max_inc", obj_max_inc, 1e5, "largest rise of the barrier function accepted for less violation, against its size"),
   IP_REAL("kappa_soc", kappa_soc, 0.99, "reduction a second-order correction must give to be continued"),
   IP_REAL("forcing_max", forcing_max, 0.1, "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
-  IP_REAL("forcing_reduce", forcing_reduce, 0.5, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
+  IP_REAL("forcing_reduce", forcing_reduce, 0.7, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
   IP_REAL("forcing_last", forcing_last, 0.5, "adaptive forcing: as a fraction of the tolerance, in the step that would finish"),
   IP_REAL("kappa_curvature", kappa_curvature, 1e-11, "curvature d^T W d that a direction must have, as a fraction of d^T d"),
   IP_REAL("delta_first", delta_first, 1e-4, "first regularization"),
@@ -243,6 +242,7 @@ static PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscO
 
     PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
   }
+  PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged: -tao_gatol by another name", TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "starting slacks and multipliers", TAOIPFILTER, IPStarts, (PetscEnum)ip->start, (PetscEnum *)&ip->start, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "update of the barrier parameter", TAOIPFILTER, IPBarriers, (PetscEnum)ip->barrier, (PetscEnum *)&ip->barrier, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures, (PetscEnum)ip->measure, (PetscEnum *)&ip->measure, NULL));
@@ -271,7 +271,7 @@ static PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->start], IPBarriers[ip->barrier], IPForcings[ip->forcing], IPKKTMeasures[ip->measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)ip->tol, (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->nsystems, ip->nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
   PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->nrestored));
@@ -303,7 +303,8 @@ static PetscErrorCode CreateKSP(Tao tao)
   min f(x) subject to c_I(x) >= 0 and x_l <= x <= x_u
 
   Options Database Keys:
-+ -tao_ipfilter_tol <1e-8>                             - KKT error at which the solver has converged
++ -tao_gatol <1e-8>                                    - KKT error at which the solver has converged, as `TaoSetTolerances()` sets it
+. -tao_ipfilter_tol <1e-8>                             - the same
 . -tao_ipfilter_start <warm> (cold,predict,warm)       - slacks and multipliers to start from: constants, predicted, or
                                                          those of TaoIPFilterSetWarmStart() where given, else predicted
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra) - update of the barrier parameter
@@ -375,6 +376,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   ip->max_soc       = 4;
   ip->acceptable_it = 15;
   PetscObjectParameterSetDefault(tao, max_it, 500);
+  PetscObjectParameterSetDefault(tao, gatol, 1e-8);
   PetscCall(CreateKSP(tao));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
   PetscFunctionReturn(0);

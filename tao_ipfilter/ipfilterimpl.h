@@ -214,7 +214,7 @@ typedef struct {
   char      reason[256];
 
   /* options */
-  PetscReal    tol, acceptable_tol;
+  PetscReal    acceptable_tol;
   PetscInt     acceptable_it;
   IPStart      start;
   IPBarrier    barrier;

@@ -65,16 +65,16 @@ static PetscErrorCode WouldFinish(Tao tao, PetscBool *finish)
     PetscCall(IPPairStepProducts(p, 1.0, 1.0, &product, NULL));
     largest = PetscMax(largest, product);
   }
-  *finish = (PetscBool)(alpha == 1.0 && largest <= ip->tol * ip->scale.product);
+  *finish = (PetscBool)(alpha == 1.0 && largest <= tao->gatol * ip->scale.product);
   PetscFunctionReturn(0);
 }
 
-/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was */
-static PetscReal ForcingTarget(const TAO_IPFILTER *ip)
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last */
+static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last)
 {
   const PetscReal loose = PetscMin(ip->forcing_max * ip->scale.dual, ip->forcing_reduce * ip->kkt.dual_norm);
 
-  return PetscMax(loose, ip->forcing_last * ip->tol * ip->scale.dual);
+  return PetscMax(loose, last);
 }
 
 /* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
@@ -83,13 +83,13 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip)
 static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal last   = ip->forcing_last * ip->tol * ip->scale.dual;
+  const PetscReal last   = ip->forcing_last * tao->gatol * ip->scale.dual;
   PetscBool       finish = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPCondenseRHS(tao, rc, ip->rhs));
   if (ip->me) PetscCall(IPAugmentedSolve(tao, ip->rhs, ce, ip->dx, matrix, usable));
-  else PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ForcingTarget(ip), usable));
+  else PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, ForcingTarget(ip, last), usable));
   if (!*usable) PetscFunctionReturn(0);
   PetscCall(IPBackSubstitute(tao, rc));
   if (ip->me || ip->forcing == IP_FORCING_FIXED || ip->linear_residual <= last) PetscFunctionReturn(0);

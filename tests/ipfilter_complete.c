@@ -145,14 +145,7 @@ static PetscErrorCode Once(const char name[], Corner *c, PetscBool constrained, 
     PetscCall(TaoSetVariableBounds(tao, bound[0], bound[1]));
     for (PetscInt k = 0; k < 2; k++) PetscCall(VecDestroy(&bound[k]));
   }
-  if (tol > 0.0) {
-    char text[64];
-
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%g", (double)tol));
-    PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_tol", text));
-    PetscCall(TaoSetFromOptions(tao));
-    PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_tol"));
-  }
+  if (tol > 0.0) PetscCall(TaoSetTolerances(tao, tol, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSolve(tao));
   PetscCall(Report(tao, name));
   PetscCall(Destroy(c, &x, &tao));

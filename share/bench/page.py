@@ -91,6 +91,36 @@ def knob_table(study, rows):
     return table(columns, runs)
 
 
+def mean_ratio(runs, ours, key):
+    """Geometric mean over the problems of both; NaN without any"""
+    logs = [math.log(row[key] / ours[row["problem"]][key]) for row in runs if row["problem"] in ours and row.get(key) and ours[row["problem"]].get(key)]
+    return math.exp(sum(logs) / len(logs)) if logs else math.nan
+
+
+def default_rows(studies, rows):
+    """What every other value of a knob costs, in units of what is built in"""
+    entries = []
+    for study in (s for s in studies if s.default):
+        runs = select(rows, study=study.name)
+        ours = {row["problem"]: row for row in converged(runs) if row["value"] == study.default}
+        for value in dict.fromkeys(row["value"] for row in runs if row["value"] != study.default):
+            same = [row for row in runs if row["value"] == value]
+            good = converged(same)
+            entries.append({"study": study.title, "default": study.default, "value": value, "time": mean_ratio(good, ours, "seconds"), "applications": mean_ratio(good, ours, "applications"), "converged": f"{len(good)} of {len(same)}"})
+    return entries
+
+
+def default_section(studies, rows):
+    entries = default_rows(studies, rows)
+    if not entries:
+        return ""
+    better = [e for e in entries if e["time"] < 0.95]
+    text = "Where every value of a knob leads to the same answer, the one that is built in should be the quickest over the problems. "
+    text += "It is, to within 5 % of the time." if not better else "It is not everywhere: " + ", ".join(f"{e['value']} takes {e['time']:.2f} of the time of {e['default']} ({e['study']})" for e in better) + "."
+    columns = [("knob", field("study")), ("built in", field("default")), ("against it", field("value")), ("time, geometric mean", field("time")), ("AMG applications", field("applications")), ("problems converged", field("converged"))]
+    return "## The defaults\n\n" + text + "\n\n" + table(columns, entries)
+
+
 def best_at(rows, target, problem):
     """The quickest run of the sweeps that is at least as accurate"""
     return min((row["seconds"] for row in converged(select(rows, problem=problem, ranks=1)) if row["study"] != "accuracy" and (lead_error(row)[0] or math.inf) <= NEAR * target), default=math.nan)
@@ -221,6 +251,7 @@ def write(path, studies, results, drawn, skipped):
     if "pareto" in drawn:
         parts.append("## All together\n\n![front](pareto.png)\n")
     parts += [text for study in studies if (text := section(study, results, drawn))]
+    parts += [text] if (text := default_section(studies, results["rows"])) else []
     parts.append("## References\n\n" + reference_table(results["references"]))
     parts += ["## Not run\n\n" + "".join(f"- {line}\n" for line in skipped)] if skipped else []
     with open(path, "w") as file:

@@ -38,6 +38,7 @@ class Study:
     costs: tuple = ("time", "applications")
     needs: str = ""  # an option without which the study makes no sense
     kind: str = "knob"
+    default: str = ""  # the value of the knob that contact has built in; only where every value leads to the same answer
 
     def cases(self):
         for panel in self.panels:
@@ -109,7 +110,9 @@ def algebraic_studies(size):
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
     yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, three, values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
-    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, three, forcing, careful=tight, work=1.5))
+    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, three, forcing, careful=tight, work=1.5), default="adaptive")
+    reduce = values(IP + "forcing_reduce", "0.5", "0.7", "1", "2")
+    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, (*three, "beam_sphere_neo_hookean"), reduce, work=1.5), default="0.7")
 
 
 def path_studies(size):
@@ -142,9 +145,9 @@ def preconditioner_studies(size):
         ("GAMG", (AMG + "pc_type", "gamg", *AIJ)),
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
-    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs)
-    yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), work=1.5))
-    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5))
+    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs, default="tuned l1-GS")
+    yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), work=1.5), default="fbf")
+    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5), default="auto")
 
 
 def rank_study(size):
