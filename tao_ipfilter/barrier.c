@@ -39,7 +39,7 @@ static PetscErrorCode Monotone(Tao tao)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < most; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
-    const PetscReal next = PetscMax(tao->gatol / 10.0, PetscMin(ip->kappa_mu * mu, PetscPowReal(mu, ip->theta_mu)));
+    const PetscReal next = PetscMax(ip->tol / 10.0, PetscMin(ip->kappa_mu * mu, PetscPowReal(mu, ip->theta_mu)));
 
     if (!Solved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -71,7 +71,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
   ip->corrector_max = 100.0 * before;
-  ip->mu            = PetscMax(sigma * before, tao->gatol / 10.0 * ip->scale.product);
+  ip->mu            = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
@@ -97,7 +97,7 @@ static PetscErrorCode Hold(Tao tao)
   PetscFunctionBegin;
   ip->free_mu = PETSC_FALSE;
   PetscCall(IPBarrierAverage(tao, &ip->mu));
-  ip->mu = PetscMax(0.8 * ip->mu, tao->gatol / 10.0 * ip->scale.product);
+  ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);

@@ -174,7 +174,7 @@ static PetscErrorCode Conclude(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPCancellation(tao, &times));
-  if (times <= most) PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)ip->kkt.error, (double)tao->gatol));
+  if (times <= most) PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)ip->kkt.error, (double)ip->tol));
   else PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but by multipliers %g times larger than what they balance: bounded ones may not exist", (double)ip->kkt.error, (double)times));
   PetscFunctionReturn(0);
 }
@@ -192,17 +192,17 @@ static PetscErrorCode TestConvergence(Tao tao)
   ip->nacceptable = k->error <= ip->acceptable_tol ? ip->nacceptable + 1 : 0;
   if (IPUndefined(k->error) || IPUndefined(ip->f)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
-  } else if (k->error <= tao->gatol) {
+  } else if (k->error <= ip->tol) {
     PetscCall(Conclude(tao));
-  } else if (ip->f <= tao->fmin && k->primal <= tao->gatol) {
+  } else if (ip->f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->f, (double)tao->fmin));
   } else if (Unbounded(ip)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->f0, (double)ip->f));
     ip->best_error = PETSC_INFINITY; /* the last point shows it, no other does */
   } else if (ip->nacceptable >= ip->acceptable_it) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)tao->gatol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->acceptable_tol, (double)ip->tol));
   } else if (ip->ntiny >= most_tiny) {
-    if (k->error <= ip->acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)tao->gatol));
+    if (k->error <= ip->acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)ip->tol));
     else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)k->error));
   } else if (tao->niter >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
@@ -245,12 +245,12 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
   const PetscInt  hold = 10;
-  const PetscBool violated = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * tao->gatol, 1e-6));
+  const PetscBool violated = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (ip->kkt.error <= ip->acceptable_tol) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)tao->gatol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
     PetscFunctionReturn(0);
   }
   if (!solved && ip->linear_failed) {
@@ -304,6 +304,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPSetUpSizes(tao));
+  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
   PetscCall(ResetRecord(tao));
   PetscCall(FirstPoint(tao, &finite));
   if (!finite) {

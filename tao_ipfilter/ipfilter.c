@@ -303,7 +303,7 @@ static PetscErrorCode CreateKSP(Tao tao)
   min f(x) subject to c_I(x) >= 0 and x_l <= x <= x_u
 
   Options Database Keys:
-+ -tao_gatol <1e-8>                                    - KKT error at which the solver has converged, as `TaoSetTolerances()` sets it
++ -tao_gatol <1e-8>                                    - KKT error at which the solver has converged, as `TaoSetTolerances()` sets it; 0: machine precision
 . -tao_ipfilter_tol <1e-8>                             - the same
 . -tao_ipfilter_start <warm> (cold,predict,warm)       - slacks and multipliers to start from: constants, predicted, or
                                                          those of TaoIPFilterSetWarmStart() where given, else predicted

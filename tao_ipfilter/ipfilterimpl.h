@@ -214,6 +214,7 @@ typedef struct {
   char      reason[256];
 
   /* options */
+  PetscReal    tol; /* of this solve: tao->gatol */
   PetscReal    acceptable_tol;
   PetscInt     acceptable_it;
   IPStart      start;

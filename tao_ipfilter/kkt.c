@@ -133,7 +133,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   PetscCall(RoundingFloor(tao, &floor));
   s->dual = PetscMax(norm, (limited ? IP_SMALL : 1.0) * ip->gradient0);
-  s->dual = PetscMax(s->dual, Within(floor / tao->gatol, PetscMax(ip->gradient0, ip->floor0 / tao->gatol)));
+  s->dual = PetscMax(s->dual, Within(floor / ip->tol, PetscMax(ip->gradient0, ip->floor0 / ip->tol)));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   xsize = PetscMax(Within(xsize, IP_MOST * ip->xsize0), ip->xsize0);
   if (ip->mi) PetscCall(InequalityScale(tao, xsize));

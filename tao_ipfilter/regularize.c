@@ -65,7 +65,7 @@ static PetscErrorCode WouldFinish(Tao tao, PetscBool *finish)
     PetscCall(IPPairStepProducts(p, 1.0, 1.0, &product, NULL));
     largest = PetscMax(largest, product);
   }
-  *finish = (PetscBool)(alpha == 1.0 && largest <= tao->gatol * ip->scale.product);
+  *finish = (PetscBool)(alpha == 1.0 && largest <= ip->tol * ip->scale.product);
   PetscFunctionReturn(0);
 }
 
@@ -83,7 +83,7 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last)
 static PetscErrorCode SolveDirection(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal last   = ip->forcing_last * tao->gatol * ip->scale.dual;
+  const PetscReal last   = ip->forcing_last * ip->tol * ip->scale.dual;
   PetscBool       finish = PETSC_FALSE;
 
   PetscFunctionBegin;

@@ -35,7 +35,7 @@ PetscErrorCode IPRelax(Tao tao)
   ip->nvanished = ip->least_slack > IP_LEAST_SLACK * ip->scale.length ? 0 : ip->nvanished + 1;
   if (ip->nvanished < most) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->c, NORM_INFINITY, &size));
-  ip->relaxed = tao->gatol * PetscMax(size, ip->length0);
+  ip->relaxed = ip->tol * PetscMax(size, ip->length0);
   PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->least_slack, (double)ip->relaxed));
   PetscCall(Recenter(tao, ip->relaxed));
   PetscCall(IPFilterSetReset(&ip->filter));
