@@ -92,7 +92,7 @@ help:
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
-	@echo 'make sanitize        quick tests with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
+	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
 	@echo 'make clean           removes build, bin and lib'
 	@echo

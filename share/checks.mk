@@ -1,17 +1,25 @@
-# Checks beyond `make check`: sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its own, a tree of links to
+# Checks beyond `make check`: PETSc with debugging, sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its own, a tree of links to
 # the sources, so that nothing of the ordinary build changes.
 
 SUPPRESSIONS   := $(CURDIR)/tests/suppressions
 # After an error PETSc leaves its objects as they are: those tests are not asked for leaks
 SANITIZE_TESTS  ?= scene_view* material_* output_* elasticity_derivatives* contact_clip* contact_patch contact_deep* ipfilter_reasons* ipfilter_fallbacks* ipfilter_bounds*
 SANITIZE_ERRORS ?= fuzz_corpus* mesh_gmsh* mesh_errors* scene_errors* ipfilter_complete*
+DEBUG_TESTS     ?= $(SANITIZE_TESTS) $(SANITIZE_ERRORS) amgf_* ipfilter_* mesh_* contact_gap* elasticity_mixed* elasticity_loads* step_models load_steps penalty gmsh_blocks
 SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
 TIDY_FILES     ?= $(wildcard src/*/*.c apps/*.c pc_amgf/*.c tao_ipfilter/*.c)
 linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
-.PHONY: sanitize memcheck tidy fuzz nlp
+# Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
+DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
+
+.PHONY: debug sanitize memcheck tidy fuzz nlp
+
+debug:
+	@$(call linked_tree,build/debug)
+	@env -u PKG_CONFIG_PATH $(MAKE) --no-print-directory -C build/debug check TIMEOUT=600 $(DEBUG_PETSC) CFLAGS='-g -O1' TESTS='$(DEBUG_TESTS)'
 
 sanitize:
 	@$(call linked_tree,build/sanitize)

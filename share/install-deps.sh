@@ -3,7 +3,7 @@
 # Silent and quick where nothing is.
 set -u
 
-# PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for
+# PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for, and petsc4py is not
 if [ -n "${PETSC_DIR:-}" ]; then
   PKG_CONFIG_PATH=$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:${PKG_CONFIG_PATH:-}
   export PKG_CONFIG_PATH
@@ -41,7 +41,9 @@ missing() {
     echo "#include <$header>" | "${CC:-mpicc}" $cflags -E - >/dev/null 2>&1 || echo "$header"
   done
   have_fast_blas || echo "an optimized BLAS, for example OpenBLAS"
-  for module in numpy matplotlib h5py yaml petsc4py; do
+  petsc4py=petsc4py
+  [ -z "${PETSC_DIR:-}" ] || petsc4py=
+  for module in numpy matplotlib h5py yaml $petsc4py; do
     $python -c "import importlib.util as u, sys; sys.exit(u.find_spec('$module') is None)" 2>/dev/null || echo "Python 3 with $module"
   done
 }

@@ -64,13 +64,16 @@ static PetscErrorCode WriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices */
 static PetscErrorCode WriteIndices(Output output, const char name[], PetscInt components, PetscInt *indices, PetscViewer viewer)
 {
-  IS is;
+  IS          is;
+  PetscLayout layout;
 
   PetscFunctionBegin;
   PetscCall(ISCreateGeneral(output->comm, output->ncellslocal * components, indices, PETSC_OWN_POINTER, &is));
-  PetscCall(ISSetBlockSize(is, components));
+  PetscCall(ISGetLayout(is, &layout));
+  PetscCall(PetscLayoutSetBlockSize(layout, components));
   PetscCall(PetscObjectSetName((PetscObject)is, name));
   PetscCall(ISView(is, viewer));
   PetscCall(ISDestroy(&is));
