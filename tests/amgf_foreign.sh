@@ -17,7 +17,7 @@ for tutorial in ex10 ex56; do
     source=$folder/src/ksp/ksp/tutorials/$tutorial.c
     if [ -f "$source" ]; then break; fi
   done
-  mpicc $(pkg-config --cflags PETSc) "$source" -o $tutorial $(pkg-config --libs PETSc) -lm
+  mpicc $(pkg-config --cflags PETSc) "$source" -o $tutorial $(pkg-config --libs PETSc) -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm
 done
 
 # iterations RANKS PROGRAM ARGUMENTS...: of the last solve; "none" if it did not converge

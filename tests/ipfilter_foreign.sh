@@ -9,7 +9,7 @@ for folder in "$prefix/share/petsc/examples" "$prefix" "${PETSC_DIR:-/nonexisten
   [ -f "$tutorials/ex1.c" ] && break
 done
 for tutorial in ex1 maros; do
-  mpicc $(pkg-config --cflags PETSc) "$tutorials/$tutorial.c" -o $tutorial $(pkg-config --libs PETSc) -lm || exit 1
+  mpicc $(pkg-config --cflags PETSc) "$tutorials/$tutorial.c" -o $tutorial $(pkg-config --libs PETSc) -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm || exit 1
 done
 
 # objective NAME RANKS PROGRAM...: the line of the run, and its objective in $value; almm views its inner solver first
