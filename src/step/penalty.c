@@ -128,7 +128,7 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
   }
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
-  if (stop && !*reason) *reason = SNES_DIVERGED_FNORM_NAN;
+  if (stop && !*reason) *reason = SNES_DIVERGED_FNORM_NAN; /* SNES has no reason for it; InterruptReport() says what it was */
   PetscFunctionReturn(0);
 }
 
