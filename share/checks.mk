@@ -1,5 +1,5 @@
-# Checks beyond `make check`: PETSc with debugging, sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its own, a tree of links to
-# the sources, so that nothing of the ordinary build changes.
+# Checks beyond `make check`: PETSc with debugging, sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its
+# own, a tree of links to the sources, so that nothing of the ordinary build changes.
 
 SUPPRESSIONS   := $(CURDIR)/tests/suppressions
 # After an error PETSc leaves its objects as they are: those tests are not asked for leaks
