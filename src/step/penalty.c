@@ -117,15 +117,12 @@ static PetscErrorCode PenaltyHessian(SNES snes, Vec u, Mat A, Mat Apre, void *ct
 static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, PetscReal gnorm, PetscReal fnorm, SNESConvergedReason *reason, void *ctx)
 {
   Penalty  *penalty = (Penalty *)ctx;
-  PetscInt  total;
+  KSP       ksp;
   PetscBool stop;
 
   PetscFunctionBegin;
-  PetscCall(SNESGetLinearSolveIterations(snes, &total));
-  if (it > 0 && it <= PENALTY_MAX_NEWTON) {
-    for (PetscInt k = 0; k < penalty->niterations; ++k) total -= penalty->iterations[k];
-    penalty->iterations[penalty->niterations++] = total;
-  }
+  PetscCall(SNESGetKSP(snes, &ksp));
+  if (it > 0 && it <= PENALTY_MAX_NEWTON) PetscCall(KSPGetIterationNumber(ksp, &penalty->iterations[penalty->niterations++]));
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
   if (stop && !*reason) *reason = SNES_DIVERGED_FNORM_NAN; /* SNES has no reason for it; InterruptReport() says what it was */
