@@ -37,7 +37,8 @@ static PetscErrorCode DuplicateInto(Vec layout, size_t n, Vec *const v[])
 }
 
 /* Vectors of the unknowns, of the inequality and of the equality constraints */
-#define IP_PRIMAL_VECS(ip)     {&(ip)->rx, &(ip)->dx, &(ip)->dxfirst, &(ip)->xtrial, &(ip)->xbest, &(ip)->xwork, &(ip)->xwork2, &(ip)->rhs, &(ip)->hdiag, &(ip)->residual, &(ip)->correction}
+#define IP_PRIMAL_VECS(ip)     {&(ip)->rx, &(ip)->dx, &(ip)->xtrial, &(ip)->xbest, &(ip)->xwork, &(ip)->xwork2, &(ip)->rhs, &(ip)->hdiag, &(ip)->residual}
+#define IP_SELDOM_VECS(ip)     {&(ip)->dxfirst, &(ip)->correction} /* of the unknowns, made where a run comes to need them */
 #define IP_INEQUALITY_VECS(ip) {&(ip)->c, &(ip)->lambda, &(ip)->rc, &(ip)->rcsoc, &(ip)->dlambda, &(ip)->ctrial, &(ip)->cwork, &(ip)->cwork2, &(ip)->stiffness, &(ip)->sbest, &(ip)->zbest, &(ip)->lambdabest}
 #define IP_EQUALITY_VECS(ip)   {&(ip)->ce, &(ip)->y, &(ip)->dy, &(ip)->dyfirst, &(ip)->cetrial, &(ip)->cesoc, &(ip)->ybest}
 
@@ -87,15 +88,24 @@ static PetscErrorCode SetUpEqualities(Tao tao)
 static PetscErrorCode TaoSetUp_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  Vec          *v[] = IP_PRIMAL_VECS(ip);
+  Vec          *v[] = IP_PRIMAL_VECS(ip), *seldom[] = IP_SELDOM_VECS(ip);
 
   PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(seldom); k++) PetscCall(VecDestroy(seldom[k]));
   if (!tao->gradient) PetscCall(VecDuplicate(tao->solution, &tao->gradient));
   PetscCall(DuplicateInto(tao->solution, PETSC_STATIC_ARRAY_LENGTH(v), v));
   ip->mi = ip->me = 0;
   if (tao->ineq_constrained) PetscCall(SetUpInequalities(tao));
   if (tao->eq_constrained) PetscCall(SetUpEqualities(tao));
   if (!tao->hessian) PetscCall(IPHessianCreateFD(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Makes *v, one of IP_SELDOM_VECS() */
+PetscErrorCode IPNeedVec(Tao tao, Vec *v)
+{
+  PetscFunctionBegin;
+  if (!*v) PetscCall(VecDuplicate(((TAO_IPFILTER *)tao->data)->dx, v));
   PetscFunctionReturn(0);
 }
 
@@ -146,11 +156,12 @@ PetscErrorCode IPSetUpSizes(Tao tao)
 static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip      = (TAO_IPFILTER *)tao->data;
-  Vec          *vx[]    = IP_PRIMAL_VECS(ip), *vi[] = IP_INEQUALITY_VECS(ip), *ve[] = IP_EQUALITY_VECS(ip);
+  Vec          *vx[]    = IP_PRIMAL_VECS(ip), *vi[] = IP_INEQUALITY_VECS(ip), *ve[] = IP_EQUALITY_VECS(ip), *vs[] = IP_SELDOM_VECS(ip);
   Vec          *given[] = {&ip->slack_mass, &ip->primal_mass, &ip->warm_s, &ip->warm_z};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vx); k++) PetscCall(VecDestroy(vx[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vs); k++) PetscCall(VecDestroy(vs[k]));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vi); k++) PetscCall(VecDestroy(vi[k]));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(ve); k++) PetscCall(VecDestroy(ve[k]));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(given); k++) PetscCall(VecDestroy(given[k]));

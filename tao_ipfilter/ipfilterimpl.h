@@ -368,6 +368,7 @@ PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], .
 
 /* ipfilter.c */
 PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
+PETSC_INTERN PetscErrorCode IPNeedVec(Tao, Vec *);
 
 /* driver.c */
 PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);

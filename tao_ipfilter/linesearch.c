@@ -272,6 +272,7 @@ static PetscErrorCode SecondOrderCorrection(Tao tao, PetscReal alpha, PetscReal 
   PetscFunctionBegin;
   *ok = PETSC_FALSE;
   if (theta < ip->theta || !ip->max_soc) PetscFunctionReturn(0);
+  PetscCall(IPNeedVec(tao, &ip->dxfirst));
   PetscCall(VecCopy(ip->dx, ip->dxfirst));
   if (ip->mi) PetscCall(VecCopy(ip->rc, ip->rcsoc));
   if (ip->me) PetscCall(VecCopy(ip->ce, ip->cesoc));

@@ -90,6 +90,7 @@ PetscErrorCode IPLinearRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscError
     const PetscReal before = ip->linear_residual;
 
     if (!Refinable(ip, reason) || ip->backward_error <= (exact ? IP_EXACT : IP_ROUNDING) || (!exact && !Missed(ip, reason))) break;
+    PetscCall(IPNeedVec(tao, &ip->correction));
     PetscCall((*solve)(tao, ip->residual, ip->correction));
     PetscCall(VecAXPY(d, 1.0, ip->correction));
     PetscCall(IPMeasureResidual(tao, b, d));

@@ -53,18 +53,21 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
 
 /*
    Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them by more.
-   Looks again from there, as far as they moved; if u goes through any of those rows, they become sim->linearization.
+   Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its own (as deep as a
+   penalty lets it), they become sim->linearization.
 */
-static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, PetscReal *reach, PetscBool *missed)
+static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
 {
   ContactLinearization wide = NULL;
-  PetscReal            moved, least = 0.0;
+  PetscReal            moved, least = 0.0, let = 0.0;
   PetscInt             nrows;
   Vec                  du, gap;
 
   PetscFunctionBegin;
   *missed = PETSC_FALSE;
   PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
+  PetscCall(VecGetSize(own, &nrows));
+  if (nrows) PetscCall(VecMin(own, NULL, &let));
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
@@ -75,7 +78,7 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
     PetscCall(VecGetSize(gap, &nrows));
     if (nrows) PetscCall(VecMin(gap, NULL, &least));
     PetscCall(VecDestroy(&gap));
-    *missed = (PetscBool)(least < -PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
+    *missed = (PetscBool)(least < PetscMin(let, 0.0) - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
@@ -97,7 +100,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
-    if (report->converged) PetscCall(AttemptFindMissed(p->sim, u_linearized, u, &reach, &missed));
+    if (report->converged) PetscCall(AttemptFindMissed(p->sim, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
   PetscFunctionReturn(0);
 }
