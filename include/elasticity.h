@@ -21,6 +21,7 @@ PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
 PETSC_EXTERN PetscErrorCode ElasticitySetMatType(Elasticity, MatType);
 /* Preallocated, values zero; BAIJ unless another type was set, near null space attached, marked symmetric */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
+PETSC_EXTERN PetscErrorCode ElasticitySetNearNullSpace(Elasticity, Mat);
 /* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not, and
    the matrix is the one of the last call and unchanged since */
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);

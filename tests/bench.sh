@@ -4,6 +4,7 @@ bench() {
   "$PYTHON" -B "$AMGF_DIR/share/bench/run.py" --size tiny --folder bench --only "$@"
 }
 
+rm -rf bench
 bench forcing > first.log || echo "exit code $?"
 grep -c 'converged, ' first.log
 for file in README.md bench.csv bench.json forcing.png forcing.svg; do

@@ -16,7 +16,9 @@ import references  # noqa: E402
 import roofline  # noqa: E402
 from plots import front  # noqa: E402
 from problems import PROBLEMS  # noqa: E402
-from runner import last_words  # noqa: E402
+from runner import execute, last_words, read_summary  # noqa: E402
+from store import CONTACT  # noqa: E402
+from studies import BUILT_IN  # noqa: E402
 
 
 def check_extrapolation():
@@ -74,9 +76,21 @@ def check_table(folder):
     say("table: the contact force of Hertz, to 5 %", all(float(row["error contact force"]) < 0.05 for row in rows if row["problem"] == "hertz_sphere"), rows)
 
 
+def check_built_in():
+    """What the studies leave to the program is what they call it"""
+    scene = os.path.join(os.path.dirname(CONTACT), "..", "share", "scenes", "two_block.yaml")
+    seen = []
+    for name, options in (("silent", []), ("told", [word for option in BUILT_IN.items() for word in option])):
+        execute([CONTACT, scene, "-refine", "0", "-quiet", "-summary", name + ".json", *options], 60)
+        summary = read_summary(name)
+        seen.append([(step["energy"], step["ip_iterations"], step["amg_applications"]) for step in summary["steps"]])
+    say("what the bench calls built in is", seen[0] == seen[1], seen)
+
+
 check_extrapolation()
 check_growth()
 check_front()
 check_roofline()
 check_scenes()
+check_built_in()
 check_table(sys.argv[1])

@@ -215,6 +215,7 @@ static PetscErrorCode CheckPrescribed(Elasticity e, DM dm, Vec u, Vec d, Mat K)
   PetscCall(ProblemFixFace(dm, "slab.zmin", &rows));
   PetscCall(ElasticitySetPrescribed(e, rows));
   PetscCall(ElasticityCreateTangent(e, &Kp));
+  PetscCall(ElasticitySetNearNullSpace(e, Kp));
   PetscCall(ElasticityTangent(e, u, Kp));
   PetscCall(VecDuplicate(u, &free));
   PetscCall(VecDuplicate(u, &diagonal));
@@ -303,6 +304,7 @@ int main(int argc, char **argv)
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
   PetscCall(ElasticityCreate(dm, 2, materials, elements, &e));
   PetscCall(ElasticityCreateTangent(e, &K));
+  PetscCall(ElasticitySetNearNullSpace(e, K));
   PetscCall(ProblemInterpolate(dm, Smooth, &u));
   PetscCall(ProblemInterpolate(dm, Direction, &d));
 

@@ -195,6 +195,7 @@ static inline PetscErrorCode ProblemBodyCreate(DM dm, const Material *material, 
   PetscCall(ElasticityCreate(dm, 1, material, &element, &body->e));
   PetscCall(ElasticitySetPrescribed(body->e, rows));
   PetscCall(ElasticityCreateTangent(body->e, &body->K));
+  PetscCall(ElasticitySetNearNullSpace(body->e, body->K));
   PetscCall(DMCreateGlobalVector(dm, &body->u));
   PetscCall(VecDuplicate(body->u, &body->load));
   PetscCall(VecZeroEntries(body->u));

@@ -52,28 +52,6 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
   PetscFunctionReturn(0);
 }
 
-/* Rigid body modes of the reference geometry, zero on prescribed rows */
-static PetscErrorCode ElasticitySetNearNullSpace(Elasticity e, Mat A)
-{
-  Vec          local, coordinates;
-  MatNullSpace modes, restricted;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(e->dm, &local));
-  PetscCall(DMCreateGlobalVector(e->dm, &coordinates));
-  PetscCall(DMLocalToGlobal(e->dm, local, INSERT_VALUES, coordinates));
-  PetscCall(MatNullSpaceCreateRigidBody(coordinates, &modes));
-  PetscCall(VecDestroy(&coordinates));
-  if (e->prescribed) {
-    PetscCall(ElasticityRestrictModes(e, modes, &restricted));
-    PetscCall(MatNullSpaceDestroy(&modes));
-    modes = restricted;
-  }
-  PetscCall(MatSetNearNullSpace(A, modes));
-  PetscCall(MatNullSpaceDestroy(&modes));
-  PetscFunctionReturn(0);
-}
-
 /*@C
   ElasticitySetMatType - Sets the type of tangents to be created
 
@@ -114,9 +92,9 @@ PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
   Level: beginner
 
   Notes:
-  The matrix is marked symmetric, and carries the rigid body modes, zero on the rows prescribed when it is created, as its near null space.
+  The matrix is marked symmetric. It has no near null space before `ElasticitySetNearNullSpace()`.
 
-.seealso: `ElasticityTangent()`, `MatSetNearNullSpace()`
+.seealso: `ElasticityTangent()`, `ElasticitySetNearNullSpace()`
 @*/
 PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 {
@@ -138,7 +116,44 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* rows are zeroed when some bodies are assembled again */
   PetscCall(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-  PetscCall(ElasticitySetNearNullSpace(e, A));
   *tangent = A;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed aggregation and nodal AMG build on
+
+  Collective
+
+  Input Parameters:
++ e - the elasticity
+- A - tangent, or another matrix laid out like it
+
+  Level: beginner
+
+  Notes:
+  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as much memory as six solutions, and PCHYPRE copies
+  them whether or not it makes use of them.
+
+.seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
+@*/
+PetscErrorCode ElasticitySetNearNullSpace(Elasticity e, Mat A)
+{
+  Vec          local, coordinates;
+  MatNullSpace modes, restricted;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinatesLocal(e->dm, &local));
+  PetscCall(DMCreateGlobalVector(e->dm, &coordinates));
+  PetscCall(DMLocalToGlobal(e->dm, local, INSERT_VALUES, coordinates));
+  PetscCall(MatNullSpaceCreateRigidBody(coordinates, &modes));
+  PetscCall(VecDestroy(&coordinates));
+  if (e->prescribed) {
+    PetscCall(ElasticityRestrictModes(e, modes, &restricted));
+    PetscCall(MatNullSpaceDestroy(&modes));
+    modes = restricted;
+  }
+  PetscCall(MatSetNearNullSpace(A, modes));
+  PetscCall(MatNullSpaceDestroy(&modes));
   PetscFunctionReturn(0);
 }

@@ -18,6 +18,7 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
   PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format that the optimizer's matrix has */
+  PetscCall(StiffnessSetModes(sim, *ksp, K));
   PetscCall(KSPSetOperators(*ksp, K, K));
   PetscCall(MatDestroy(&K));
   PetscFunctionReturn(0);

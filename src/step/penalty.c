@@ -131,8 +131,6 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
 
 static PetscErrorCode PenaltyCreate(StepProblem *p, Penalty *penalty)
 {
-  MatNullSpace near;
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(penalty, sizeof(*penalty)));
   penalty->p = p;
@@ -145,8 +143,6 @@ static PetscErrorCode PenaltyCreate(StepProblem *p, Penalty *penalty)
   PetscCall(PenaltyProduct(penalty, p->base));
   PetscCall(MatDuplicate(penalty->K, MAT_COPY_VALUES, &penalty->A));
   PetscCall(MatAXPY(penalty->A, 1.0, penalty->JtDJ, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatGetNearNullSpace(penalty->K, &near));
-  PetscCall(MatSetNearNullSpace(penalty->A, near));
   PetscCall(MatSetOption(penalty->A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
@@ -190,6 +186,7 @@ static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(SNESSetFromOptions(*snes));
+  PetscCall(StiffnessSetModes(penalty->p->sim, ksp, penalty->A));
   PetscFunctionReturn(0);
 }
 

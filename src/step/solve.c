@@ -15,6 +15,7 @@ static PetscErrorCode SimulationGetKSP(Simulation sim, KSP *ksp)
     PetscCall(KSPGetPC(sim->ksp, &pc));
     PetscCall(PCSetType(pc, PCAMGF));
     PetscCall(KSPSetFromOptions(sim->ksp));
+    PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));
     PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
   }
   *ksp = sim->ksp;
@@ -69,6 +70,7 @@ PetscErrorCode SolveLinear(StepProblem *p, Vec u, StepReport *report)
 static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
 {
   Simulation sim = p->sim;
+  KSP        ksp;
   Vec        c;
 
   PetscFunctionBegin;
@@ -92,6 +94,8 @@ static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(TaoGetKSP(*tao, &ksp));
+  PetscCall(StiffnessSetModes(sim, ksp, p->K));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
   PetscFunctionReturn(0);
 }

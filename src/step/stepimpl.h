@@ -113,6 +113,7 @@ PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
+PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);

@@ -1,4 +1,4 @@
-/* The stiffness matrix of quadratic load steps: half of it is stored where that will do. */
+/* The stiffness matrix takes no more memory than its solver needs: half of it is stored, and without rigid body modes, where that will do. */
 #include "stepimpl.h"
 
 /* The optimizer copies a constant K into its own matrix, and only multiplies by K; call before the tangent is created */
@@ -15,18 +15,56 @@ PetscErrorCode StiffnessSetType(Simulation sim)
 /* sim->K itself, or where that has its upper triangle only, a copy of this type with whole rows */
 PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 {
-  MatNullSpace near;
-  PetscBool    half;
+  PetscBool half;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)sim->K, MATSEQSBAIJ, &half));
-  if (half) {
-    PetscCall(MatConvert(sim->K, type, MAT_INITIAL_MATRIX, K));
-    PetscCall(MatGetNearNullSpace(sim->K, &near));
-    PetscCall(MatSetNearNullSpace(*K, near));
-  } else {
+  if (half) PetscCall(MatConvert(sim->K, type, MAT_INITIAL_MATRIX, K));
+  else {
     PetscCall(PetscObjectReference((PetscObject)sim->K));
     *K = sim->K;
   }
+  PetscFunctionReturn(0);
+}
+
+/* BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node */
+static PetscErrorCode UsesModes(KSP ksp, PetscBool *uses)
+{
+  PC          pc;
+  const char *prefix;
+  char        type[64], amg[PETSC_MAX_OPTION_NAME];
+  PetscBool   filtered, hypre, nodal;
+
+  PetscFunctionBegin;
+  *uses = PETSC_TRUE;
+  if (!ksp) PetscFunctionReturn(0);
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &filtered));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCHYPRE, &hypre));
+  PetscCall(PetscSNPrintf(amg, sizeof(amg), "%s%s", prefix ? prefix : "", filtered ? "amgf_amg_" : ""));
+  if (filtered) {
+    PetscCall(PetscStrncpy(type, PetscDefined(HAVE_HYPRE) ? PCHYPRE : PCGAMG, sizeof(type)));
+    PetscCall(PetscOptionsGetString(NULL, amg, "-pc_type", type, sizeof(type), NULL));
+    PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
+  }
+  PetscCall(PetscOptionsHasName(NULL, amg, "-pc_hypre_boomeramg_nodal_coarsen", &nodal));
+  *uses = (PetscBool)(!hypre || nodal);
+  PetscFunctionReturn(0);
+}
+
+/* Rigid body modes for A, sim->K or a matrix made of it, where the solver (NULL: unknown), with its options set, may use them */
+PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
+{
+  MatNullSpace modes;
+  PetscBool    uses;
+
+  PetscFunctionBegin;
+  PetscCall(UsesModes(ksp, &uses));
+  if (!uses) PetscFunctionReturn(0);
+  PetscCall(MatGetNearNullSpace(sim->K, &modes));
+  if (!modes) PetscCall(ElasticitySetNearNullSpace(sim->elasticity, sim->K));
+  PetscCall(MatGetNearNullSpace(sim->K, &modes));
+  PetscCall(MatSetNearNullSpace(A, modes));
   PetscFunctionReturn(0);
 }
