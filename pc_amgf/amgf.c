@@ -242,7 +242,7 @@ static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
    set-up; `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B.
 
    The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a row, no aggressive level, one sweep of
-   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.5 for block size 3; else `PCGAMG`. The default filter solver is
+   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`. The default filter solver is
    `KSPPREONLY` with Cholesky by MUMPS, or by PETSc if MUMPS is missing. What the user sets wins.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.

@@ -77,7 +77,7 @@ static PetscErrorCode ConfigureBoomerAMG(PC pc, PC amg)
 
   PetscFunctionBegin;
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  if (bs == 3) defaults[4].value = "0.5";
+  if (bs == 3) defaults[4].value = "0.7";
   /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overruled */
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
   PetscCall(FullName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));

@@ -28,7 +28,7 @@ static PetscErrorCode ConfigureSubspaceSolve(PC pc, Mat A, Mat P)
 static PetscErrorCode CreateComposite(Mat A, Mat P, PCAMGFCycle cycle, PC *pc)
 {
   static const char boomeramg[] = "-oracle_sub_%d_pc_hypre_boomeramg_coarsen_type HMIS -oracle_sub_%d_pc_hypre_boomeramg_interp_type ext+i -oracle_sub_%d_pc_hypre_boomeramg_P_max 4 "
-                                  "-oracle_sub_%d_pc_hypre_boomeramg_strong_threshold 0.5 -oracle_sub_%d_pc_hypre_boomeramg_relax_type_down l1-Gauss-Seidel "
+                                  "-oracle_sub_%d_pc_hypre_boomeramg_strong_threshold 0.7 -oracle_sub_%d_pc_hypre_boomeramg_relax_type_down l1-Gauss-Seidel "
                                   "-oracle_sub_%d_pc_hypre_boomeramg_relax_type_up backward-l1-Gauss-Seidel";
   const int         b           = cycle == PC_AMGF_FBF ? 1 : 0;
   char              options[1024];
