@@ -89,6 +89,9 @@ def log_axes(axes, x, y):
     low, high = axes.get_ylim()
     if high < 10 * low:
         axes.set_ylim(low / 2, high * 2)
+    low, high = axes.get_xlim()
+    if high < 1.5 * low:  # a per cent is not to look like a decade
+        axes.set_xlim(low / 1.3, high * 1.3)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
         if high < 30 * low:  # too narrow for powers of ten alone
