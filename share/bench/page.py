@@ -254,7 +254,7 @@ def write(path, studies, results, drawn, skipped):
         parts.append("## All together\n\n![front](pareto.png)\n")
     parts += [text for study in studies if (text := section(study, results, drawn))]
     parts += [text] if (text := default_section(studies, results["rows"])) else []
-    parts.append("## References\n\n" + reference_table(results["references"]))
+    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench BENCH="--only references"` works them out anew.\n\n' + reference_table(results["references"]))
     parts += ["## Not run\n\n" + "".join(f"- {line}\n" for line in skipped)] if skipped else []
     with open(path, "w") as file:
         file.write("\n".join(parts))
