@@ -19,7 +19,7 @@ PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Materia
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
 /* Type of the tangent, unless -elasticity_mat_type is given */
 PETSC_EXTERN PetscErrorCode ElasticitySetMatType(Elasticity, MatType);
-/* Preallocated, values zero; BAIJ unless another type was set, near null space attached, marked symmetric */
+/* Preallocated, values zero; BAIJ unless another type was set, marked symmetric; without a near null space */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
 PETSC_EXTERN PetscErrorCode ElasticitySetNearNullSpace(Elasticity, Mat);
 /* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not, and

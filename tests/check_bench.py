@@ -15,7 +15,7 @@ import growth  # noqa: E402
 import references  # noqa: E402
 import roofline  # noqa: E402
 from plots import front  # noqa: E402
-from problems import PROBLEMS  # noqa: E402
+from problems import PROBLEMS, TOP  # noqa: E402
 from runner import execute, last_words, read_summary  # noqa: E402
 from store import CONTACT  # noqa: E402
 from studies import BUILT_IN  # noqa: E402
@@ -78,7 +78,7 @@ def check_table(folder):
 
 def check_built_in():
     """What the studies leave to the program is what they call it"""
-    scene = os.path.join(os.path.dirname(CONTACT), "..", "share", "scenes", "two_block.yaml")
+    scene = os.path.join(TOP, "share", "scenes", "two_block.yaml")
     seen = []
     for name, options in (("silent", []), ("told", [word for option in BUILT_IN.items() for word in option])):
         execute([CONTACT, scene, "-refine", "0", "-quiet", "-summary", name + ".json", *options], 60)

@@ -71,11 +71,12 @@ def boomeramg(prefix, threshold, down, up):
     return tuple(word for key, value in settings.items() for word in (f"{prefix}pc_hypre_boomeramg_{key}", value))
 
 
-TUNED = ("0.7", "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
+THRESHOLD = AMG + "pc_hypre_boomeramg_strong_threshold"
+# option: what contact has built in, so that one run serves all studies; tests/bench.sh holds this against the program
+BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
+TUNED = (BUILT_IN[THRESHOLD], "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
 PUBLISHED = ("0.5", "l1scaled-SOR/Jacobi", "l1scaled-SOR/Jacobi")
 LONG = (IP + "ksp_max_it", "20000")
-# option: what contact has built in, so that one run serves all studies; tests/bench.sh holds this against the program
-BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", AMG + "pc_hypre_boomeramg_strong_threshold": "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
 TOLERANCES = ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10")
 
 
@@ -148,9 +149,8 @@ def preconditioner_studies(size):
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
     yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs, default="tuned l1-GS")
-    threshold = AMG + "pc_hypre_boomeramg_strong_threshold"
-    thresholds = values(threshold, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9")
-    yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5), costs=all_costs, default=BUILT_IN[threshold])
+    thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9")
+    yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5), costs=all_costs, default=BUILT_IN[THRESHOLD])
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5), default=BUILT_IN[IP + "pc_amgf_cycle"])
     yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
 
