@@ -24,12 +24,19 @@ static PetscErrorCode EventsRegister(void)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode DestroyAll(size_t n, Vec *const v[])
+{
+  PetscFunctionBegin;
+  for (size_t k = 0; k < n; k++) PetscCall(VecDestroy(v[k]));
+  PetscFunctionReturn(0);
+}
+
 /* Duplicates layout into n vectors, afresh */
 static PetscErrorCode DuplicateInto(Vec layout, size_t n, Vec *const v[])
 {
   PetscFunctionBegin;
+  PetscCall(DestroyAll(n, v));
   for (size_t k = 0; k < n; k++) {
-    PetscCall(VecDestroy(v[k]));
     PetscCall(VecDuplicate(layout, v[k]));
     PetscCall(VecSet(*v[k], 0.0));
   }
@@ -91,7 +98,7 @@ static PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   Vec          *v[] = IP_PRIMAL_VECS(ip), *seldom[] = IP_SELDOM_VECS(ip);
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(seldom); k++) PetscCall(VecDestroy(seldom[k]));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(seldom), seldom));
   if (!tao->gradient) PetscCall(VecDuplicate(tao->solution, &tao->gradient));
   PetscCall(DuplicateInto(tao->solution, PETSC_STATIC_ARRAY_LENGTH(v), v));
   ip->mi = ip->me = 0;
@@ -160,11 +167,11 @@ static PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   Vec          *given[] = {&ip->slack_mass, &ip->primal_mass, &ip->warm_s, &ip->warm_z};
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vx); k++) PetscCall(VecDestroy(vx[k]));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vs); k++) PetscCall(VecDestroy(vs[k]));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vi); k++) PetscCall(VecDestroy(vi[k]));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(ve); k++) PetscCall(VecDestroy(ve[k]));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(given); k++) PetscCall(VecDestroy(given[k]));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(vx), vx));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(vs), vs));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(vi), vi));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(ve), ve));
+  PetscCall(DestroyAll(PETSC_STATIC_ARRAY_LENGTH(given), given));
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
   PetscCall(IPCondensedDestroy(&ip->cond));
   PetscCall(ISDestroy(&ip->fixed));

@@ -83,6 +83,7 @@ class Cantilever(Problem):
 
 
 class TwoBlock(Problem):
+    careful = ("-load_steps", "1", "-contact_updates", "20", "-tao_ipfilter_tol", "1e-9")
     careful_body = (("element", "bbar"),)  # converges the fastest
 
 

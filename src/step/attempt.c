@@ -51,6 +51,19 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
   PetscFunctionReturn(0);
 }
 
+/* Negative; 0 where nothing is penetrated, or nothing can be */
+static PetscErrorCode DeepestGap(Vec gap, PetscReal *deepest)
+{
+  PetscReal least = 0.0;
+  PetscInt  nrows;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(gap, &nrows));
+  if (nrows) PetscCall(VecMin(gap, NULL, &least));
+  *deepest = PetscMin(least, 0.0);
+  PetscFunctionReturn(0);
+}
+
 /*
    Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them by more.
    Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its own (as deep as a
@@ -59,15 +72,12 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
 static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
 {
   ContactLinearization wide = NULL;
-  PetscReal            moved, least = 0.0, let = 0.0;
-  PetscInt             nrows;
+  PetscReal            moved, least = 0.0, let;
   Vec                  du, gap;
 
   PetscFunctionBegin;
   *missed = PETSC_FALSE;
   PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
-  PetscCall(VecGetSize(own, &nrows));
-  if (nrows) PetscCall(VecMin(own, NULL, &let));
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
@@ -75,10 +85,10 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
-    PetscCall(VecGetSize(gap, &nrows));
-    if (nrows) PetscCall(VecMin(gap, NULL, &least));
+    PetscCall(DeepestGap(gap, &least));
+    PetscCall(DeepestGap(own, &let));
     PetscCall(VecDestroy(&gap));
-    *missed = (PetscBool)(least < PetscMin(let, 0.0) - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
+    *missed = (PetscBool)(least < let - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
