@@ -1,9 +1,11 @@
-# -accuracy TARGET: Hertz's cylinder from a coarse mesh, its force against the exact one, and a cantilever; what the estimates
+# -accuracy TARGET: Hertz's cylinder from a coarse mesh, its force against the exact one, his sphere, and a cantilever; what the estimates
 # are worth, and what cannot be reached is said. check_accuracy.py holds the summaries against the exact solution.
 contact=$AMGF_DIR/bin/contact
 
 sed -e 's/^ *patches: .*/      patches: [8, 19, 14]/' -e 's/^ *grading: .*/      grading: [1, 361.2, 0.004865]/' -e 's/^ *even: .*/      even: [1, 6, 2]/' \
     "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" > cylinder.yaml
+sed -e 's/^ *patches: .*/      patches: [11, 11, 1]/' -e 's/^ *grading: .*/      grading: [312.5, 312.5, 1]/' -e 's/^ *even: .*/      even: [5, 5, 1]/' \
+    -e 's/layers: .*/layers: 9/' -e 's/layer_grading: .*/layer_grading: 0.005304/' -e 's/layer_even: .*/layer_even: 3/' "$AMGF_DIR/share/scenes/hertz_sphere.yaml" > sphere.yaml
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
 
 run() { # summary, scene, options
@@ -19,6 +21,7 @@ mpiexec --oversubscribe -n 3 "$contact" cylinder.yaml -quiet -accuracy 3e-3 -sum
 run cylinder_tight cylinder -accuracy 1e-2 -accuracy_share 1e-4
 run cylinder_given cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_ipfilter_tol 1e-2
 run cylinder_small cylinder -accuracy 1e-4 -accuracy_max_dofs 20000
+run sphere sphere -accuracy 3e-3 -accuracy_max_dofs 45000
 run cantilever cantilever -accuracy 1e-2
 run cantilever_fine cantilever -refine 2
 "$PYTHON" "$AMGF_DIR/tests/check_accuracy.py"

@@ -220,8 +220,8 @@ def head(results):
 {small}
 `{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
 One rank unless said otherwise. Times are of the whole run, mesh and assembly included; runs below {results["short"]:g} s are repeated, the quickest
-of three counts. Errors are relative: against Hertz's solution, or against an extrapolation of careful runs (last section). Hertz's own
-model is right to about 0.1 % at this contact. Rows and keys of all runs: `bench.csv`, `bench.json`.
+of three counts. Errors are relative: against Hertz's solution, or against an extrapolation of careful runs (last section). Hertz's
+half-space is itself some 0.2 % off this ball in force and energy. Rows and keys of all runs: `bench.csv`, `bench.json`.
 
     make bench             # three hours at most: page, tables and figures in build/bench; interrupted, it goes on where it stopped
     make bench-quick       # ten minutes on two cores

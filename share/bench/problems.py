@@ -83,7 +83,7 @@ class Cantilever(Problem):
 
 
 class TwoBlock(Problem):
-    careful = ("-load_steps", "1", "-contact_updates", "20", "-tao_ipfilter_tol", "1e-9")
+    careful = ("-load_steps", "1", "-contact_updates", "5")  # ten change the energy by 3e-4, a hundredth of what the mesh does
     careful_body = (("element", "bbar"),)  # converges the fastest
 
 

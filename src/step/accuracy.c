@@ -120,8 +120,9 @@ static const AccuracyLevel *Coarser(const Accuracy *acc)
   return NULL;
 }
 
-/* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results. Where
-   results hardly differ by chance, a quarter of the recovered error stands */
+/* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
+   than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
+   the recovered error stands */
 static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
 {
   PetscReal ratio;
@@ -131,7 +132,7 @@ static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt
   if (!before) return;
   now->change = PetscMax(LargestChange(nsteps, now->energy, before->energy), LargestChange(nsteps, now->force, before->force));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  ratio       = PetscMax(ratio, 2.0);
+  ratio       = PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
 }
 
@@ -218,9 +219,10 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 
    Notes:
    The first mesh's error in energy is that of stress recovery. From the second mesh on it is extrapolated from the change of
-   energy and contact force between two meshes, whichever is larger, with the rate that recovery shows; it is taken for a quarter of
-   recovery's at least. A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides
-   it by 4, and costs 8 times as much, so that all the coarser meshes together cost a seventh of the last.
+   energy and contact force between two meshes, whichever is larger, with the rate that recovery shows, a factor of 4 at most, as
+   trilinear elements have it; it is taken for a quarter of recovery's at least. A mesh is fine enough when its error is within a
+   factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much, so that all the coarser meshes together
+   cost a seventh of the last.
 
    Where the solver left more than its share, its tolerance is tightened; on the finest mesh the run is repeated with it.
 
