@@ -87,10 +87,19 @@ def check_built_in():
     say("what the bench calls built in is", seen[0] == seen[1], seen)
 
 
+def check_memory():
+    """A program's peak is its own, not that of the process which started it, as getrusage() has it"""
+    large = b"1" * 700_000_000
+    execute([CONTACT, os.path.join(TOP, "share", "scenes", "cantilever.yaml"), "-refine", "0", "-quiet", "-summary", "own.json"], 60)
+    peak = read_summary("own")["peak_memory_bytes"]
+    say("memory is the program's own", 1e7 < peak < len(large) - 1e8, peak)
+
+
 check_extrapolation()
 check_growth()
 check_front()
 check_roofline()
 check_scenes()
 check_built_in()
+check_memory()
 check_table(sys.argv[1])

@@ -253,13 +253,33 @@ PetscErrorCode ReportResident(MPI_Comm comm, PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReportMemory(MPI_Comm comm, PetscLogDouble *bytes)
+/* The peak of the resident set of this program. Linux tells it by VmHWM; what getrusage() says elsewhere may be the peak of the
+   process that started this one */
+static PetscErrorCode PeakResident(PetscLogDouble *bytes)
 {
+  FILE         *status = fopen("/proc/self/status", "r");
+  char          line[256];
+  unsigned long kilobytes = 0;
   struct rusage usage;
 
   PetscFunctionBegin;
-  PetscCheck(!getrusage(RUSAGE_SELF, &usage), PETSC_COMM_SELF, PETSC_ERR_SYS, "getrusage() failed");
-  *bytes = 1024.0 * (PetscLogDouble)usage.ru_maxrss;
+  while (status && !kilobytes && fgets(line, sizeof(line), status)) {
+    if (sscanf(line, "VmHWM: %lu", &kilobytes) != 1) kilobytes = 0;
+  }
+  if (status) fclose(status);
+  if (!kilobytes) {
+    PetscCheck(!getrusage(RUSAGE_SELF, &usage), PETSC_COMM_SELF, PETSC_ERR_SYS, "getrusage() failed");
+    kilobytes = (unsigned long)usage.ru_maxrss;
+  }
+  *bytes = 1024.0 * (PetscLogDouble)kilobytes;
+  PetscFunctionReturn(0);
+}
+
+/* Summed over ranks */
+static PetscErrorCode ReportMemory(MPI_Comm comm, PetscLogDouble *bytes)
+{
+  PetscFunctionBegin;
+  PetscCall(PeakResident(bytes));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
   PetscFunctionReturn(0);
 }
