@@ -4,8 +4,7 @@ contact=$AMGF_DIR/bin/contact
 
 sed -e 's/^ *patches: .*/      patches: [8, 19, 14]/' -e 's/^ *grading: .*/      grading: [1, 361.2, 0.004865]/' -e 's/^ *even: .*/      even: [1, 6, 2]/' \
     "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" > cylinder.yaml
-sed -e 's/^ *patches: .*/      patches: [11, 11, 1]/' -e 's/^ *grading: .*/      grading: [312.5, 312.5, 1]/' -e 's/^ *even: .*/      even: [5, 5, 1]/' \
-    -e 's/layers: .*/layers: 9/' -e 's/layer_grading: .*/layer_grading: 0.005304/' -e 's/layer_even: .*/layer_even: 3/' "$AMGF_DIR/share/scenes/hertz_sphere.yaml" > sphere.yaml
+PYTHONPATH=$AMGF_DIR/share/bench "$PYTHON" -B -c 'from problems import PROBLEMS; print(PROBLEMS["hertz_sphere"].scene("coarse"))' > sphere.yaml
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
 
 run() { # summary, scene, options

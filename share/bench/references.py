@@ -6,7 +6,7 @@ import os
 from problems import PROBLEMS
 from store import Case
 
-# The full bench finds them and keeps them in FILE, where the quick one reads them
+# --only references finds them and keeps them in FILE, where every bench reads them
 MESHES = {"two_block": ("1", "2", "4", "8"), "beam_sphere_linear": ("0", "1", "2"), "cantilever": ("0", "1", "2", "3")}
 FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "references.json")
 

@@ -263,9 +263,7 @@ static PetscErrorCode PeakResident(PetscLogDouble *bytes)
   struct rusage usage;
 
   PetscFunctionBegin;
-  while (status && !kilobytes && fgets(line, sizeof(line), status)) {
-    if (sscanf(line, "VmHWM: %lu", &kilobytes) != 1) kilobytes = 0;
-  }
+  while (status && !kilobytes && fgets(line, sizeof(line), status)) (void)sscanf(line, "VmHWM: %lu", &kilobytes);
   if (status) fclose(status);
   if (!kilobytes) {
     PetscCheck(!getrusage(RUSAGE_SELF, &usage), PETSC_COMM_SELF, PETSC_ERR_SYS, "getrusage() failed");
