@@ -9,13 +9,12 @@ shipped() {
   run "$2"
 }
 
-sphere() { # name, cells along x and y, grading, even; layers, grading, even
-  sed -e "s/^ *patches: .*/      patches: [$2, $2, 1]/" -e "s/^ *grading: .*/      grading: [$3, $3, 1]/" -e "s/^ *even: .*/      even: [$4, $4, 1]/" \
-      -e "s/layers: .*/layers: $5/" -e "s/layer_grading: .*/layer_grading: $6/" -e "s/layer_even: .*/layer_even: $7/" "$AMGF_DIR/share/scenes/hertz_sphere.yaml" > "$1.yaml"
-  run "$1"
+sphere() { # one of the bench's meshes
+  PYTHONPATH=$AMGF_DIR/share/bench "$PYTHON" -B -c 'import sys; from problems import PROBLEMS; print(PROBLEMS["hertz_sphere"].scene(sys.argv[1]))' "$1" > "sphere_$1.yaml"
+  run "sphere_$1"
 }
-sphere sphere_coarse 11 312.5 5 9 0.005304 3
-sphere sphere_medium 15 334.5 6 12 0.004552 4
+sphere coarse
+sphere medium
 shipped hertz_sphere sphere_fine
 "$PYTHON" "$AMGF_DIR/tests/check_hertz.py" sphere sphere_coarse sphere_medium sphere_fine
 

@@ -115,7 +115,7 @@ def two_block_level(factor):
 
 
 def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
-    """The meshes of tests/hertz.sh"""
+    """Hertz's sphere on a coarser mesh; tests/hertz.sh and tests/accuracy.sh take them from here"""
     return (
         (r"^ *patches: .*", f"      patches: [{patch}, {patch}, 1]"),
         (r"^ *grading: .*", f"      grading: [{grading}, {grading}, 1]"),

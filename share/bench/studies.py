@@ -182,8 +182,8 @@ BASELINES = {
     "GAMG-PCG": ((IP + "pc_type", "gamg", *AIJ, *LONG), 10),
     "penalty, stiffness 10": (("-contact_penalty", "10"), 5),
     "penalty, stiffness 1000": (("-contact_penalty", "1000"), 10),
-    "TAO almm": (("-tao_type", "almm"), 10),
-    "TAO pdipm": (("-tao_type", "pdipm"), 10),
+    "TAO almm": (("-tao_type", "almm", "-tao_almm_type", "classic"), 100),
+    "TAO pdipm": (("-options_file", "pdipm.opts"), 10),
 }
 
 
@@ -199,9 +199,9 @@ def baseline_study(size):
     meshes["full"] = [
         ("two_block", "2", dict.fromkeys(every, 120)),
         ("two_block", "4", dict.fromkeys(every[:3], 1200)),
-        ("ironing", "2", dict.fromkeys(filtered, 420)),
+        ("ironing", "2", dict.fromkeys(filtered, 500)),
         ("beam_sphere_linear", "1", dict.fromkeys((name for name in every if name != "published configuration"), 60) | {"MUMPS Cholesky": 300}),
-        ("beam_sphere_linear", "2", dict.fromkeys(filtered, 800)),
+        ("beam_sphere_linear", "2", dict.fromkeys(filtered, 900)),
     ]
     panels = []
     for problem, level, limits in meshes[size]:

@@ -67,11 +67,28 @@ PetscErrorCode SolveLinear(StepProblem *p, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* PETSc 3.18's TAOPDIPM reads the bounds whether there are any or not */
+static PetscErrorCode StepSetInfiniteBounds(StepProblem *p, Tao tao)
+{
+  Vec lower, upper;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(p->w, &lower));
+  PetscCall(VecDuplicate(p->w, &upper));
+  PetscCall(VecSet(lower, PETSC_NINFINITY));
+  PetscCall(VecSet(upper, PETSC_INFINITY));
+  PetscCall(TaoSetVariableBounds(tao, lower, upper));
+  PetscCall(VecDestroy(&lower));
+  PetscCall(VecDestroy(&upper));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
 {
   Simulation sim = p->sim;
   KSP        ksp;
   Vec        c;
+  PetscBool  ours;
 
   PetscFunctionBegin;
   PetscCall(TaoCreate(sim->comm, tao));
@@ -94,6 +111,8 @@ static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, &ours));
+  if (!ours && !p->lower) PetscCall(StepSetInfiniteBounds(p, *tao));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
@@ -146,7 +165,7 @@ static PetscErrorCode SolveStart(StepProblem *p, PetscBool resume, Tao tao, Vec 
   PetscFunctionReturn(0);
 }
 
-/* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero */
+/* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero, but for its own residual */
 static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
 {
   static const PCAMGFCounts none = {0, 0, 0, 0};
@@ -180,6 +199,7 @@ static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
 {
   TaoConvergedReason reason;
   const char        *sentence = NULL;
+  PetscReal          residual, infeasibility;
   PetscInt           n;
   PetscBool          ours;
 
@@ -191,6 +211,10 @@ static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(SolveReportIPFilter(tao, report));
+  else {
+    PetscCall(TaoGetSolutionStatus(tao, NULL, NULL, &residual, &infeasibility, NULL, NULL));
+    report->kkt_error = report->kkt_error_unscaled = PetscMax(residual, infeasibility);
+  }
   PetscCall(TaoComputeObjective(tao, u, &report->potential));
   PetscFunctionReturn(0);
 }
