@@ -2,7 +2,7 @@
 import math
 
 from problems import PROBLEMS
-from results import converged, select
+from results import converged, of_panel, select
 
 NEAR = 1.1  # an error within this factor of the smallest counts as no worse
 
@@ -67,7 +67,7 @@ def failed_sentence(runs):
 def knob_words(study, rows):
     paragraphs = []
     for panel in study.panels:
-        runs = select(rows, study=study.name, problem=panel.problem)
+        runs = of_panel(rows, study, panel)
         good = converged(runs)
         sentences = [span_sentence(panel, good), floor_sentence(good)] if len(good) > 1 else []
         paragraphs.append(" ".join(s for s in sentences + [failed_sentence(runs)] if s))
@@ -91,9 +91,14 @@ def knob_table(study, rows):
     return table(columns, runs)
 
 
+def place(row):
+    return row["problem"], row["mesh"]
+
+
 def mean_ratio(runs, ours, key):
-    """Geometric mean over the problems of both; NaN without any"""
-    logs = [math.log(row[key] / ours[row["problem"]][key]) for row in runs if row["problem"] in ours and row.get(key) and ours[row["problem"]].get(key)]
+    """Geometric mean over the problems and meshes of both; NaN without any"""
+    pairs = [(row.get(key), ours.get(place(row), {}).get(key)) for row in runs]
+    logs = [math.log(theirs / own) for theirs, own in pairs if theirs and own]
     return math.exp(sum(logs) / len(logs)) if logs else math.nan
 
 
@@ -102,7 +107,7 @@ def default_rows(studies, rows):
     entries = []
     for study in (s for s in studies if s.default):
         runs = select(rows, study=study.name)
-        ours = {row["problem"]: row for row in converged(runs) if row["value"] == study.default}
+        ours = {place(row): row for row in converged(runs) if row["value"] == study.default}
         for value in dict.fromkeys(row["value"] for row in runs if row["value"] != study.default):
             same = [row for row in runs if row["value"] == value]
             good = converged(same)
@@ -117,7 +122,7 @@ def default_section(studies, rows):
     better = [e for e in entries if e["time"] < 0.95]
     text = "Where every value of a knob leads to the same answer, the one that is built in should be the quickest over the problems. "
     text += "It is, to within 5 % of the time." if not better else "It is not everywhere: " + ", ".join(f"{e['value']} takes {e['time']:.2f} of the time of {e['default']} ({e['study']})" for e in better) + "."
-    columns = [("knob", field("study")), ("built in", field("default")), ("against it", field("value")), ("time, geometric mean", field("time")), ("AMG applications", field("applications")), ("problems converged", field("converged"))]
+    columns = [("knob", field("study")), ("built in", field("default")), ("against it", field("value")), ("time, geometric mean", field("time")), ("AMG applications", field("applications")), ("converged", field("converged"))]
     return "## The defaults\n\n" + text + "\n\n" + table(columns, entries)
 
 
@@ -152,7 +157,7 @@ def step_ratio(row, ours):
 def baseline_table(study, rows):
     text = []
     for panel in study.panels:
-        runs = select(rows, study=study.name, problem=panel.problem, mesh=panel.level)
+        runs = of_panel(rows, study, panel)
         ours = next((row for row in runs if row["series"] == "defaults" and row["status"] == "converged"), None)
         columns = [(panel.title, field("series")), ("time [s]", field("seconds")), ("of the defaults'", lambda r: time_ratio(r, ours)), ("in load steps", lambda r: step_ratio(r, ours))]
         columns += [("Newton", field("newton")), ("PCG", field("pcg")), ("AMG applications", field("applications")), ("memory an unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else "")]
@@ -164,7 +169,7 @@ def baseline_table(study, rows):
 def baseline_words(study, rows):
     sentences = []
     for panel in study.panels:
-        runs = converged(select(rows, study=study.name, problem=panel.problem, mesh=panel.level))
+        runs = converged(of_panel(rows, study, panel))
         ours = next((row for row in runs if row["series"] == "defaults"), None)
         others = [f"{row['series']} {number(row['seconds'] / ours['seconds'], 2)}" for row in runs if ours and row is not ours]
         if others:

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 from problems import PROBLEMS  # noqa: E402
-from results import converged, select  # noqa: E402
+from results import converged, of_panel, select  # noqa: E402
 
 COSTS = {"time": ("seconds", "wall time [s]", 1), "applications": ("applications", "AMG applications", 1), "memory": ("memory", "peak memory [MB]", 1e-6)}
 STYLES = ("-", "--", ":", "-.", (0, (4, 1, 1, 1, 1, 1)), (0, (6, 3)))
@@ -102,7 +102,7 @@ def log_axes(axes, x, y):
 
 def knob_figure(study, rows, folder):
     """Rows of axes: problems; columns: costs"""
-    panels = [(panel, runs) for panel in study.panels if (runs := converged(select(rows, study=study.name, problem=panel.problem))) and measures(panel.problem, runs)]
+    panels = [(panel, runs) for panel in study.panels if (runs := converged(of_panel(rows, study, panel))) and measures(panel.problem, runs)]
     if not panels:
         return False
     look = Look(study)
@@ -181,7 +181,7 @@ def pareto_figure(rows, folder):
 
 def baseline_figure(study, rows, folder):
     """Bars of time; what did not end with an answer is hatched"""
-    panels = [(panel, runs) for panel in study.panels if (runs := select(rows, study=study.name, problem=panel.problem, mesh=panel.level))]
+    panels = [(panel, runs) for panel in study.panels if (runs := of_panel(rows, study, panel))]
     if not panels:
         return False
     figure, grid = plt.subplots(1, len(panels), figsize=(3.9 * len(panels) + 1, 3), squeeze=False, sharey=True)

@@ -91,6 +91,12 @@ def select(rows, **keys):
     return [row for row in rows if all(row[key] == value for key, value in keys.items())]
 
 
+def of_panel(rows, study, panel):
+    """One without a mesh of its own has the rows of all of them"""
+    mesh = {"mesh": panel.level} if panel.level else {}
+    return select(rows, study=study.name, problem=panel.problem, **mesh)
+
+
 def converged(rows):
     return [row for row in rows if row["status"] == "converged"]
 

@@ -54,6 +54,8 @@ MESHES = {
     "quick": {"hertz_sphere": "medium", "two_block": "2", "beam_sphere_linear": "0", "beam_sphere_neo_hookean": "0"},
     "full": {"hertz_sphere": "0", "two_block": "3", "beam_sphere_linear": "0", "beam_sphere_neo_hookean": "0"},
 }
+# meshes made by refinement, besides; the AMG coarsens by the numbering
+REFINED = {"tiny": {}, "quick": {"cantilever": "1"}, "full": {"two_block": "4", "cantilever": "2"}}
 # problem: its meshes where the mesh is the knob
 LEVELS = {
     "tiny": {"hertz_sphere": ("coarse",), "two_block": ("1", "2")},
@@ -72,6 +74,7 @@ def boomeramg(prefix, threshold, down, up):
 
 
 THRESHOLD = AMG + "pc_hypre_boomeramg_strong_threshold"
+ELASTIC_THRESHOLD = THRESHOLD.replace(IP, "-elasticity_")  # where there is no contact
 # option: what contact has built in, so that one run serves all studies; tests/bench.sh holds this against the program
 BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
 TUNED = (BUILT_IN[THRESHOLD], "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
@@ -84,11 +87,11 @@ def values(option, *numbers):
     return [(number, (option, number) if number != BUILT_IN.get(option) else ()) for number in numbers]
 
 
-def turn(size, problems, variants, careful=None, work=1.0):
+def turn(size, problems, variants, careful=None, work=1.0, meshes=MESHES):
     """Panels of one line each: the variants (value, options[, body keys]) on the mesh of every problem"""
     panels = []
     for problem in problems:
-        level = MESHES[size].get(problem)
+        level = meshes[size].get(problem)
         if level is None:
             continue
         points = [(variant[0], Case(problem, level, tuple(variant[1]), tuple(variant[2]) if len(variant) > 2 else (), work=work)) for variant in variants]
@@ -149,8 +152,9 @@ def preconditioner_studies(size):
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
     yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs, default="tuned l1-GS")
-    thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9")
-    yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5), costs=all_costs, default=BUILT_IN[THRESHOLD])
+    thresholds = [(t, (THRESHOLD, t, ELASTIC_THRESHOLD, t) if t != BUILT_IN[THRESHOLD] else ()) for t in (*(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9")]
+    panels = turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED)
+    yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", panels, costs=all_costs, default=BUILT_IN[THRESHOLD])
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5), default=BUILT_IN[IP + "pc_amgf_cycle"])
     yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
 
