@@ -83,8 +83,9 @@ LONG = (IP + "ksp_max_it", "20000")
 TOLERANCES = ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10")
 
 
-def values(option, *numbers):
-    return [(number, (option, number) if number != BUILT_IN.get(option) else ()) for number in numbers]
+def values(option, *numbers, also=()):
+    """The variants of a knob; also: options that take the same value"""
+    return [(number, tuple(word for name in (option, *also) for word in (name, number)) if number != BUILT_IN.get(option) else ()) for number in numbers]
 
 
 def turn(size, problems, variants, careful=None, work=1.0, meshes=MESHES):
@@ -152,7 +153,7 @@ def preconditioner_studies(size):
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
     yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs, default="tuned l1-GS")
-    thresholds = [(t, (THRESHOLD, t, ELASTIC_THRESHOLD, t) if t != BUILT_IN[THRESHOLD] else ()) for t in (*(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9")]
+    thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9", also=(ELASTIC_THRESHOLD,))
     panels = turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED)
     yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", panels, costs=all_costs, default=BUILT_IN[THRESHOLD])
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5), default=BUILT_IN[IP + "pc_amgf_cycle"])
