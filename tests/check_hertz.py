@@ -35,6 +35,11 @@ class Sphere:
         a = (3 * force * self.radius / (4 * self.modulus)) ** (1 / 3)
         return 3 * force / (2 * math.pi * a**2), a, a**2 / self.radius
 
+    def loaded(self):
+        """force and energy at the scene's approach, of the whole"""
+        force = 4 / 3 * self.modulus * self.radius**0.5 * self.approach**1.5
+        return force, 0.4 * force * self.approach
+
 
 class SSNV104(Sphere):
     approach = 2.0
@@ -54,6 +59,14 @@ class Cylinder:
     def at(self, force):
         a = math.sqrt(4 * force * self.radius / (math.pi * self.modulus))
         return 2 * force / (math.pi * a), a, force / (math.pi * self.modulus) * (2 * math.log(4 * self.radius / a) - 1)
+
+    def loaded(self):
+        """force and energy at the scene's approach, a length; the approach grows with the force, the energy is its work"""
+        low, high = 1e-12, 1e4
+        for _ in range(200):
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if self.at(middle)[2] < self.approach else (low, middle)
+        return low, low * self.approach / 2 - low**2 / (4 * math.pi * self.modulus)
 
 
 def averages(before, now, facets, pressure):

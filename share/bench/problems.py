@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(TOP, "tests"))
-import check_hertz  # noqa: E402  (what the tests hold Hertz's sphere against is what the bench holds it against)
+import check_hertz  # noqa: E402  (what the tests hold Hertz's contacts against is what the bench holds it against)
 
 
 @dataclass(frozen=True)
@@ -87,21 +87,23 @@ class TwoBlock(Problem):
     careful_body = (("element", "bbar"),)  # converges the fastest
 
 
-class HertzSphere(Problem):
-    """Peak pressure and radius at the computed force, force and energy at the prescribed approach"""
+class Hertz(Problem):
+    """Peak pressure and radius (half-width) at the computed force, force and energy at the prescribed approach"""
 
     quantities = ("peak pressure", "contact radius", "contact force", "energy")
     fields = True
-    sphere = check_hertz.Sphere()
+
+    def __init__(self, name, levels, solution, title):
+        super().__init__(name, levels, title=title)
+        self.solution = solution
 
     def measure(self, base, summary):
-        errors = check_hertz.measure(self.sphere, base)["errors"]
+        errors = check_hertz.measure(self.solution, base)["errors"]
         return {"peak pressure": 1 + errors["peak pressure"], "contact radius": 1 + errors["contact radius"], "contact force": force(summary), "energy": last(summary)["energy"]}
 
     def exact(self, references):
-        s = self.sphere
-        whole = 4 / 3 * s.modulus * s.radius**0.5 * s.approach**1.5
-        return {"peak pressure": 1.0, "contact radius": 1.0, "contact force": s.share * whole, "energy": s.share * 0.4 * whole * s.approach}
+        whole, energy = self.solution.loaded()
+        return {"peak pressure": 1.0, "contact radius": 1.0, "contact force": self.solution.share * whole, "energy": self.solution.share * energy}
 
 
 def two_block_level(factor):
@@ -115,7 +117,7 @@ def two_block_level(factor):
 
 
 def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
-    """Hertz's sphere on a coarser mesh; tests/hertz.sh and tests/accuracy.sh take them from here"""
+    """Hertz's sphere on a coarser mesh; tests/hertz.sh and tests/accuracy.sh take these meshes from here"""
     return (
         (r"^ *patches: .*", f"      patches: [{patch}, {patch}, 1]"),
         (r"^ *grading: .*", f"      grading: [{grading}, {grading}, 1]"),
@@ -126,10 +128,19 @@ def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
     )
 
 
+def cylinder_cells(around, grading, even, ring, ring_grading, ring_even):
+    """Hertz's cylinder on a coarser mesh: cells, their grading and how many are equal, around the arc and in the ring"""
+    return (
+        (r"^ *patches: .*", f"      patches: [8, {around}, {ring}]"),
+        (r"^ *grading: .*", f"      grading: [1, {grading}, {ring_grading}]"),
+        (r"^ *even: .*", f"      even: [1, {even}, {ring_even}]"),
+    )
+
+
 PROBLEMS = {
     problem.name: problem
     for problem in (
-        HertzSphere(
+        Hertz(
             "hertz_sphere",
             [
                 Level("coarse", 0, 5397, ball_cells(11, 312.5, 5, 9, 0.005304, 3)),
@@ -137,7 +148,20 @@ PROBLEMS = {
                 Level("0", 0, 29805),
                 Level("1", 1, 222660),
             ],
+            check_hertz.Sphere(),
             title="Hertz sphere",
+        ),
+        Hertz(
+            "hertz_cylinder",
+            [
+                Level("coarse", 0, 3456, cylinder_cells(19, 361.2, 6, 14, 0.004865, 2)),
+                Level("medium", 0, 6030, cylinder_cells(28, 432.9, 9, 20, 0.00386, 3)),
+                Level("0", 0, 11058),
+                Level("1", 1, 64000),
+                Level("2", 2, 420000),
+            ],
+            check_hertz.Cylinder(),
+            title="Hertz cylinder",
         ),
         TwoBlock("two_block", [two_block_level(factor) for factor in (1, 2, 3, 4, 6, 8)], steps=2, title="two-block"),
         BeamSphere("beam_sphere_linear", [Level("0", 0, 7902), Level("1", 1, 53547), Level("2", 2, 392661)], steps=6, title="beam-sphere"),
