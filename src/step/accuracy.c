@@ -3,6 +3,7 @@
 
 #define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_UPDATES 20
+#define ACCURACY_MARGIN  0.5 /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
 
 /*@C
    AccuracySetFromOptions - How accurate a run is to be
@@ -43,7 +44,7 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
   PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
   acc->most_dofs = (PetscInt)PetscMin(most, (PetscReal)PETSC_MAX_INT);
-  acc->tolerance = acc->share * acc->target;
+  acc->tolerance = ACCURACY_MARGIN * acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
   PetscFunctionReturn(0);
 }
@@ -74,7 +75,7 @@ static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBo
 
    Notes:
    The gap is linearized until it is true, so that load steps of any size end in the same state. The optimizer's tolerance
-   starts at share x target and is tightened where that left too much. Tolerances are set as PETSc options (-accuracy_view
+   starts at half of share x target and is tightened where that left too much. Tolerances are set as PETSc options (-accuracy_view
    shows them); those that the user has given stay.
 
 .seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`
@@ -194,7 +195,7 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
   if (now->algebraic <= allowed) PetscFunctionReturn(0);
   for (PetscInt l = 0; l < acc->nlevels; ++l) runs += (acc->levels[l].refine == now->refine);
   *tighten = (PetscBool)(!acc->given && runs <= 2);
-  if (*tighten) acc->tolerance *= PetscMax(0.01, 0.5 * allowed / now->algebraic);
+  if (*tighten) acc->tolerance *= PetscMax(0.01, ACCURACY_MARGIN * allowed / now->algebraic);
   else {
     acc->reached = PETSC_FALSE;
     PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the solver leaves %g, more than its share", (double)now->algebraic));

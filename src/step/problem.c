@@ -60,7 +60,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscFunctionReturn(0);
 }
 
-/* |u - base| <= increment; prescribed rows are held by the problem itself and need no bound */
+/* |u - base| <= increment, or no bound at all where that is infinite; prescribed rows are held by the problem itself and need none */
 PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 {
   PetscFunctionBegin;

@@ -67,28 +67,12 @@ PetscErrorCode SolveLinear(StepProblem *p, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* PETSc 3.18's TAOPDIPM reads the bounds whether there are any or not */
-static PetscErrorCode StepSetInfiniteBounds(StepProblem *p, Tao tao)
-{
-  Vec lower, upper;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(p->w, &lower));
-  PetscCall(VecDuplicate(p->w, &upper));
-  PetscCall(VecSet(lower, PETSC_NINFINITY));
-  PetscCall(VecSet(upper, PETSC_INFINITY));
-  PetscCall(TaoSetVariableBounds(tao, lower, upper));
-  PetscCall(VecDestroy(&lower));
-  PetscCall(VecDestroy(&upper));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
+/* ours: false where -tao_type has chosen another optimizer */
+static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao, PetscBool *ours)
 {
   Simulation sim = p->sim;
   KSP        ksp;
   Vec        c;
-  PetscBool  ours;
 
   PetscFunctionBegin;
   PetscCall(TaoCreate(sim->comm, tao));
@@ -108,11 +92,11 @@ static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao)
     PetscCall(VecDestroy(&c));
     PetscCall(TaoIPFilterSetSlackMass(*tao, sim->linearization->mass));
   }
-  if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetFromOptions(*tao));
-  PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, &ours));
-  if (!ours && !p->lower) PetscCall(StepSetInfiniteBounds(p, *tao));
+  PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
+  if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
+  if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
@@ -195,16 +179,14 @@ static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
+static PetscErrorCode SolveReport(Tao tao, PetscBool ours, Vec u, StepReport *report)
 {
   TaoConvergedReason reason;
   const char        *sentence = NULL;
   PetscReal          residual, infeasibility;
   PetscInt           n;
-  PetscBool          ours;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &ours));
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
@@ -219,11 +201,10 @@ static PetscErrorCode SolveReport(Tao tao, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
+static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, PetscBool ours, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->linearization;
   Vec                  slack = NULL, multipliers;
-  PetscBool            ours;
 
   PetscFunctionBegin;
   PetscCall(ContactSolutionDestroy(sol));
@@ -233,7 +214,6 @@ static PetscErrorCode SolveKeepContact(StepProblem *p, Tao tao, Vec u, ContactSo
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
   PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP, "-tao_type gives no multipliers, and so no contact pressures");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
-  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &ours));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);
@@ -244,11 +224,11 @@ PetscErrorCode SolveTao(StepProblem *p, PetscBool resume, Vec u, StepReport *rep
 {
   Simulation     sim = p->sim;
   Tao            tao;
-  PetscBool      valid;
+  PetscBool      ours, valid;
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
-  PetscCall(StepCreateTao(p, &tao));
+  PetscCall(StepCreateTao(p, &tao, &ours));
   PetscCall(SolveStart(p, resume, tao, u, &valid));
   if (valid) {
     PetscCall(TaoSetSolution(tao, u));
@@ -256,9 +236,9 @@ PetscErrorCode SolveTao(StepProblem *p, PetscBool resume, Vec u, StepReport *rep
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
-    PetscCall(SolveReport(tao, u, report));
+    PetscCall(SolveReport(tao, ours, u, report));
     if (sim->interrupted) PetscCall(InterruptReport(sim, report));
-    if (p->J && report->converged) PetscCall(SolveKeepContact(p, tao, u, sol));
+    if (p->J && report->converged) PetscCall(SolveKeepContact(p, tao, ours, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   PetscCall(TaoDestroy(&tao));
   PetscFunctionReturn(0);
