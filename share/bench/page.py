@@ -136,7 +136,7 @@ def best_at(rows, row, series):
 def accuracy_table(rows):
     """What was asked for, what came of it, and what the sweeps needed for the same"""
     runs = select(rows, study="accuracy")
-    columns = [("problem", lambda r: PROBLEMS[r["problem"]].title), ("unknowns", field("unknowns")), ("target", field("value")), ("attained", lambda r: number(lead_error(r)[0], 2)), ("energy, estimated", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2))]
+    columns = [("problem", lambda r: PROBLEMS[r["problem"]].title), ("begun with mesh", field("mesh")), ("unknowns", field("unknowns")), ("target", field("value")), ("attained", lambda r: number(lead_error(r)[0], 2)), ("energy, estimated", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2))]
     columns += [("time [s]", field("seconds")), ("best of the sweeps at that error, same element [s]", lambda r: number(best_at(rows, r, ("full",)))), ("any element [s]", lambda r: number(best_at(rows, r, ("full", "bbar"))))]
     return table(columns, runs)
 
