@@ -94,7 +94,7 @@ def log_axes(axes, x, y):
         axes.set_xlim(low / 1.3, high * 1.3)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        if high < 30 * low:  # too narrow for powers of ten alone
+        if high < 100 * low:  # too narrow for powers of ten alone
             axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 3 * low else (1, 1.5, 2, 3, 4, 5, 6, 8)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
