@@ -88,6 +88,11 @@ def values(option, *numbers, also=()):
     return [(number, tuple(word for name in (option, *also) for word in (name, number)) if number != BUILT_IN.get(option) else ()) for number in numbers]
 
 
+def few(size, problems):
+    """Small benches turn most knobs on two problems"""
+    return problems if size == "full" else problems[:2]
+
+
 def turn(size, problems, variants, careful=None, work=1.0, meshes=MESHES):
     """Panels of one line each: the variants (value, options[, body keys]) on the mesh of every problem"""
     panels = []
@@ -117,16 +122,16 @@ def algebraic_studies(size):
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
     yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, ("hertz_cylinder", *three), values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
-    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, three if size == "full" else three[:2], forcing, careful=tight, work=1.5), default="adaptive")
+    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5), default="adaptive")
     reduce = values(IP + "forcing_reduce", "0.5", "0.7", "1", *(("2",) if size == "full" else ()))
-    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, (*three, "beam_sphere_neo_hookean"), reduce, work=1.5), default=BUILT_IN[IP + "forcing_reduce"])
+    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, few(size, (*three, "beam_sphere_neo_hookean")), reduce, work=1.5), default=BUILT_IN[IP + "forcing_reduce"])
 
 
 def path_studies(size):
-    true = ("-contact_updates", "20", IP + "tol", "1e-9")
+    true = ("-contact_updates", "20" if size == "full" else "10", IP + "tol", "1e-9")
     yield Study("load_steps", "Load steps", "load steps", turn(size, ("two_block", "beam_sphere_linear"), values("-load_steps", "1", "2", "4", *(("8",) if size == "full" else ())), careful=true, work=1.5))
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, three, values("-contact_updates", "1", "2", "3", *(("5", "10") if size == "full" else ())), careful=true, work=1.5))
+    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, few(size, three), values("-contact_updates", "1", "2", "3", *(("5", "10") if size == "full" else ())), careful=true, work=1.5))
 
 
 def formulation_studies(size):
@@ -138,7 +143,8 @@ def formulation_studies(size):
     materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
     yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
     models = values("-model", "quadratic", "energy")
-    true = ("-model", "energy", "-load_steps", "12" if size == "full" else "6", "-contact_updates", "3")
+    steps, updates = ("12", "3") if size == "full" else ("6", "2")
+    true = ("-model", "energy", "-load_steps", steps, "-contact_updates", updates)
     panels = turn(size, ("beam_sphere_neo_hookean",), models, careful=true, work=4)
     yield Study("model", "Load step at finite strain: quadratic model against true energy", "model", panels)
 
@@ -152,9 +158,9 @@ def preconditioner_studies(size):
         ("GAMG", (AMG + "pc_type", "gamg", *AIJ)),
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
-    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two, amg, work=2), costs=all_costs, default="tuned l1-GS")
+    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two if size == "full" else two[:1], amg, work=2), costs=all_costs, default="tuned l1-GS")
     thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9", also=(ELASTIC_THRESHOLD,))
-    panels = turn(size, ("hertz_sphere", "two_block", "beam_sphere_linear"), thresholds, work=1.5) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED)
+    panels = turn(size, few(size, ("hertz_sphere", "two_block", "beam_sphere_linear")), thresholds, work=1.5) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED)
     yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", panels, costs=all_costs, default=BUILT_IN[THRESHOLD])
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5), default=BUILT_IN[IP + "pc_amgf_cycle"])
     yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
