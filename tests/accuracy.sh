@@ -3,7 +3,7 @@
 contact=$AMGF_DIR/bin/contact
 
 for body in sphere cylinder; do # the coarsest of the bench's meshes
-  PYTHONPATH=$AMGF_DIR/share/bench "$PYTHON" -B -c 'import sys; from problems import PROBLEMS; print(PROBLEMS["hertz_" + sys.argv[1]].scene("coarse"))' $body > $body.yaml
+  "$PYTHON" -B "$AMGF_DIR/share/bench/problems.py" hertz_$body coarse > $body.yaml
 done
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
 

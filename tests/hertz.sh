@@ -10,7 +10,7 @@ shipped() {
 }
 
 coarser() { # one of the bench's meshes
-  PYTHONPATH=$AMGF_DIR/share/bench "$PYTHON" -B -c 'import sys; from problems import PROBLEMS; print(PROBLEMS["hertz_" + sys.argv[1]].scene(sys.argv[2]))' "$1" "$2" > "$1_$2.yaml"
+  "$PYTHON" -B "$AMGF_DIR/share/bench/problems.py" "hertz_$1" "$2" > "$1_$2.yaml"
   run "$1_$2"
 }
 

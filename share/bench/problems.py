@@ -1,4 +1,7 @@
-"""The problems of the bench: their meshes, what is measured on them, and the answers they are held against."""
+"""The problems of the bench: their meshes, what is measured on them, and the answers they are held against.
+
+python problems.py PROBLEM MESH prints the scene, for the tests that run one
+"""
 import os
 import re
 import sys
@@ -116,25 +119,21 @@ def two_block_level(factor):
     return Level(str(factor), 0, unknowns, tuple(cells), factor)
 
 
+def face_cells(patches, grading, even):
+    """Edits of a curved body's cells along its three axes: how many, how they are graded, how many are equal"""
+    keys = {"patches": patches, "grading": grading, "even": even}
+    return tuple((rf"^ *{key}: .*", f"      {key}: {list(value)}") for key, value in keys.items())
+
+
 def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
-    """Hertz's sphere on a coarser mesh; tests/hertz.sh and tests/accuracy.sh take these meshes from here"""
-    return (
-        (r"^ *patches: .*", f"      patches: [{patch}, {patch}, 1]"),
-        (r"^ *grading: .*", f"      grading: [{grading}, {grading}, 1]"),
-        (r"^ *even: .*", f"      even: [{even}, {even}, 1]"),
-        (r"layers: .*", f"layers: {layers}"),
-        (r"layer_grading: .*", f"layer_grading: {layer_grading}"),
-        (r"layer_even: .*", f"layer_even: {layer_even}"),
-    )
+    """Hertz's sphere on a coarser mesh"""
+    depth = {"layers": layers, "layer_grading": layer_grading, "layer_even": layer_even}
+    return face_cells((patch, patch, 1), (grading, grading, 1), (even, even, 1)) + tuple((f"{key}: .*", f"{key}: {value}") for key, value in depth.items())
 
 
 def cylinder_cells(around, grading, even, ring, ring_grading, ring_even):
-    """Hertz's cylinder on a coarser mesh: cells, their grading and how many are equal, around the arc and in the ring"""
-    return (
-        (r"^ *patches: .*", f"      patches: [8, {around}, {ring}]"),
-        (r"^ *grading: .*", f"      grading: [1, {grading}, {ring_grading}]"),
-        (r"^ *even: .*", f"      even: [1, {even}, {ring_even}]"),
-    )
+    """Hertz's cylinder on a coarser mesh: cells around the arc and in the ring"""
+    return face_cells((8, around, ring), (1, grading, ring_grading), (1, even, ring_even))
 
 
 PROBLEMS = {
@@ -170,3 +169,7 @@ PROBLEMS = {
         Cantilever("cantilever", [Level("0", 0, 3075), Level("1", 1, 19683), Level("2", 2, 140000), Level("3", 3, 1050000)]),
     )
 }
+
+
+if __name__ == "__main__":
+    print(PROBLEMS[sys.argv[1]].scene(sys.argv[2]))
