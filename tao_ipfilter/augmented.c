@@ -2,12 +2,13 @@
    Equality constraints. Their multipliers are not eliminated: the symmetric indefinite system
 
      [ A    J_E^T    ] [ dx     ]   [  b   ]
-     [ J_E  -delta_c ] [ y + dy ] = [ -c_E ]
+     [ J_E  -delta   ] [ y + dy ] = [ -c_E ]
 
-   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta_c is switched on
+   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last block is switched on
    where the system is singular (dependent constraints).
 */
 #include "ipfilterimpl.h"
+#include "../pc_amgf/mumps.h"
 
 PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
 {
@@ -17,22 +18,25 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscCall(MatDestroy(&aug->shift));
   PetscCall(VecDestroy(&aug->rhs));
   PetscCall(VecDestroy(&aug->sol));
-  PetscCall(VecDestroy(&aug->sol2));
+  PetscCall(VecDestroy(&aug->residual));
   PetscCall(VecDestroy(&aug->correction));
   PetscFunctionReturn(0);
 }
 
-/* The factorization's KSP, prefix -tao_ipfilter_augmented_, and the diagonal block of delta_c */
-static PetscErrorCode CreateAugmented(Tao tao)
+/* The factorization's KSP, prefix -tao_ipfilter_augmented_, and its diagonal block */
+static PetscErrorCode AugmentedCreate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug  = &ip->aug;
   MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
   PC            pc;
   PetscInt      m;
+  PetscBool     mumps;
 
   PetscFunctionBegin;
   if (aug->ksp) PetscFunctionReturn(0);
+  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
+  PetscCheck(mumps, comm, PETSC_ERR_SUP, "TAOIPFILTER needs a PETSc with MUMPS for equality constraints");
   PetscCall(KSPCreate(comm, &aug->ksp));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)aug->ksp, (PetscObject)tao, 1));
   PetscCall(KSPSetOptionsPrefix(aug->ksp, ((PetscObject)tao)->prefix));
@@ -42,24 +46,27 @@ static PetscErrorCode CreateAugmented(Tao tao)
   PetscCall(PCSetType(pc, PCCHOLESKY));
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   PetscCall(KSPSetFromOptions(aug->ksp));
-  PetscCall(VecGetLocalSize(ip->ce, &m));
+  PetscCall(VecGetLocalSize(ip->at.ce, &m));
   PetscCall(MatCreateAIJ(comm, m, m, ip->me, ip->me, 1, NULL, 0, NULL, &aug->shift));
   PetscFunctionReturn(0);
 }
 
 /* K with A in its first block */
-static PetscErrorCode AssembleAugmented(Tao tao, Mat A)
+static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug = &ip->aug;
   Mat           blocks[4], nest;
+  Vec           diagonal;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(ip->cetrial, -ip->delta_c));
-  PetscCall(MatDiagonalSet(aug->shift, ip->cetrial, INSERT_VALUES));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &diagonal));
+  PetscCall(VecSet(diagonal, -aug->delta));
+  PetscCall(MatDiagonalSet(aug->shift, diagonal, INSERT_VALUES));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &diagonal));
   PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
-  PetscCall(MatTranspose(ip->JE, MAT_INITIAL_MATRIX, &blocks[1]));
-  blocks[2] = ip->JE;
+  PetscCall(MatTranspose(ip->jac.equality, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = ip->jac.equality;
   blocks[3] = aug->shift;
   PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
   PetscCall(MatDestroy(&aug->K));
@@ -70,14 +77,14 @@ static PetscErrorCode AssembleAugmented(Tao tao, Mat A)
   PetscCall(MatDestroy(&blocks[1]));
   if (!aug->rhs) {
     PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
-    PetscCall(VecDuplicate(aug->rhs, &aug->sol2));
+    PetscCall(VecDuplicate(aug->rhs, &aug->residual));
     PetscCall(VecDuplicate(aug->rhs, &aug->correction));
   }
   PetscFunctionReturn(0);
 }
 
 /* One factorization, with the given percentage of work space beyond MUMPS's estimate; 0: its own choice */
-static PetscErrorCode FactorWithin(IPAugmented *aug, PetscInt relaxation, PCFailedReason *failed)
+static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PetscInt relaxation, PCFailedReason *failed)
 {
   PC  pc;
   Mat F;
@@ -88,8 +95,8 @@ static PetscErrorCode FactorWithin(IPAugmented *aug, PetscInt relaxation, PCFail
   PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
-  if (relaxation) PetscCall(MatMumpsSetIcntl(F, 14, relaxation));
+  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
+  if (relaxation) PetscCall(AMGFMumpsSetIcntl(F, 14, relaxation));
   PetscCall(KSPSetUp(aug->ksp));
   PetscCall(PCGetFailedReason(pc, failed));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
@@ -97,12 +104,12 @@ static PetscErrorCode FactorWithin(IPAugmented *aug, PetscInt relaxation, PCFail
 }
 
 /* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails for want of
-   memory, or otherwise, that says nothing about the matrix: ip->linear_failed. */
-static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
+   memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
+static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
-  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
-  IPAugmented   *aug  = &ip->aug;
-  const PetscInt most = 320;
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  IPAugmented   *aug   = &ip->aug;
+  const PetscInt limit = 320; /* per cent of work space beyond the estimate */
   PC             pc;
   PCFailedReason failed = PC_FACTOR_OUTMEMORY;
   Mat            F;
@@ -113,17 +120,17 @@ static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
   *singular = *inertia = PETSC_FALSE;
   PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
   if (PetscIsInfOrNanReal(norm)) { /* MUMPS takes none */
-    PetscCall(IPLinearNotANumber(tao));
+    PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }
-  for (PetscInt relaxation = 0; failed == PC_FACTOR_OUTMEMORY && relaxation <= most; relaxation = relaxation ? 2 * relaxation : 40) PetscCall(FactorWithin(aug, relaxation, &failed));
+  for (PetscInt relaxation = 0; failed == PC_FACTOR_OUTMEMORY && relaxation <= limit; relaxation = relaxation ? 2 * relaxation : 40) PetscCall(AugmentedFactorWithin(aug, relaxation, &failed));
   *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
   if (failed != PC_NOERROR) {
-    PetscCall(PetscStrncpy(ip->linear_reason, failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system" : "MUMPS failed on the augmented system", sizeof(ip->linear_reason)));
-    ip->fallbacks.failures++;
-    ip->linear_failed = PETSC_TRUE;
-    ip->ksp_reason    = KSP_DIVERGED_PC_FAILED;
+    PetscCall(PetscStrncpy(ip->lin.why, failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system" : "MUMPS failed on the augmented system", sizeof(ip->lin.why)));
+    ip->rec.fallbacks.failures++;
+    ip->lin.failed = PETSC_TRUE;
+    ip->lin.reason = KSP_DIVERGED_PC_FAILED;
     PetscFunctionReturn(0);
   }
   PetscCall(KSPGetPC(aug->ksp, &pc));
@@ -136,7 +143,7 @@ static PetscErrorCode Factor(Tao tao, PetscBool *inertia, PetscBool *singular)
 }
 
 /* Copies the local parts of (top, bottom) into v, or back */
-static PetscErrorCode Join(Vec v, Vec top, Vec bottom, PetscBool back)
+static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
 {
   Vec          part[2] = {top, bottom};
   PetscScalar *a, *p;
@@ -155,33 +162,71 @@ static PetscErrorCode Join(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in sol2 */
-static PetscErrorCode Refine(Tao tao)
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual */
+static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   IPAugmented    *aug   = &ip->aug;
-  const PetscInt  most  = 3;
+  const PetscInt  limit = 3;
   const PetscReal exact = 1e-14;
   PetscReal       rhs, before = PETSC_INFINITY;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
-  for (PetscInt k = 0; k <= most; k++) {
-    PetscCall(MatMult(aug->K, aug->sol, aug->sol2));
-    PetscCall(VecAYPX(aug->sol2, -1.0, aug->rhs));
-    PetscCall(VecNorm(aug->sol2, NORM_2, &ip->linear_residual));
-    if (!(ip->linear_residual <= before)) {
+  for (PetscInt k = 0; k <= limit; k++) {
+    PetscCall(MatMult(aug->K, aug->sol, aug->residual));
+    PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
+    PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
+    if (!(ip->lin.norm <= before)) {
       PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
-      ip->linear_residual = before;
+      ip->lin.norm = before;
     }
-    if (!(ip->linear_residual > exact * rhs) || !(ip->linear_residual <= 0.5 * before) || k == most) break;
-    before = ip->linear_residual;
-    PetscCall(KSPSolve(aug->ksp, aug->sol2, aug->correction));
+    if (!(ip->lin.norm > exact * rhs) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
+    before = ip->lin.norm;
+    PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
     PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
-    ip->fallbacks.refinements++;
+    ip->rec.fallbacks.refinements++;
   }
-  ip->backward_error           = rhs > 0.0 ? ip->linear_residual / rhs : 0.0;
-  ip->fallbacks.backward_error = PetscMax(ip->fallbacks.backward_error, ip->backward_error);
+  ip->lin.backward_error           = rhs > 0.0 ? ip->lin.norm / rhs : 0.0;
+  ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
+  PetscFunctionReturn(0);
+}
+
+/* Assembles K and factors it, with a regularization of dependent constraints where it is singular without */
+static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  PetscBool     singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  PetscCall(AugmentedFactor(tao, inertia, &singular));
+  if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
+  ip->aug.delta = ip->opt.delta_equality;
+  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  PetscCall(AugmentedFactor(tao, inertia, &singular));
+  PetscFunctionReturn(0);
+}
+
+/* K (top, bottom) = (b, -ce), refined */
+static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
+{
+  TAO_IPFILTER      *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented       *aug = &ip->aug;
+  Vec                negative;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &negative));
+  PetscCall(VecAXPBY(negative, -1.0, 0.0, ce));
+  PetscCall(AugmentedJoin(aug->rhs, b, negative, PETSC_FALSE));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &negative));
+  PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
+  PetscCall(KSPGetConvergedReason(aug->ksp, &reason));
+  ip->lin.reason = reason;
+  *usable        = (PetscBool)(reason > 0);
+  if (*usable) PetscCall(AugmentedRefine(tao));
+  PetscCall(AugmentedJoin(aug->sol, top, bottom, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -189,41 +234,20 @@ static PetscErrorCode Refine(Tao tao)
    matrix tells whether A is new since the last call. *usable is false where the inertia is wrong. */
 PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
 {
-  TAO_IPFILTER      *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented       *aug = &ip->aug;
-  PetscBool          inertia = PETSC_TRUE, singular = PETSC_FALSE;
-  KSPConvergedReason reason;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
-  ip->linear_failed    = PETSC_FALSE;
-  ip->linear_reason[0] = '\0';
-  PetscCall(VecNorm(b, NORM_2, &ip->linear_rhs));
-  PetscCall(CreateAugmented(tao));
-  if (matrix) {
-    PetscCall(AssembleAugmented(tao, ip->cond.A));
-    PetscCall(Factor(tao, &inertia, &singular));
-    if (singular && ip->delta_c == 0.0) {
-      ip->delta_c = ip->delta_equality;
-      PetscCall(AssembleAugmented(tao, ip->cond.A));
-      PetscCall(Factor(tao, &inertia, &singular));
-    }
+  ip->lin.failed = PETSC_FALSE;
+  ip->lin.why[0] = '\0';
+  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
+  PetscCall(AugmentedCreate(tao));
+  *usable = PETSC_TRUE;
+  if (matrix) PetscCall(AugmentedFactorRegular(tao, usable));
+  if (*usable) {
+    PetscCall(AugmentedApply(tao, b, ce, dx, ip->dir.y, usable));
+    PetscCall(VecAXPY(ip->dir.y, -1.0, ip->at.y));
   }
-  *usable = inertia;
-  if (!inertia) {
-    PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(VecCopy(ce, ip->cetrial));
-  PetscCall(VecScale(ip->cetrial, -1.0));
-  PetscCall(Join(aug->rhs, b, ip->cetrial, PETSC_FALSE));
-  PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
-  PetscCall(KSPGetConvergedReason(aug->ksp, &reason));
-  ip->ksp_reason = reason;
-  *usable        = (PetscBool)(reason > 0);
-  if (*usable) PetscCall(Refine(tao));
-  PetscCall(Join(aug->sol, dx, ip->dy, PETSC_TRUE));
-  PetscCall(VecAXPY(ip->dy, -1.0, ip->y));
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
   PetscFunctionReturn(0);
 }
@@ -233,32 +257,31 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
 PetscErrorCode IPEstimateMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
-  const PetscReal most = 1e3;
+  const PetscReal huge = 1e3; /* times the gradient */
   Mat             identity;
   PetscBool       inertia, singular;
   PetscReal       y, g, j;
   PetscInt        n, N;
 
   PetscFunctionBegin;
-  PetscCall(CreateAugmented(tao));
-  PetscCall(VecSet(ip->y, 0.0));
-  PetscCall(IPStationarity(tao, ip->lambda, ip->rx));
+  PetscCall(AugmentedCreate(tao));
+  PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecGetLocalSize(ip->rx, &n));
   PetscCall(VecGetSize(ip->rx, &N));
   PetscCall(MatCreateConstantDiagonal(PetscObjectComm((PetscObject)tao), n, n, N, N, 1.0, &identity));
-  ip->delta_c = 0.0;
-  PetscCall(AssembleAugmented(tao, identity));
+  ip->aug.delta = 0.0;
+  PetscCall(AugmentedAssemble(tao, identity));
   PetscCall(MatDestroy(&identity));
-  PetscCall(Factor(tao, &inertia, &singular));
+  PetscCall(AugmentedFactor(tao, &inertia, &singular));
   if (!inertia) PetscFunctionReturn(0);
   PetscCall(VecScale(ip->rx, -1.0));
-  PetscCall(VecSet(ip->cetrial, 0.0));
-  PetscCall(Join(ip->aug.rhs, ip->rx, ip->cetrial, PETSC_FALSE));
+  PetscCall(AugmentedJoin(ip->aug.rhs, ip->rx, ip->at.y, PETSC_FALSE));
   PetscCall(KSPSolve(ip->aug.ksp, ip->aug.rhs, ip->aug.sol));
-  PetscCall(Join(ip->aug.sol, ip->rx, ip->y, PETSC_TRUE));
-  PetscCall(VecNorm(ip->y, NORM_INFINITY, &y));
+  PetscCall(AugmentedJoin(ip->aug.sol, ip->rx, ip->at.y, PETSC_TRUE));
+  PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &y));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &g));
-  PetscCall(MatNorm(ip->JE, NORM_INFINITY, &j));
-  if (!(y * j <= most * g)) PetscCall(VecSet(ip->y, 0.0));
+  PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &j));
+  if (!(y * j <= huge * g)) PetscCall(VecSet(ip->at.y, 0.0));
   PetscFunctionReturn(0);
 }

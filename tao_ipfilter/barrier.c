@@ -2,7 +2,7 @@
 #include "ipfilterimpl.h"
 
 /* Weighted mean of t z over all pairs */
-PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
+static PetscErrorCode BarrierAverage(Tao tao, PetscReal *average)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscReal     total = 0.0, weight = 0.0;
@@ -21,27 +21,26 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
 
 /* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need balance only
    to the percents that the linear solves aim at: pairs, not forces, follow mu. */
-static PetscBool Solved(const TAO_IPFILTER *ip, PetscReal mu)
+static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
-  const IPKKT    *k    = &ip->kkt;
-  const PetscReal most = ip->kappa_epsilon * mu;
+  const IPKKT    *k     = &ip->kkt;
+  const PetscReal limit = ip->opt.kappa_epsilon * mu, balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
 
-  if (ip->measure == IP_KKT_MASS) return (PetscBool)(k->barrier <= most);
-  return (PetscBool)(k->centrality <= most && k->primal <= most && k->dual <= PetscMax(most, ip->kappa_dual));
+  return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
 }
 
 /* mu+ = max(tol/10, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
-static PetscErrorCode Monotone(Tao tao)
+static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscInt most  = tao->niter ? ip->max_mu_later : ip->max_mu_first;
+  const PetscInt limit = tao->niter ? ip->opt.max_mu_later : ip->opt.max_mu_first;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < most; k++) {
+  for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
-    const PetscReal next = PetscMax(ip->tol / 10.0, PetscMin(ip->kappa_mu * mu, PetscPowReal(mu, ip->theta_mu)));
+    const PetscReal next = PetscMax(ip->tol / 10.0, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
 
-    if (!Solved(ip, mu) || next >= mu) break;
+    if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
     PetscCall(IPFilterSetReset(&ip->filter));
     PetscCall(IPComputeKKT(tao));
@@ -50,14 +49,14 @@ static PetscErrorCode Monotone(Tao tao)
 }
 
 /* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it.
-   The second-order term counts for no more than the mean product. */
+   The second-order term counts for no more than a hundred times the mean product. */
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, sigma;
 
   PetscFunctionBegin;
-  PetscCall(IPFractionToBoundary(tao, 1.0, &primal, &dual));
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, 1.0, &primal, &dual));
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
     PetscReal now, next;
 
@@ -66,11 +65,11 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
     before += now;
     after += next;
   }
-  ip->corrector_max = 0.0;
+  ip->bar.corrector_max = 0.0;
   if (!(before > 0.0)) PetscFunctionReturn(0);
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
-  PetscCall(IPBarrierAverage(tao, &before));
-  ip->corrector_max = 100.0 * before;
+  PetscCall(BarrierAverage(tao, &before));
+  ip->bar.corrector_max = 100.0 * before;
   ip->mu            = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
@@ -78,25 +77,25 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
 
 /* Whether the KKT error is below the worst of the last iterates in free mode, which it then replaces there
    (Nocedal, Waechter and Waltz 2009, section 4) */
-static PetscBool Progress(TAO_IPFILTER *ip)
+static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
-  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->error_history);
+  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar.errors);
   PetscReal      worst  = 0.0;
 
-  for (PetscInt k = 0; k < PetscMin(ip->nerror, length); k++) worst = PetscMax(worst, ip->error_history[k]);
-  if (ip->nerror >= length && ip->kkt.error > ip->kappa_progress * worst) return PETSC_FALSE;
-  ip->error_history[ip->nerror++ % length] = ip->kkt.error;
+  for (PetscInt k = 0; k < PetscMin(ip->bar.nerrors, length); k++) worst = PetscMax(worst, ip->bar.errors[k]);
+  if (ip->bar.nerrors >= length && ip->kkt.error > ip->opt.kappa_progress * worst) return PETSC_FALSE;
+  ip->bar.errors[ip->bar.nerrors++ % length] = ip->kkt.error;
   return PETSC_TRUE;
 }
 
 /* Leaves Mehrotra's method for the monotone one, with a mu near the present products */
-static PetscErrorCode Hold(Tao tao)
+static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->free_mu = PETSC_FALSE;
-  PetscCall(IPBarrierAverage(tao, &ip->mu));
+  ip->bar.free = PETSC_FALSE;
+  PetscCall(BarrierAverage(tao, &ip->mu));
   ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));
@@ -107,8 +106,8 @@ static PetscErrorCode Hold(Tao tao)
 PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 {
   PetscFunctionBegin;
-  ((TAO_IPFILTER *)tao->data)->hold = iterations;
-  PetscCall(Hold(tao));
+  ((TAO_IPFILTER *)tao->data)->bar.hold = iterations;
+  PetscCall(BarrierTurnMonotone(tao));
   PetscFunctionReturn(0);
 }
 
@@ -121,15 +120,15 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
   PetscBool     was_free;
 
   PetscFunctionBegin;
-  if (ip->barrier == IP_BARRIER_MONOTONE) {
-    PetscCall(Monotone(tao));
+  if (ip->opt.barrier == IP_BARRIER_MONOTONE) {
+    PetscCall(BarrierMonotone(tao));
     PetscFunctionReturn(0);
   }
-  was_free    = ip->free_mu;
-  ip->free_mu = (PetscBool)(Progress(ip) && ip->hold == 0 && !ip->curved);
-  if (ip->hold > 0) ip->hold--;
-  if (ip->free_mu) PetscFunctionReturn(0);
-  if (was_free) PetscCall(Hold(tao));
-  else PetscCall(Monotone(tao));
+  was_free    = ip->bar.free;
+  ip->bar.free = (PetscBool)(BarrierProgresses(ip) && ip->bar.hold == 0 && !ip->bar.curved);
+  if (ip->bar.hold > 0) ip->bar.hold--;
+  if (ip->bar.free) PetscFunctionReturn(0);
+  if (was_free) PetscCall(BarrierTurnMonotone(tao));
+  else PetscCall(BarrierMonotone(tao));
   PetscFunctionReturn(0);
 }

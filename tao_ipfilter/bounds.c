@@ -41,8 +41,8 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
   IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
 
   PetscFunctionBegin;
-  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, 1.0, trial ? lower->trial : lower->t));
-  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, -1.0, trial ? upper->trial : upper->t));
+  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, lower->sign, trial ? lower->trial : lower->t));
+  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, upper->sign, trial ? upper->trial : upper->t));
   PetscFunctionReturn(0);
 }
 
@@ -76,7 +76,7 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
     PetscInt count = 0;
 
     if (bound) PetscCall(BoundCount(bound, b == IP_LOWER ? tao->XU : tao->XL, &count));
-    if (count && !p->t) PetscCall(IPPairCreate(tao->solution, NULL, p));
+    if (count && !p->t) PetscCall(IPPairCreate(tao->solution, NULL, b == IP_LOWER ? 1.0 : -1.0, p));
     if (!count) PetscCall(IPPairDestroy(p));
     p->n      = count;
     p->weight = w * count;
@@ -111,7 +111,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
     if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
     gap = hasl && hasu ? u - l : PetscMax(PetscAbsReal(hasl ? l : u), size);
     if (gap == 0.0) gap = 1.0;
-    gap *= ip->bound_push;
+    gap *= ip->opt.bound_push;
     if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + gap);
     if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - gap);
   }
@@ -119,5 +119,48 @@ PetscErrorCode IPBoundsPush(Tao tao)
   for (PetscInt k = 0; k < 2; k++)
     if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* dt = dx for lower bounds, -dx for upper ones */
+PetscErrorCode IPBoundsDirection(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (p->n) PetscCall(VecAXPBY(p->dt, p->sign, 0.0, ip->dir.x));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* v += the forces w target / t of the bounds, towards the interior */
+PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(IPPairGetForce(p, force));
+    PetscCall(VecAXPY(v, p->sign, force));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of the bounds on the central path of the present mu */
+PetscErrorCode IPBoundsCenter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
   PetscFunctionReturn(0);
 }

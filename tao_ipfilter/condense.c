@@ -4,7 +4,7 @@
      A d = b,   A = H + Sigma + J^T D J + delta M_u,   D = M_s z/s,
      b = -grad f + J^T (M_s target/s - D (c - s)) + bound terms.
 
-   How H and J^T D J get into A: condensedmat.c.
+   How H and J^T D J get into A: assemble.c.
 */
 #include "ipfilterimpl.h"
 
@@ -12,7 +12,6 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
 {
   PetscFunctionBegin;
   PetscCall(MatDestroy(&c->A));
-  PetscCall(MatDestroy(&c->J));
   PetscCall(MatDestroy(&c->DJ));
   PetscCall(MatDestroy(&c->JtDJ));
   PetscCall(VecDestroy(&c->shift));
@@ -23,65 +22,12 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscFunctionReturn(0);
 }
 
-/* Takes over the inequality Jacobian: an AIJ view of it, scaled and without fixed variables, and the filter's unknowns. Keeps the IS while its entries stay. */
-PetscErrorCode IPCondenseJacobian(Tao tao)
+/* Rows of this rank that J^T D J touches */
+static PetscErrorCode TouchedRows(IPCondensed *cond)
 {
-  TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed     *cond = &ip->cond;
-  Mat              user = tao->jacobian_inequality;
-  PetscObjectState state;
-  PetscBool        aij;
-  Mat              J;
-  IS               filter;
+  PetscInt rstart, rend;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectStateGet((PetscObject)user, &state));
-  if (cond->J && state == cond->J_state && cond->J_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
-  cond->J_state = state;
-  cond->J_id    = ((PetscObject)user)->id;
-  PetscCall(MatGetNonzeroState(user, &cond->J_nonzero));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  PetscCall(MatDestroy(&cond->J));
-  if (aij) {
-    PetscCall(PetscObjectReference((PetscObject)user));
-    J = user;
-  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, &J));
-  PetscCall(IPScalingJacobian(tao, J, ip->cscale, &cond->J));
-  PetscCall(MatDestroy(&J));
-  PetscCall(IPSubspaceFind(tao, &filter));
-  if (cond->filter) {
-    PetscBool same;
-
-    PetscCall(ISEqual(filter, cond->filter, &same));
-    if (same) {
-      PetscCall(ISDestroy(&filter));
-      PetscFunctionReturn(0);
-    }
-    PetscCall(ISDestroy(&cond->filter));
-  }
-  cond->filter = filter;
-  PetscFunctionReturn(0);
-}
-
-/* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
-static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
-{
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed  *cond = &ip->cond;
-  PetscInt      rstart, rend;
-
-  PetscFunctionBegin;
-  *changed = (PetscBool)(!cond->JtDJ || cond->JtDJ_nonzero != cond->J_nonzero || cond->JtDJ_id != cond->J_id);
-  if (*changed) {
-    PetscCall(MatDestroy(&cond->DJ));
-    PetscCall(MatDestroy(&cond->JtDJ));
-    PetscCall(MatDuplicate(cond->J, MAT_COPY_VALUES, &cond->DJ));
-    cond->JtDJ_nonzero = cond->J_nonzero;
-    cond->JtDJ_id      = cond->J_id;
-  } else PetscCall(MatCopy(cond->J, cond->DJ, SAME_NONZERO_PATTERN));
-  PetscCall(MatDiagonalScale(cond->DJ, D, NULL));
-  PetscCall(MatTransposeMatMult(cond->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
-  if (!*changed) PetscFunctionReturn(0);
   PetscCall(PetscFree(cond->rows));
   PetscCall(MatGetOwnershipRange(cond->JtDJ, &rstart, &rend));
   for (PetscInt pass = 0; pass < 2; pass++) {
@@ -101,6 +47,27 @@ static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
+/* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
+static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
+{
+  IPCondensed      *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  const IPJacobian *jac  = &((TAO_IPFILTER *)tao->data)->jac;
+
+  PetscFunctionBegin;
+  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != jac->pattern_state || cond->J_id != jac->pattern_id);
+  if (*changed) {
+    PetscCall(MatDestroy(&cond->DJ));
+    PetscCall(MatDestroy(&cond->JtDJ));
+    PetscCall(MatDuplicate(jac->inequality, MAT_COPY_VALUES, &cond->DJ));
+    cond->J_nonzero = jac->pattern_state;
+    cond->J_id      = jac->pattern_id;
+  } else PetscCall(MatCopy(jac->inequality, cond->DJ, SAME_NONZERO_PATTERN));
+  PetscCall(MatDiagonalScale(cond->DJ, D, NULL));
+  PetscCall(MatTransposeMatMult(jac->inequality, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
+  if (*changed) PetscCall(TouchedRows(cond));
+  PetscFunctionReturn(0);
+}
+
 /* Diagonal of A: that of H plus Sigma of the bounds plus delta M_u. A second shift of zero restores H's diagonal. */
 static PetscErrorCode WriteDiagonal(Tao tao)
 {
@@ -108,18 +75,21 @@ static PetscErrorCode WriteDiagonal(Tao tao)
   IPCondensed       *cond = &ip->cond;
   const PetscScalar *d;
   PetscInt           rstart, rend;
-  PetscBool          shifted = (PetscBool)(ip->delta > 0.0);
+  PetscBool          shifted = (PetscBool)(ip->shift.delta > 0.0);
+  Vec                sigma;
 
   PetscFunctionBegin;
   PetscCall(VecSet(cond->shift, 0.0));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sigma));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
-    PetscCall(IPPairGetSigma(&ip->pair[b], ip->xwork));
-    PetscCall(VecAXPY(cond->shift, 1.0, ip->xwork));
+    PetscCall(IPPairGetSigma(&ip->pair[b], sigma));
+    PetscCall(VecAXPY(cond->shift, 1.0, sigma));
     shifted = PETSC_TRUE;
   }
-  if (ip->delta > 0.0 && ip->primal_mass) PetscCall(VecAXPY(cond->shift, ip->delta, ip->primal_mass));
-  else if (ip->delta > 0.0) PetscCall(VecShift(cond->shift, ip->delta));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sigma));
+  if (ip->shift.delta > 0.0 && ip->given.primal_mass) PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
+  else if (ip->shift.delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift.delta));
   if (!shifted && !cond->shifted) PetscFunctionReturn(0);
   cond->shifted = shifted;
   PetscCall(MatGetDiagonal(tao->hessian, cond->hdiag));
@@ -134,37 +104,41 @@ static PetscErrorCode WriteDiagonal(Tao tao)
 /* Whether nothing is ever added to H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
 }
 
-/* Assembles A = H + Sigma + J^T D J + delta M_u for the given D */
-PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
+/* A = H itself */
+static PetscErrorCode TakeHessian(Tao tao)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)tao->hessian));
+  PetscCall(MatDestroy(&cond->A));
+  cond->A       = tao->hessian;
+  cond->H_state = 0;
+  PetscFunctionReturn(0);
+}
+
+/* A = H + Sigma + J^T D J + delta M_u, writing no more than has changed since the last one */
+static PetscErrorCode WriteSum(Tao tao, Vec D)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
   IPCondensed     *cond = &ip->cond;
   Mat              H    = tao->hessian;
   PetscObjectState state, nonzero;
-  PetscBool        pattern = PETSC_FALSE, all;
+  PetscBool        pattern = PETSC_FALSE, values;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, H, NULL, NULL));
-  ip->nsystems++;
   PetscCall(PetscObjectStateGet((PetscObject)H, &state));
   PetscCall(MatGetNonzeroState(H, &nonzero));
-  if (Unconstrained(ip)) {
-    PetscCall(PetscObjectReference((PetscObject)H));
-    PetscCall(MatDestroy(&cond->A));
-    cond->A       = H;
-    cond->H_state = 0;
-    PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, H, NULL, NULL));
-    PetscFunctionReturn(0);
-  }
   if (ip->mi) {
     PetscCall(UpdateProduct(tao, D, &pattern));
+    PetscCall(IPSubspaceUpdate(tao));
     PetscCall(IPSubspaceSwitch(tao));
   }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
-  all     = (PetscBool)(pattern || state != cond->H_state);
+  values  = (PetscBool)(pattern || state != cond->H_state);
   if (!cond->shift) {
     PetscCall(VecDuplicate(tao->solution, &cond->shift));
     PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
@@ -172,14 +146,27 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   cond->H_state   = state;
   cond->H_nonzero = nonzero;
   cond->H_id      = ((PetscObject)H)->id;
-  PetscCall(IPCondensedWriteHessian(tao, pattern, all));
+  PetscCall(IPCondensedWriteHessian(tao, pattern, values));
   PetscCall(WriteDiagonal(tao));
   if (cond->JtDJ) PetscCall(IPCondensedAddProduct(cond));
   PetscCall(MatAssemblyBegin(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(IPFixedMatrix(tao, cond->A));
   if (cond->filter) PetscCall(PetscObjectCompose((PetscObject)cond->A, PCAMGF_FILTER_KEY, (PetscObject)cond->filter));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, H, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Assembles A for the given D */
+PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
+  ip->rec.nsystems++;
+  if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
+  else PetscCall(WriteSum(tao, D));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -189,44 +176,37 @@ PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(tao->gradient, b));
-  PetscCall(VecScale(b, -1.0));
+  PetscCall(VecAXPBY(b, -1.0, 0.0, tao->gradient));
   if (ip->mi) {
-    PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], ip->cwork));
-    PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, rc));
-    PetscCall(IPPairGetForce(&ip->pair[IP_SLACK], ip->cwork2));
-    PetscCall(VecAYPX(ip->cwork, -1.0, ip->cwork2));
-    PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, b, b));
+    Vec pressure, force;
+
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &pressure));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], pressure));
+    PetscCall(VecPointwiseMult(pressure, pressure, rc));
+    PetscCall(IPPairGetForce(&ip->pair[IP_SLACK], force));
+    PetscCall(VecAYPX(pressure, -1.0, force));
+    PetscCall(MatMultTransposeAdd(ip->jac.inequality, pressure, b, b));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &pressure));
   }
-  for (PetscInt k = IP_LOWER; k <= IP_UPPER; k++) {
-    if (!ip->pair[k].n) continue;
-    PetscCall(IPPairGetForce(&ip->pair[k], ip->xwork));
-    PetscCall(VecAXPY(b, k == IP_LOWER ? 1.0 : -1.0, ip->xwork));
-  }
+  PetscCall(IPBoundsAddForces(tao, b));
   PetscFunctionReturn(0);
 }
 
 /* Slack, multiplier and bound directions from dx: ds = J dx + rc, lambda + dlambda = target/s - (z/s) ds */
 PetscErrorCode IPBackSubstitute(Tao tao, Vec rc)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
 
   PetscFunctionBegin;
+  if (ip->mi) PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, rc, slack->dt));
+  PetscCall(IPBoundsDirection(tao));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDualDirection(&ip->pair[b]));
   if (ip->mi) {
-    IPPair *slack = &ip->pair[IP_SLACK];
-
-    PetscCall(MatMultAdd(ip->cond.J, ip->dx, rc, slack->dt));
-    PetscCall(IPPairDualDirection(slack));
-    PetscCall(VecWAXPY(ip->dlambda, 1.0, slack->z, slack->dz));
-    PetscCall(VecAXPY(ip->dlambda, -1.0, ip->lambda));
-  }
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(VecCopy(ip->dx, p->dt));
-    if (b == IP_UPPER) PetscCall(VecScale(p->dt, -1.0));
-    PetscCall(IPPairDualDirection(p));
+    PetscCall(VecWAXPY(ip->dir.lambda, 1.0, slack->z, slack->dz));
+    PetscCall(VecAXPY(ip->dir.lambda, -1.0, ip->at.lambda));
   }
   PetscFunctionReturn(0);
 }

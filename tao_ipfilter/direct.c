@@ -3,6 +3,7 @@
    positive definite. MUMPS's analysis estimates the memory before anything large is allocated.
 */
 #include "ipfilterimpl.h"
+#include "../pc_amgf/mumps.h"
 
 PetscErrorCode IPDirectDestroy(IPDirect *direct)
 {
@@ -14,7 +15,7 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
 }
 
 /* A as MUMPS takes a symmetric matrix, AIJ or SBAIJ; NULL where PETSc has no MUMPS for it */
-static PetscErrorCode TakeMatrix(Mat A, Mat *taken)
+static PetscErrorCode DirectTakeMatrix(Mat A, Mat *taken)
 {
   PetscBool baij, mumps;
   MatType   type;
@@ -28,7 +29,7 @@ static PetscErrorCode TakeMatrix(Mat A, Mat *taken)
     *taken = A;
   }
   PetscCall(MatGetType(*taken, &type));
-  PetscCall(MatSolverTypeGet(MATSOLVERMUMPS, type, MAT_FACTOR_CHOLESKY, NULL, &mumps, NULL));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_CHOLESKY, &mumps));
   if (!mumps) PetscCall(MatDestroy(taken));
   else PetscCall(MatSetOption(*taken, MAT_SYMMETRIC, PETSC_TRUE));
   PetscFunctionReturn(0);
@@ -36,7 +37,7 @@ static PetscErrorCode TakeMatrix(Mat A, Mat *taken)
 
 /* Analysis, with the given percentage of memory beyond its estimate; *memory: what the factors will take, in 1e6 bytes over all ranks,
    negative where the analysis failed */
-static PetscErrorCode Analyse(Tao tao, PetscInt relaxation, PetscReal *memory)
+static PetscErrorCode DirectAnalyse(Tao tao, PetscInt relaxation, PetscReal *memory)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
   IPDirect      *direct = &ip->direct;
@@ -52,20 +53,20 @@ static PetscErrorCode Analyse(Tao tao, PetscInt relaxation, PetscReal *memory)
   PetscCall(TaoGetOptionsPrefix(tao, &prefix));
   PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
   PetscCall(MatSetOptionsPrefix(direct->F, own));
-  PetscCall(MatMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
-  PetscCall(MatMumpsSetIcntl(direct->F, 14, relaxation));
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 14, relaxation));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
   PetscCall(MatFactorGetError(direct->F, &error));
   *memory = -1.0;
   if (error != MAT_FACTOR_NOERROR) PetscFunctionReturn(0);
-  PetscCall(MatMumpsGetInfog(direct->F, 17, &estimate));
+  PetscCall(AMGFMumpsGetInfog(direct->F, 17, &estimate));
   *memory = (PetscReal)estimate;
   PetscFunctionReturn(0);
 }
 
 /* What the matrix itself takes, which the factors exceed, in 1e6 bytes: too much of that needs no analysis */
-static PetscErrorCode LeastMemory(Mat A, PetscReal *memory)
+static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 {
   MatInfo info;
 
@@ -76,12 +77,12 @@ static PetscErrorCode LeastMemory(Mat A, PetscReal *memory)
 }
 
 /* Factors the present matrix unless it is; *factored is false where it cannot be, for which the record then has a reason */
-static PetscErrorCode Factor(Tao tao, PetscBool *factored, PetscBool *singular)
+static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
 {
   TAO_IPFILTER  *ip         = (TAO_IPFILTER *)tao->data;
   IPDirect      *direct     = &ip->direct;
   PetscInt       relaxation = 20;
-  const PetscInt most       = 320;
+  const PetscInt limit      = 320;
   PetscReal      memory     = 0.0;
   MatFactorError error      = MAT_FACTOR_OUTMEMORY;
   MatFactorInfo  info;
@@ -90,17 +91,17 @@ static PetscErrorCode Factor(Tao tao, PetscBool *factored, PetscBool *singular)
   *factored = *singular = PETSC_FALSE;
   PetscCall(IPDirectDestroy(direct));
   PetscCall(MatFactorInfoInitialize(&info));
-  PetscCall(LeastMemory(ip->cond.A, &memory));
-  if (memory <= ip->direct_memory) PetscCall(TakeMatrix(ip->cond.A, &direct->A));
-  if (memory <= ip->direct_memory && !direct->A) {
-    PetscCall(PetscStrncpy(ip->linear_reason, "no MUMPS to factor the whole matrix", sizeof(ip->linear_reason)));
+  PetscCall(DirectLeastMemory(ip->cond.A, &memory));
+  if (memory <= ip->opt.direct_memory) PetscCall(DirectTakeMatrix(ip->cond.A, &direct->A));
+  if (memory <= ip->opt.direct_memory && !direct->A) {
+    PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
     PetscFunctionReturn(0);
   }
   /* more work space each time that MUMPS finds its own estimate too small */
-  for (; error == MAT_FACTOR_OUTMEMORY && relaxation <= most; relaxation *= 2) {
-    if (memory <= ip->direct_memory) PetscCall(Analyse(tao, relaxation, &memory));
-    if (memory > ip->direct_memory) {
-      PetscCall(PetscSNPrintf(ip->linear_reason, sizeof(ip->linear_reason), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->direct_memory));
+  for (; error == MAT_FACTOR_OUTMEMORY && relaxation <= limit; relaxation *= 2) {
+    if (memory <= ip->opt.direct_memory) PetscCall(DirectAnalyse(tao, relaxation, &memory));
+    if (memory > ip->opt.direct_memory) {
+      PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
       break;
     }
     error = MAT_FACTOR_OTHER;
@@ -112,15 +113,15 @@ static PetscErrorCode Factor(Tao tao, PetscBool *factored, PetscBool *singular)
   }
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
-  if (*factored) direct->system = ip->nsystems;
+  if (*factored) direct->system = ip->rec.nsystems;
   else {
     PetscCall(IPDirectDestroy(direct));
-    if (memory <= ip->direct_memory) PetscCall(PetscStrncpy(ip->linear_reason, "MUMPS failed on the whole matrix", sizeof(ip->linear_reason)));
+    if (memory <= ip->opt.direct_memory) PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Apply(Tao tao, Vec r, Vec e)
+static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
 {
   PetscFunctionBegin;
   PetscCall(MatSolve(((TAO_IPFILTER *)tao->data)->direct.F, r, e));
@@ -136,16 +137,16 @@ PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 
   PetscFunctionBegin;
   *verdict = IP_LINEAR_FAILED;
-  if (!direct->F || direct->system != ip->nsystems) {
-    PetscCall(Factor(tao, &factored, &singular));
+  if (!direct->F || direct->system != ip->rec.nsystems) {
+    PetscCall(DirectFactor(tao, &factored, &singular));
     if (factored) PetscCall(MatGetInertia(direct->F, &direct->negative, NULL, NULL));
   }
   if (singular || (factored && direct->negative)) *verdict = IP_LINEAR_INDEFINITE;
   if (!factored || direct->negative) PetscFunctionReturn(0);
-  PetscCall(Apply(tao, b, d));
-  PetscCall(IPMeasureResidual(tao, b, d));
-  PetscCall(IPLinearRefine(tao, b, d, PETSC_TRUE, Apply, KSP_CONVERGED_ITS));
-  if (IPLinearReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
-  else PetscCall(PetscSNPrintf(ip->linear_reason, sizeof(ip->linear_reason), "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->backward_error));
+  PetscCall(DirectApply(tao, b, d));
+  PetscCall(IPResidualMeasure(tao, b, d));
+  PetscCall(IPResidualRefine(tao, b, d, PETSC_TRUE, DirectApply, KSP_CONVERGED_ITS));
+  if (IPResidualReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
+  else PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->lin.backward_error));
   PetscFunctionReturn(0);
 }

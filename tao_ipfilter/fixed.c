@@ -29,9 +29,9 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
   SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Variable %" PetscInt_FMT " has lower bound %g above upper bound %g", worst, (double)bounds[0], (double)bounds[1]);
 }
 
-/* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. What was condensed
-   with another set is dropped. */
-PetscErrorCode IPFixedSetUp(Tao tao)
+/* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. *changed: it is another one
+   than in the last solve. */
+PetscErrorCode IPFixedSetUp(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   const PetscScalar *l, *u;
@@ -62,7 +62,7 @@ PetscErrorCode IPFixedSetUp(Tao tao)
     PetscCall(PetscFree(idx));
   }
   if (fixed && ip->fixed) PetscCall(ISEqual(fixed, ip->fixed, &same));
-  if (!same && (fixed || ip->fixed)) PetscCall(IPCondensedDestroy(&ip->cond));
+  *changed = (PetscBool)(!same && (fixed || ip->fixed));
   PetscCall(ISDestroy(&ip->fixed));
   ip->fixed = fixed;
   PetscFunctionReturn(0);
@@ -89,6 +89,6 @@ PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
   PetscCall(PetscObjectTypeCompare((PetscObject)A, MATMPISBAIJ, &sbaij));
   PetscCheck(!sbaij, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "Variables with equal bounds need a Hessian of type AIJ or BAIJ on more than one rank, not SBAIJ");
   PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
-  PetscCall(MatZeroRowsColumnsIS(A, ip->fixed, ip->hscale, NULL, NULL));
+  PetscCall(MatZeroRowsColumnsIS(A, ip->fixed, ip->stiff.hscale, NULL, NULL));
   PetscFunctionReturn(0);
 }

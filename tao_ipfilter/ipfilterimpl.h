@@ -9,6 +9,16 @@
    so that c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
 
    Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x.
+
+   The files, each calling none but those above it in this list:
+
+     problem  log, work, pairs, iterate, fixed, bounds, rowscale, jacobian, evaluate, difference
+     measure  stiffness, scale, kkt
+     system   assemble, subspace, condense
+     linear   residual, krylov, direct, linsolve, augmented
+     step     filter, merit, barrier, regularize, direction, linesearch, penalty, start, relax, restore
+     driver   reason, convergence, monitor, setup, solve
+     type     opts, view, api, ipfilter
 */
 #ifndef IPFILTERIMPL_H
 #define IPFILTERIMPL_H
@@ -25,7 +35,7 @@ typedef enum {
 typedef enum {
   IP_BARRIER_MONOTONE,
   IP_BARRIER_MEHROTRA
-} IPBarrier;
+} IPBarrierRule;
 typedef enum {
   IP_KKT_RELATIVE,
   IP_KKT_MASS
@@ -39,6 +49,52 @@ typedef enum {
   IP_SCALING_NONE
 } IPScaling;
 
+/* What the user may choose; the names are those of the options in opts.c */
+typedef struct {
+  PetscReal     acceptable_tol;
+  PetscInt      acceptable_it;
+  IPStart       start;
+  IPBarrierRule barrier;
+  IPKKTMeasure  measure;
+  IPForcing     forcing;
+  IPScaling     scaling;
+  PetscBool     monitor;
+  PetscReal     delta_equality, kappa_progress;
+  PetscReal     mu0, s0, z0, mu_start, mu_warm, forcing_start;
+  PetscReal     kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
+  PetscInt      max_mu_first, max_mu_later;
+  PetscReal     gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
+  PetscInt      max_soc;
+  PetscReal     kappa_soc;
+  PetscReal     forcing_max, forcing_reduce, forcing_last;
+  PetscReal     kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
+  PetscReal     filter_threshold, filter_switch, row_ratio;
+  PetscReal     bound_push, unbounded_factor;
+  PetscReal     direct_memory;
+  PetscBool     direct_always;
+} IPOptions;
+
+/* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
+typedef struct {
+  Vec slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
+  Vec warm_s, warm_z;          /* starting slacks and multipliers */
+} IPGiven;
+
+/* Layouts of scratch vectors: unknowns, inequality and equality constraints */
+typedef enum {
+  IP_UNKNOWNS,
+  IP_INEQUALITIES,
+  IP_EQUALITIES,
+  IP_NSPACES
+} IPSpace;
+
+/* Scratch vectors; whoever gets one gives it back */
+#define IP_MAX_WORK 8
+typedef struct {
+  Vec       v[IP_NSPACES][IP_MAX_WORK]; /* made when first asked for */
+  PetscBool lent[IP_NSPACES][IP_MAX_WORK];
+} IPWork;
+
 /* Blocks of complementarity pairs */
 enum {
   IP_SLACK,
@@ -50,6 +106,7 @@ enum {
 /* Pairs (t_i, z_i), t_i z_i -> mu. Where a bound is absent t is PETSC_INFINITY and z is zero. */
 typedef struct {
   PetscInt  n;      /* pairs present, over all ranks; the vectors are NULL when there are none */
+  PetscReal sign;   /* of t's change with x, or with c_I: -1 for upper bounds, +1 for the others */
   PetscReal weight; /* sum of the weights of the pairs present */
   Vec       w;      /* weights m_i */
   Vec       t, z;   /* distance to the boundary and its multiplier */
@@ -58,16 +115,52 @@ typedef struct {
   Vec       trial;  /* t at a trial point */
 } IPPair;
 
-/* What came of a linear solve */
-typedef enum {
-  IP_LINEAR_SOLVED,
-  IP_LINEAR_INDEFINITE, /* the matrix is not positive definite */
-  IP_LINEAR_FAILED      /* the solver has failed, which says nothing about the matrix */
-} IPLinearVerdict;
+/* An iterate, or what of it is known of another point: the members that are not kept are NULL */
+typedef struct {
+  Vec       x, c, ce;     /* the point, c_I and c_E there */
+  Vec       s, lambda, y; /* slacks, multipliers of c_I (a density: the force is M lambda) and of c_E */
+  Vec       z[IP_NPAIRS]; /* multipliers of the pairs */
+  PetscReal f;
+} IPIterate;
 
-#define IP_TINY_STEP       (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
-#define IP_LEAST_SLACK     1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
-#define IP_MANY_ITERATIONS 500 /* of a Krylov method, when others of the same problem took few */
+/* A direction. Those of slacks, of the distances to bounds and of the pairs' multipliers stand in the pairs and follow from x. */
+typedef struct {
+  Vec       x, lambda, y;
+  PetscReal norm; /* largest entry of x */
+} IPDirection;
+
+/* The constraints' Jacobians as the iteration sees them: rows scaled, columns of fixed variables zeroed */
+typedef struct {
+  Mat              inequality; /* AIJ */
+  Mat              equality;
+  PetscObjectId    user_id;              /* the caller's inequality Jacobian that this one came from, */
+  PetscObjectState user_state;           /* with these values */
+  PetscObjectId    pattern_id;           /* which pattern: two stamps alike have the same */
+  PetscObjectState pattern_state;
+} IPJacobian;
+
+/* Scales of the rows of c_I and c_E; NULL: 1 */
+typedef struct {
+  Vec inequality, equality;
+} IPRowScale;
+
+/* Sizes at the starting point */
+typedef struct {
+  PetscReal f, gradient; /* objective and norm of its gradient */
+  PetscReal length;      /* of c_I */
+  PetscReal equality;    /* of c_E */
+  PetscReal x;
+  PetscReal jacobian;    /* largest row sum of |J| */
+  PetscReal floor;       /* what rounding leaves of the gradient */
+} IPFirst;
+
+/* Stiffness of the objective at the start, from the diagonal of H */
+typedef struct {
+  Vec       rho;    /* pressure per length that resists each constraint */
+  PetscReal mean;   /* harmonic mean of rho, weighted */
+  Vec       hdiag;  /* |diagonal of H| */
+  PetscReal hscale; /* its mean */
+} IPStiffness;
 
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
 typedef struct {
@@ -83,11 +176,83 @@ typedef struct {
   PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
   PetscReal centrality;                    /* as complementarity, for the present mu */
   PetscReal error;                         /* max(dual, primal, complementarity): decides convergence */
-  PetscReal barrier;                       /* max(dual, primal, centrality): decides when mu is reduced */
   PetscReal unscaled;                      /* largest absolute entry of all residuals, mu = 0 */
   PetscReal dual_norm;                     /* 2-norm of the stationarity residual */
   PetscReal inf_pr, inf_du;                /* largest absolute entries of the primal and the dual residual */
 } IPKKT;
+
+/* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
+typedef struct {
+  Mat              A;
+  Mat              DJ, JtDJ;               /* D J, J^T D J */
+  Vec              shift;                  /* Sigma + delta M_u, the diagonal added to H */
+  Vec              hdiag;                  /* diagonal of H, kept while a shift is added to it */
+  PetscBool        shifted;                /* A's diagonal holds a shift */
+  PetscObjectId    H_id;                   /* which H A was assembled from, */
+  PetscObjectState H_state, H_nonzero;     /* with which values and pattern */
+  PetscObjectId    J_id;                   /* which Jacobian the product's pattern came from, */
+  PetscObjectState J_nonzero;              /* with which pattern */
+  PetscObjectId    filter_id;              /* which Jacobian the filter came from, */
+  PetscObjectState filter_state;           /* with which values */
+  PetscInt         nrows;                  /* rows of this rank touched by J^T D J */
+  PetscInt        *rows;
+  IS               filter;                 /* composed on A under PCAMGF_FILTER_KEY */
+} IPCondensed;
+
+/* What came of a linear solve */
+typedef enum {
+  IP_LINEAR_SOLVED,
+  IP_LINEAR_INDEFINITE, /* the matrix is not positive definite */
+  IP_LINEAR_FAILED      /* the solver has failed, which says nothing about the matrix */
+} IPLinearVerdict;
+
+/* The present linear system and its last solve */
+typedef struct {
+  KSP                flexible;        /* for corrections; NULL until one is needed */
+  Vec                residual;        /* b - A d */
+  PetscReal          target, rhs;     /* ||b - A d|| asked for, and ||b|| */
+  PetscReal          norm;            /* ||b - A d||, */
+  PetscReal          backward_error;  /* and over the terms it is the difference of */
+  PetscInt           its, limit;      /* Krylov iterations, and their limit */
+  PetscInt           longest;         /* largest number of them in a solve that gave a direction */
+  KSPConvergedReason reason;
+  PetscBool          failed;          /* no solver gave a direction, for reasons other than the matrix's inertia */
+  char               why[128];        /* why the last remedy did not help */
+  PetscInt           ndirect;         /* solves in a row that only MUMPS could do */
+  PetscBool          filtered;        /* preconditioned with the filter */
+  PetscBool          filter_forced;   /* the filter stays on */
+} IPLinear;
+
+/* The condensed matrix factored by MUMPS, where the Krylov method fails */
+typedef struct {
+  Mat      A, F;     /* the matrix as MUMPS takes it, and its factors */
+  PetscInt system;   /* which condensed matrix that was, by rec.nsystems */
+  PetscInt negative; /* its negative pivots */
+} IPDirect;
+
+/* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
+typedef struct {
+  KSP       ksp;
+  Mat       K;
+  Mat       shift; /* -delta I */
+  PetscReal delta; /* regularization of dependent equality constraints */
+  Vec       rhs, sol, residual, correction;
+} IPAugmented;
+
+/* The multiple delta of M_u that is added to the Hessian */
+typedef struct {
+  PetscReal delta, last; /* now, and of the last step that had one */
+} IPShift;
+
+/* How mu is chosen */
+typedef struct {
+  PetscBool free;          /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
+  PetscReal corrector_max; /* mehrotra: bound of the second-order term */
+  PetscReal errors[4];     /* KKT errors that the free mode must improve on */
+  PetscInt  nerrors;
+  PetscBool curved;        /* a step has shown constraints that are not linear, or an objective that is not convex */
+  PetscInt  hold;          /* mehrotra: iterations left in the monotone mode that a failed line search called for */
+} IPBarrier;
 
 /* Pairs (theta, phi) that no later iterate may be dominated by */
 typedef struct {
@@ -95,148 +260,80 @@ typedef struct {
   PetscReal *theta, *phi;
 } IPFilterSet;
 
-/* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
+/* The line search: measures of the present iterate, their units, and the last step */
 typedef struct {
-  Mat              A;
-  Mat              J, DJ, JtDJ;              /* Jacobian as AIJ, D J, J^T D J */
-  Vec              shift;                    /* Sigma + delta M_u, the diagonal added to H */
-  Vec              hdiag;                    /* diagonal of H, kept while a shift is added to it */
-  PetscBool        shifted;                  /* A's diagonal holds a shift */
-  PetscObjectState H_state, H_nonzero;       /* of the H that A was assembled from */
-  PetscObjectId    H_id, J_id, JtDJ_id;      /* which H, which Jacobian, and which Jacobian the product came from */
-  PetscObjectState J_state, J_nonzero;       /* of the caller's Jacobian that J and the filter came from */
-  PetscObjectState JtDJ_nonzero;             /* of the caller's Jacobian that the product's pattern came from */
-  PetscInt         nrows;                    /* rows of this rank touched by J^T D J */
-  PetscInt        *rows;
-  IS               filter;                   /* composed on A under PCAMGF_FILTER_KEY */
-} IPCondensed;
+  PetscReal theta, phi;
+  PetscReal theta0;                     /* at the first iterate; negative: none yet */
+  PetscReal theta_ref, phi_ref;         /* units */
+  PetscReal equality_weight;            /* brings c_E to the units of theta */
+  PetscReal rounding;                   /* changes of phi below this mean nothing */
+  PetscReal alpha, alpha_dual;
+  PetscInt  ntrials;
+  char      tag;                        /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
+} IPSearch;
 
-/* The condensed matrix factored by MUMPS, where the Krylov method fails */
+/* Relaxation of constraints without an interior */
 typedef struct {
-  Mat      A, F;     /* the matrix as MUMPS takes it, and its factors */
-  PetscInt system;   /* which condensed matrix that was, by ip->nsystems */
-  PetscInt negative; /* its negative pivots */
-} IPDirect;
+  PetscReal by;          /* what c_I is raised by */
+  PetscReal least_slack; /* that the last step left */
+  PetscInt  nvanished;   /* iterates in a row that have a slack of next to nothing */
+} IPRelaxation;
 
-/* The symmetric system [A J_E^T; J_E -delta_c] that equality constraints lead to, and its factorization */
+/* Feasibility restoration */
 typedef struct {
-  KSP ksp;
-  Mat K;
-  Mat shift; /* -delta_c I */
-  Vec rhs, sol, sol2, correction;
-} IPAugmented;
+  PetscReal zeta; /* weight of the distance from the last point against the violation */
+  Vec       D;    /* m/zeta in the violated rows */
+} IPRestoration;
 
+/* What a TaoSolve() did */
 typedef struct {
-  /* iterate and direction beside tao->solution and the pairs */
-  Vec       c, lambda;          /* c_I and its multipliers (a density: the force is M lambda) */
-  Vec       rc;                 /* c_I - s */
-  Vec       rx;                 /* grad f - J^T M lambda - bound multipliers */
-  Vec       dx, dlambda;
-  PetscReal f;
-  Vec       ce, y, dy;          /* c_E, its multipliers and their direction; NULL without equality constraints */
-  Mat       JE;                 /* their Jacobian as the iteration sees it */
-  PetscInt  me;                 /* equality constraints, all ranks */
-  Vec       cscale, cescale;    /* scales of the rows of c_I and c_E; NULL: 1 */
-  Vec       xtrial, ctrial, cetrial;
-  Vec       xbest, sbest, zbest, lambdabest, ybest; /* iterate of smallest KKT error */
-  Vec       dxfirst, dyfirst, rcsoc, cesoc;         /* second-order correction: the direction before it, its residuals */
-  PetscReal ftrial, fbest;
-  Vec       xwork, xwork2, cwork, cwork2, rhs;
-  Vec       residual, correction;    /* b - A d of the last linear solve, and what refines d */
-  KSP       flexible;                /* for corrections; NULL until one is needed */
-  Vec       slack_mass, primal_mass; /* the caller's M_s and M_u; NULL means 1 */
-  Vec       warm_s, warm_z;          /* the caller's starting values */
-  Vec       stiffness;               /* rho: pressure per length that resists each constraint, from the diagonal of H */
-  PetscReal stiffness_mean;          /* harmonic mean of rho, weighted */
-  PetscReal jnorm;                   /* largest row sum of |J| at the start */
-  Vec       hdiag;                   /* |diagonal of H| at the start */
-  IS        fixed;                   /* variables of this rank with equal bounds; NULL if no rank has one */
-  PetscInt  mi;                      /* inequality constraints, all ranks */
-  PetscReal f0, gradient0, length0, equality0, xsize0; /* objective, norm of its gradient and sizes of c_I, c_E and x at the start */
-  PetscReal floor0;                  /* what rounding leaves of the gradient there */
-
-  IPPair      pair[IP_NPAIRS];
-  IPCondensed cond;
-  IPAugmented aug;
-  IPDirect    direct;
-  IPFilterSet filter;
-  IPScale     scale;
-  IPKKT       kkt;
-
-  /* barrier */
-  PetscReal mu;
-  PetscReal corrector_max;           /* mehrotra: bound of the second-order term */
-  PetscBool free_mu;                 /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
-  PetscReal error_history[4];        /* KKT errors that the free mode must improve on */
-  PetscInt  nerror;
-  PetscBool curved;                  /* a step has shown constraints that are not linear, or an objective that is not convex */
-  PetscInt  hold;                    /* mehrotra: iterations left in the monotone mode that a failed line search called for */
-
-  /* line search */
-  PetscReal theta, phi, theta0, theta_ref, phi_ref;
-  PetscReal equality_weight;         /* brings c_E to the units of theta */
-  PetscReal rounding;                /* changes of phi below this mean nothing */
-  PetscReal alpha_primal, alpha_dual;
-  PetscInt  nls;
-  char      step_tag;                /* how the step was accepted: f, h, F, H (second-order correction), T */
-
-  /* restoration */
-  PetscReal zeta;                    /* weight of the distance from the last point against the violation */
-  PetscInt  nrestored;               /* restorations in this solve */
-  PetscReal relaxed;                 /* what c_I is raised by, for constraints without an interior */
-  PetscReal least_slack;             /* that the last step left */
-  PetscInt  nvanished;               /* iterates in a row that have a slack of next to nothing */
-
-  /* regularization */
-  PetscReal delta, delta_last, hscale;
-  PetscInt  nregularized, nretried;  /* steps taken with a shifted Hessian, and systems solved to find the shift */
-  PetscReal delta_largest;           /* largest shift a step was taken with */
-  PetscReal delta_c;                 /* regularization of dependent equality constraints */
-
-  /* record */
-  PetscInt  niter_ksp, max_ksp, *ksp_iterations; /* Krylov iterations of every linear solve */
-  PetscInt  most_ksp;                            /* most of them in a solve that gave a direction */
-  PetscInt  ksp_last, linear_limit;              /* iterations of the last solve, and their limit */
-  PetscReal linear_target, linear_rhs;           /* ||b - A d|| asked of the last solve, and ||b|| */
-  PetscReal linear_residual, backward_error;     /* ||b - A d|| of the last solve, and over the terms it is the difference of */
-  PetscBool linear_failed;                       /* no solver gave the last direction, for reasons other than the matrix's inertia */
-  char      linear_reason[128];                  /* why the last resort did not help */
-  PetscInt  ndirect;                             /* solves in a row that only the last resort could do */
-  PetscBool filter_forced;                       /* the filter stays on */
+  PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
+  PetscInt             nsystems, nfiltered;             /* condensed matrices, and those preconditioned with the filter */
   TaoIPFilterFallbacks fallbacks;
-  PetscInt  nsystems, nfiltered;                 /* condensed matrices, and those preconditioned with the filter */
-  PetscBool filtered;                            /* the present one is */
-  PetscReal best_error;
-  PetscInt  ntiny;                               /* steps in a row that are as small as rounding */
-  PetscInt  nacceptable;                         /* iterates in a row within the acceptable tolerance */
-  KSPConvergedReason ksp_reason;                 /* of the last solve */
-  PetscReal dx_norm;
-  char      reason[256];
+  PetscInt             nregularized, nretried;          /* steps taken with a shifted Hessian, and systems solved to find the shift */
+  PetscReal            delta_largest;                   /* largest shift a step was taken with */
+  PetscInt             nrestored;                       /* restorations */
+  PetscInt             ntiny;                           /* steps in a row that are as small as rounding */
+  PetscInt             nacceptable;                     /* iterates in a row within the acceptable tolerance */
+  PetscReal            best_error;                      /* KKT error of the best iterate */
+  char                 reason[256];
+} IPRecord;
 
-  /* options */
-  PetscReal    tol; /* of this solve: tao->gatol */
-  PetscReal    acceptable_tol;
-  PetscInt     acceptable_it;
-  IPStart      start;
-  IPBarrier    barrier;
-  IPKKTMeasure measure;
-  IPForcing    forcing;
-  IPScaling    scaling;
-  PetscBool    monitor;
-  PetscReal    delta_equality, kappa_progress;
-  PetscReal    mu0, s0, z0, mu_start, mu_warm, forcing_start;
-  PetscReal    kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
-  PetscInt     max_mu_first, max_mu_later;
-  PetscReal    gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
-  PetscInt     max_soc;
-  PetscReal    kappa_soc;
-  PetscReal    forcing_max, forcing_reduce, forcing_last;
-  PetscReal    kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal    filter_threshold, filter_switch, row_ratio;
-  PetscReal    bound_push, unbounded_factor;
-  PetscReal    direct_memory;
-  PetscBool    direct_always;
+typedef struct {
+  IPOptions     opt;
+  PetscReal     tol; /* of this solve: tao->gatol */
+  IPGiven       given;
+  IPWork        work;
+  PetscInt      mi, me; /* inequality and equality constraints, all ranks */
+  IS            fixed;  /* variables of this rank with equal bounds; NULL if no rank has one */
+  IPRowScale    rows;
+  IPJacobian    jac;
+  IPPair        pair[IP_NPAIRS];
+  IPIterate     at, best, trial; /* at.x is tao->solution; at.s and at.z are the pairs'; best: smallest KKT error */
+  IPDirection   dir;
+  Vec           rx, rc; /* grad f - J^T M lambda + J_E^T y - bound multipliers, and c_I - s */
+  IPFirst       first;
+  IPStiffness   stiff;
+  IPScale       scale;
+  IPKKT         kkt;
+  IPCondensed   cond;
+  IPLinear      lin;
+  IPDirect      direct;
+  IPAugmented   aug;
+  IPShift       shift;
+  PetscReal     mu;
+  IPBarrier     bar;
+  IPFilterSet   filter;
+  IPSearch      search;
+  IPRelaxation  relax;
+  IPRestoration restore;
+  IPRecord      rec;
 } TAO_IPFILTER;
+
+#define IP_TINY_STEP       (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
+#define IP_LEAST_SLACK     1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
+#define IP_CLOSE           1e-6  /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
+#define IP_MANY_ITERATIONS 500   /* of a Krylov method, when others of the same problem took few */
 
 /* No value of a function there: NaN, or infinite, be it C's infinity or PETSc's large number */
 static inline PetscBool IPUndefined(PetscReal value)
@@ -244,111 +341,132 @@ static inline PetscBool IPUndefined(PetscReal value)
   return (PetscBool)(PetscIsInfOrNanReal(value) || PetscAbsReal(value) >= PETSC_INFINITY);
 }
 
+/* ---- problem ---- */
+
+/* log.c */
 PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
+PETSC_INTERN PetscErrorCode IPLogRegister(void);
+
+/* work.c */
+PETSC_INTERN PetscErrorCode IPGetWork(Tao, IPSpace, Vec *);
+PETSC_INTERN PetscErrorCode IPRestoreWork(Tao, IPSpace, Vec *);
+PETSC_INTERN PetscErrorCode IPWorkDestroy(IPWork *);
 
 /* pairs.c */
-PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, IPPair *);
+PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, PetscReal sign, IPPair *);
 PETSC_INTERN PetscErrorCode IPPairDestroy(IPPair *);
-PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal mu, PetscReal corrector_max);
+PETSC_INTERN PetscErrorCode IPPairCenter(IPPair *, PetscReal mu);
 PETSC_INTERN PetscErrorCode IPPairGetSigma(const IPPair *, Vec);
 PETSC_INTERN PetscErrorCode IPPairGetForce(const IPPair *, Vec);
 PETSC_INTERN PetscErrorCode IPPairDualDirection(IPPair *);
-PETSC_INTERN PetscErrorCode IPPairMaxStep(Vec, Vec, PetscReal, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairLogSum(const IPPair *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairLogSlope(const IPPair *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairProducts(const IPPair *, PetscReal, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairStepProducts(const IPPair *, PetscReal, PetscReal, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPPairSafeguard(IPPair *, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairLift(IPPair *, Vec, PetscReal, PetscReal);
-PETSC_INTERN PetscErrorCode IPPairMoveTrial(IPPair *, PetscReal);
+PETSC_INTERN PetscErrorCode IPPairWeightedSquare(Tao, Vec, PetscReal *);
+PETSC_INTERN PetscErrorCode IPCentralPair(Vec, Vec, PetscReal, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual);
+
+/* iterate.c */
+PETSC_INTERN PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *);
+PETSC_INTERN PetscErrorCode IPIterateBind(Tao);
+PETSC_INTERN PetscErrorCode IPIterateCopyPoint(const IPIterate *, IPIterate *);
+PETSC_INTERN PetscErrorCode IPIterateCopy(const IPIterate *, IPIterate *);
+PETSC_INTERN PetscErrorCode IPIterateDestroy(IPIterate *);
+PETSC_INTERN PetscErrorCode IPDirectionCreate(Vec x, Vec c, Vec ce, IPDirection *);
+PETSC_INTERN PetscErrorCode IPDirectionCopy(const IPDirection *, IPDirection *);
+PETSC_INTERN PetscErrorCode IPDirectionDestroy(IPDirection *);
 
 /* fixed.c */
 PETSC_INTERN PetscBool      IPIsFixed(PetscScalar, PetscScalar);
-PETSC_INTERN PetscErrorCode IPFixedSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPFixedSetUp(Tao, PetscBool *changed);
 PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
-
-/* scaling.c */
-PETSC_INTERN PetscErrorCode IPScalingSetUp(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPScalingReset(Tao);
-PETSC_INTERN PetscErrorCode IPScalingJacobian(Tao, Mat, Vec, Mat *);
-PETSC_INTERN PetscErrorCode IPScalingPair(Tao, Vec, Vec, PetscBool);
-PETSC_INTERN PetscErrorCode IPScalingNorm(Vec, Vec, Vec, PetscReal *);
 
 /* bounds.c */
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
-PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool);
+PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool trial);
+PETSC_INTERN PetscErrorCode IPBoundsDirection(Tao);
+PETSC_INTERN PetscErrorCode IPBoundsAddForces(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPBoundsCenter(Tao);
 
-/* start.c */
-PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
-PETSC_INTERN PetscErrorCode IPCentralPair(Vec, Vec, PetscReal, Vec, Vec);
+/* rowscale.c */
+PETSC_INTERN PetscErrorCode IPRowScaleSetUp(Tao, PetscBool *scaled);
+PETSC_INTERN PetscErrorCode IPRowScaleReset(Tao, PetscBool *changed);
+PETSC_INTERN PetscErrorCode IPRowScalePair(Tao, Vec, Vec, PetscBool back);
+PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
+
+/* jacobian.c */
+PETSC_INTERN PetscErrorCode IPJacobianEquality(Tao);
+PETSC_INTERN PetscErrorCode IPJacobianInequality(Tao);
+PETSC_INTERN PetscErrorCode IPJacobianDestroy(IPJacobian *);
 
 /* evaluate.c */
 PETSC_INTERN PetscErrorCode IPEvaluateConstraints(Tao, Vec, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPEvaluateDerivatives(Tao);
 PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
-PETSC_INTERN PetscErrorCode IPHessianCreateFD(Tao);
+
+/* difference.c */
+PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
+
+/* ---- measure ---- */
+
+/* stiffness.c */
+PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
+PETSC_INTERN PetscErrorCode IPRoundingFloor(Tao, PetscReal *);
+
+/* scale.c */
+PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 
 /* kkt.c */
 PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
-PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
-PETSC_INTERN PetscErrorCode IPCancellation(Tao, PetscReal *);
-PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
-/* condense.c */
-PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);
-PETSC_INTERN PetscErrorCode IPCondenseJacobian(Tao);
-PETSC_INTERN PetscErrorCode IPCondenseRHS(Tao, Vec, Vec);
-PETSC_INTERN PetscErrorCode IPBackSubstitute(Tao, Vec);
+/* ---- system ---- */
+
+/* assemble.c */
 PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
-PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPSubspaceFind(Tao, IS *);
+PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, IS *);
 
-/* linsolve.c */
-PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal, PetscBool *);
-PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
-PETSC_INTERN PetscErrorCode IPMeasureResidual(Tao, Vec, Vec);
-PETSC_INTERN PetscBool      IPLinearReached(const TAO_IPFILTER *, KSPConvergedReason);
-PETSC_INTERN PetscErrorCode IPLinearRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec), KSPConvergedReason);
+/* condense.c */
+PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPCondenseRHS(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPBackSubstitute(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPCondensedDestroy(IPCondensed *);
 
-/* fallback.c */
-PETSC_INTERN PetscErrorCode IPFallback(Tao, Vec, Vec, IPLinearVerdict *);
-PETSC_INTERN PetscErrorCode IPLinearNotANumber(Tao);
-PETSC_INTERN PetscBool      IPFallbackHolds(const TAO_IPFILTER *);
+/* ---- linear ---- */
+
+/* residual.c */
+PETSC_INTERN PetscErrorCode IPResidualMeasure(Tao, Vec, Vec);
+PETSC_INTERN PetscBool      IPResidualReached(const TAO_IPFILTER *, KSPConvergedReason);
+PETSC_INTERN PetscErrorCode IPResidualRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec), KSPConvergedReason);
+PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
+
+/* krylov.c */
+PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
 
 /* direct.c */
 PETSC_INTERN PetscErrorCode IPDirectSolve(Tao, Vec, Vec, IPLinearVerdict *);
 PETSC_INTERN PetscErrorCode IPDirectDestroy(IPDirect *);
 
+/* linsolve.c */
+PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal target, PetscBool *usable);
+
 /* augmented.c */
-PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool, PetscBool *);
+PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscBool *usable);
 PETSC_INTERN PetscErrorCode IPEstimateMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
 
-/* regularize.c */
-PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
-PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *), PetscBool *);
-PETSC_INTERN PetscErrorCode IPSetTargets(Tao, PetscReal, PetscReal);
-
-/* restore.c */
-PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
-
-/* relax.c */
-PETSC_INTERN PetscErrorCode IPRelax(Tao);
-
-/* barrier.c */
-PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
-PETSC_INTERN PetscErrorCode IPBarrierHold(Tao, PetscInt);
-PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
-PETSC_INTERN PetscErrorCode IPBarrierAverage(Tao, PetscReal *);
+/* ---- step ---- */
 
 /* filter.c */
 PETSC_INTERN PetscErrorCode IPFilterSetReset(IPFilterSet *);
@@ -356,24 +474,71 @@ PETSC_INTERN PetscErrorCode IPFilterSetAdd(IPFilterSet *, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPFilterSetAccepts(const IPFilterSet *, PetscReal, PetscReal, PetscBool *);
 PETSC_INTERN PetscErrorCode IPFilterSetDestroy(IPFilterSet *);
 
+/* merit.c */
+PETSC_INTERN PetscErrorCode IPMeritMeasure(Tao);
+PETSC_INTERN PetscErrorCode IPMeritMeasureTrial(Tao, PetscReal *, PetscReal *);
+PETSC_INTERN PetscErrorCode IPMeritSlope(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPMeritFilterAdd(Tao);
+
+/* barrier.c */
+PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
+PETSC_INTERN PetscErrorCode IPBarrierHold(Tao, PetscInt);
+PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
+
+/* regularize.c */
+PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *), PetscBool *);
+
+/* direction.c */
+PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
+
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPFilterAdd(Tao);
-PETSC_INTERN PetscErrorCode IPMeasureTrial(Tao, PetscReal *, PetscReal *);
-PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscReal, PetscReal *, PetscReal *);
+
+/* penalty.c */
+PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPPenaltyStep(Tao, PetscBool *);
+
+/* start.c */
+PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
+
+/* relax.c */
+PETSC_INTERN PetscErrorCode IPRelax(Tao);
+
+/* restore.c */
+PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
+
+/* ---- driver ---- */
+
+/* reason.c */
+PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+
+/* convergence.c */
+PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);
+PETSC_INTERN PetscErrorCode IPTestConvergence(Tao);
 
 /* monitor.c */
 PETSC_INTERN PetscErrorCode IPMonitor(Tao);
-PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...);
 
-/* ipfilter.c */
+/* setup.c */
+PETSC_INTERN PetscErrorCode TaoSetUp_IPFilter(Tao);
 PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
-PETSC_INTERN PetscErrorCode IPNeedVec(Tao, Vec *);
+PETSC_INTERN PetscErrorCode TaoDestroy_IPFilter(Tao);
 
-/* driver.c */
+/* solve.c */
 PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
 
-/* interface.c */
+/* ---- type ---- */
+
+/* opts.c */
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[];
+PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
+PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
+
+/* view.c */
+PETSC_INTERN PetscErrorCode TaoView_IPFilter(Tao, PetscViewer);
+
+/* api.c */
 PETSC_INTERN PetscErrorCode TaoIPFilterComposeFunctions(Tao, PetscBool);
 
 #endif

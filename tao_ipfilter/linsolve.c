@@ -1,282 +1,179 @@
 /*
-   The condensed linear system: Krylov tolerance, true residual, refinement, verdict on the solution, and the record of iterations.
-
-   A solve is judged by its true residual b - A d, not by the Krylov method's estimate. Where it falls short the solve is continued
-   from the attained iterate; what then still falls short goes to fallback.c.
+   The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other. None of them shifts
+   the Hessian: a solver that fails is not negative curvature.
 */
 #include "ipfilterimpl.h"
 
-#define IP_MAX_REFINEMENTS 3
-#define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error that is not worth reducing */
-#define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding leaves any solver */
-#define IP_CLOSE           1e-6                           /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
+/* The PC, if it is a PCAMGF, else NULL */
+static PetscErrorCode GetAMGF(Tao tao, PC *pc)
+{
+  PetscBool amgf;
 
-/* The KSP's own convergence test, and what tells that a run is not worth going on with */
-typedef struct {
-  PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
-  PetscErrorCode (*destroy)(void *);
-  void     *ctx;
-  PetscReal close;   /* residual from which on it is looked at */
-  PetscReal least;   /* the last residual that was a progress, */
-  PetscInt  reached; /* and when */
-} StallTest;
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)*pc, PCAMGF, &amgf));
+  if (!amgf) *pc = NULL;
+  PetscFunctionReturn(0);
+}
 
-static PetscErrorCode RecordIterations(Tao tao, PetscInt its)
+/* Rebuilds an AMG that was kept from an older matrix */
+static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
+{
+  PC       pc;
+  PetscInt age = 0;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  if (pc) PetscCall(PCAMGFGetAMGAge(pc, &age));
+  *done = (PetscBool)(age > 0);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCall(PCReset(pc));
+  ((TAO_IPFILTER *)tao->data)->rec.fallbacks.amg_rebuilds++;
+  PetscFunctionReturn(0);
+}
+
+/* Filters, where the constraints were left to the AMG */
+static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PC            pc;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  *done = (PetscBool)(pc && ip->mi && !ip->lin.filtered);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
+  ip->lin.filter_forced = ip->lin.filtered = PETSC_TRUE;
+  ip->rec.nfiltered++;
+  ip->rec.fallbacks.filters++;
+  PetscFunctionReturn(0);
+}
+
+/* Takes the neighbours into the subspace of this matrix, as long as that stays a small part of it */
+static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 0.25;
+  PetscInt        before, after, n;
+  PC              pc;
+  IS              wide;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  *done = PETSC_FALSE;
+  if (!pc || !ip->mi || !ip->lin.filtered) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceGrow(tao, &wide));
+  PetscCall(ISGetSize(ip->cond.filter, &before));
+  PetscCall(ISGetSize(wide, &after));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *done = (PetscBool)(after > before && after <= fraction * n);
+  if (*done) {
+    PetscCall(PetscObjectCompose((PetscObject)ip->cond.A, PCAMGF_FILTER_KEY, (PetscObject)wide));
+    /* the switch makes it look for its subspace */
+    PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
+    PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
+    ip->rec.fallbacks.filters++;
+  }
+  PetscCall(ISDestroy(&wide));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the Krylov method failed as it does on indefinite matrices, where nothing tells for certain. A limit of few iterations is
+   the caller's choice and tells nothing. */
+static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
+{
+  switch (ip->lin.reason) {
+  case KSP_DIVERGED_ITS:
+    return (PetscBool)(ip->lin.limit >= IP_MANY_ITERATIONS);
+  case KSP_DIVERGED_INDEFINITE_PC:
+  case KSP_DIVERGED_BREAKDOWN:
+  case KSP_DIVERGED_DTOL:
+  case KSP_DIVERGED_NANORINF:
+    return PETSC_TRUE;
+  default:
+    return PETSC_FALSE;
+  }
+}
+
+/* Where nothing helped, a direction that reduces the residual tenfold is still one for an inexact Newton method */
+static PetscBool Coarse(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(!IPUndefined(ip->lin.norm) && ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
+}
+
+/* In the order in which they are tried: what is changed first, if anything can be, and who solves then */
+static const struct {
+  PetscErrorCode (*prepare)(Tao, PetscBool *);
+  PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
+} remedies[] = {
+  {NULL,           IPKrylovSolve},
+  {RebuildAMG,     IPKrylovSolve},
+  {SwitchFilterOn, IPKrylovSolve},
+  {EnlargeFilter,  IPKrylovSolve},
+  {NULL,           IPDirectSolve}
+};
+
+/* Whether only MUMPS is tried: by the user's choice, or since the last solves all had to be done by it */
+static PetscBool DirectOnly(const TAO_IPFILTER *ip)
+{
+  const PetscInt in_vain = 2;
+
+  return (PetscBool)(ip->opt.direct_always || ip->lin.ndirect >= in_vain);
+}
+
+/* A matrix or right-hand side that is not made of numbers ends the search for a solver */
+static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
+  *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin.rhs));
+  if (!*sound) PetscCall(IPResidualNotANumber(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The record of MUMPS on the whole matrix, and the verdict where it failed, too */
+static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->niter_ksp == ip->max_ksp) {
-    ip->max_ksp = 2 * ip->max_ksp + 32;
-    PetscCall(PetscRealloc(ip->max_ksp * sizeof(PetscInt), &ip->ksp_iterations));
-  }
-  ip->ksp_iterations[ip->niter_ksp++] = its;
-  tao->ksp_its += its;
-  tao->ksp_tot_its += its;
-  PetscFunctionReturn(0);
-}
-
-/* r = b - A d, its norm, and the backward error: its ratio to the terms it is the difference of. A is positive definite, so that
-   diag(A) |d| stands for |A| |d|. */
-PetscErrorCode IPMeasureResidual(Tao tao, Vec b, Vec d)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     terms;
-
-  PetscFunctionBegin;
-  PetscCall(MatMult(ip->cond.A, d, ip->residual));
-  PetscCall(VecAYPX(ip->residual, -1.0, b));
-  PetscCall(VecNorm(ip->residual, NORM_2, &ip->linear_residual));
-  PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork2));
-  PetscCall(VecPointwiseMult(ip->xwork2, ip->xwork2, d));
-  PetscCall(VecNorm(ip->xwork2, NORM_2, &terms));
-  terms += ip->linear_rhs;
-  ip->backward_error = terms > 0.0 ? ip->linear_residual / terms : 0.0;
-  PetscFunctionReturn(0);
-}
-
-/* Whether the residual is what was asked for, or rounding leaves none smaller. With fixed forcing the KSP's own criterion counts
-   instead, unless its result is no direction at all. */
-PetscBool IPLinearReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
-{
-  if (IPUndefined(ip->linear_residual)) return PETSC_FALSE;
-  if (ip->backward_error <= IP_ROUNDING) return PETSC_TRUE;
-  if (ip->forcing == IP_FORCING_FIXED) return (PetscBool)(reason > 0 && ip->linear_residual <= ip->forcing_max * ip->linear_rhs);
-  return (PetscBool)(ip->linear_residual <= 2.0 * ip->linear_target);
-}
-
-/* Whether more was asked for, be it more than rounding leaves */
-static PetscBool Missed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
-{
-  return ip->forcing == IP_FORCING_FIXED ? !IPLinearReached(ip, reason) : (PetscBool)(ip->linear_residual > 2.0 * ip->linear_target);
-}
-
-/* Whether going on from the attained iterate may gain what the last run missed: it took its own estimate for the residual, or rounding
-   made it meet a product of the wrong sign close to the end */
-static PetscBool Refinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
-{
-  if (IPUndefined(ip->linear_residual)) return PETSC_FALSE;
-  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC || reason == KSP_DIVERGED_BREAKDOWN) return (PetscBool)(ip->linear_residual <= IP_CLOSE * ip->linear_rhs);
-  return (PetscBool)(reason > 0);
-}
-
-/* d += A^-1 (b - A d) by the given solver while that halves the residual; exact: to rounding, whatever was asked for */
-PetscErrorCode IPLinearRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErrorCode (*solve)(Tao, Vec, Vec), KSPConvergedReason reason)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < IP_MAX_REFINEMENTS; k++) {
-    const PetscReal before = ip->linear_residual;
-
-    if (!Refinable(ip, reason) || ip->backward_error <= (exact ? IP_EXACT : IP_ROUNDING) || (!exact && !Missed(ip, reason))) break;
-    PetscCall(IPNeedVec(tao, &ip->correction));
-    PetscCall((*solve)(tao, ip->residual, ip->correction));
-    PetscCall(VecAXPY(d, 1.0, ip->correction));
-    PetscCall(IPMeasureResidual(tao, b, d));
-    ip->fallbacks.refinements++;
-    PetscCall(PetscInfo(tao, "Refined from ||b - A d|| = %g to %g, asked for %g\n", (double)before, (double)ip->linear_residual, (double)ip->linear_target));
-    if (ip->linear_residual <= 0.5 * before) continue;
-    if (!(ip->linear_residual <= before)) {
-      PetscCall(VecAXPY(d, -1.0, ip->correction));
-      PetscCall(IPMeasureResidual(tao, b, d));
-    }
-    break;
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Most iterations of the next solve: an indefinite matrix may keep a Krylov method busy for long without showing a
-   negative product. Ten times the most that a successful solve has taken is taken as a sign of it. */
-static PetscInt IterationLimit(const TAO_IPFILTER *ip, PetscInt given)
-{
-  const PetscInt factor = 10;
-
-  return ip->most_ksp ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->most_ksp)) : given;
-}
-
-/* Ends a run, too, that gains less than a digit in so many iterations close to the end */
-static PetscErrorCode TestStalled(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
-{
-  StallTest      *s    = (StallTest *)ctx;
-  const PetscInt  most = 25;
-  const PetscReal gain = 0.1;
-
-  PetscFunctionBegin;
-  PetscCall((*s->test)(ksp, it, norm, reason, s->ctx));
-  if (!it || norm <= gain * s->least) {
-    s->least   = norm;
-    s->reached = it;
-  }
-  if (*reason == KSP_CONVERGED_ITERATING && norm <= s->close && it - s->reached >= most) *reason = KSP_CONVERGED_ITS;
-  PetscFunctionReturn(0);
-}
-
-/* KSPSolve() with the test for stalling */
-static PetscErrorCode SolveUnlessStalled(KSP ksp, Vec b, Vec d)
-{
-  KSPNormType type;
-  StallTest   stall = {.least = 0.0};
-
-  PetscFunctionBegin;
-  PetscCall(KSPGetNormType(ksp, &type));
-  if (type == KSP_NORM_UNPRECONDITIONED) PetscCall(VecNorm(b, NORM_2, &stall.close));
-  stall.close *= IP_CLOSE;
-  PetscCall(KSPGetAndClearConvergenceTest(ksp, &stall.test, &stall.ctx, &stall.destroy));
-  PetscCall(KSPSetConvergenceTest(ksp, TestStalled, &stall, NULL));
-  PetscCall(KSPSolve(ksp, b, d));
-  PetscCall(KSPSetConvergenceTest(ksp, stall.test, stall.ctx, stall.destroy));
-  PetscFunctionReturn(0);
-}
-
-/* One run of the KSP for A d = b, with adaptive forcing from the guess d to the present target */
-static PetscErrorCode RunKSP(Tao tao, KSP ksp, Vec b, Vec d)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     rtol, abstol, dtol;
-  PetscInt      maxits, its;
-  PetscBool     guess, direct;
-
-  PetscFunctionBegin;
-  PetscCall(KSPSetOperators(ksp, ip->cond.A, ip->cond.A));
-  PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
-  PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
-  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* takes no guess */
-  ip->linear_limit = maxits;
-  if (ip->forcing == IP_FORCING_ADAPTIVE) {
-    ip->linear_limit = IterationLimit(ip, maxits);
-    PetscCall(KSPSetInitialGuessNonzero(ksp, direct ? PETSC_FALSE : PETSC_TRUE));
-    PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->linear_target, dtol, ip->linear_limit));
-  }
-  PetscCall(SolveUnlessStalled(ksp, b, d));
-  PetscCall(KSPSetTolerances(ksp, rtol, abstol, dtol, maxits));
-  PetscCall(KSPSetInitialGuessNonzero(ksp, guess));
-  PetscCall(KSPGetIterationNumber(ksp, &its));
-  PetscCall(KSPGetConvergedReason(ksp, &ip->ksp_reason));
-  PetscCall(RecordIterations(tao, its));
-  ip->ksp_last = its;
-  PetscFunctionReturn(0);
-}
-
-/*
-  The same for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries rounding errors that these
-  terms make large: relative to the residual they are the same at every step, so that the preconditioner is not quite linear. CG's
-  recurrence does not bear that; flexible CG does, but is blind to negative curvature.
-*/
-static PetscErrorCode Correct(Tao tao, Vec r, Vec e)
-{
-  TAO_IPFILTER  *ip         = (TAO_IPFILTER *)tao->data;
-  const PetscInt directions = 3;
-  PetscReal      rtol, abstol, dtol;
-  PetscInt       maxits;
-  PetscBool      cg;
-  PC             pc;
-
-  PetscFunctionBegin;
-  PetscCall(VecSet(e, 0.0));
-  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPCG, &cg));
-  if (!cg) {
-    PetscCall(RunKSP(tao, tao->ksp, r, e));
-    PetscFunctionReturn(0);
-  }
-  if (!ip->flexible) {
-    PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ip->flexible));
-    PetscCall(KSPSetType(ip->flexible, KSPFCG));
-    PetscCall(KSPFCGSetMmax(ip->flexible, directions));
-    PetscCall(KSPFCGSetNprealloc(ip->flexible, directions + 1));
-    PetscCall(KSPSetNormType(ip->flexible, KSP_NORM_UNPRECONDITIONED));
-  }
-  PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(KSPSetPC(ip->flexible, pc));
-  PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
-  PetscCall(KSPSetTolerances(ip->flexible, rtol, abstol, dtol, maxits));
-  PetscCall(RunKSP(tao, ip->flexible, r, e));
-  PetscFunctionReturn(0);
-}
-
-/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter or the
-   first iterations correct does no harm. */
-static PetscErrorCode CheckGuess(Tao tao, Vec b, Vec d)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     size, dtol;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(d, NORM_INFINITY, &size));
-  if (size == 0.0) PetscFunctionReturn(0);
-  PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, &dtol, NULL));
-  PetscCall(IPMeasureResidual(tao, b, d));
-  if (!(ip->linear_residual < 0.1 * dtol * ip->linear_rhs)) PetscCall(VecSet(d, 0.0));
-  PetscFunctionReturn(0);
-}
-
-/* The PC could not be set up because the matrix has a pivot of zero, not because something else failed */
-static PetscErrorCode ZeroPivot(Tao tao, PetscBool *zero)
-{
-  PC             pc;
-  PCFailedReason failed;
-
-  PetscFunctionBegin;
-  PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(PCGetFailedReason(pc, &failed));
-  *zero = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, zero, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)tao)));
-  PetscFunctionReturn(0);
-}
-
-/* A d = b by the KSP, refined */
-PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
-{
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  KSPConvergedReason reason;
-  PetscInt           its;
-  PetscBool          direct, zero = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  if (ip->forcing == IP_FORCING_ADAPTIVE) PetscCall(CheckGuess(tao, b, d));
-  PetscCall(RunKSP(tao, tao->ksp, b, d));
-  reason = ip->ksp_reason;
-  its    = ip->ksp_last;
-  PetscCall(IPMeasureResidual(tao, b, d));
-  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct));
-  PetscCall(IPLinearRefine(tao, b, d, direct, Correct, reason));
-  ip->ksp_reason = reason;
-  ip->ksp_last   = its;
-  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(ZeroPivot(tao, &zero));
-  if (IPLinearReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
-  else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
   if (*verdict == IP_LINEAR_SOLVED) {
-    ip->most_ksp = PetscMax(ip->most_ksp, its);
-    ip->ndirect  = 0;
-  } else PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->linear_residual, (double)ip->linear_target, (double)ip->linear_rhs));
-  /* a factorization that failed is not to be reused */
-  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KSPReset(tao->ksp));
+    ip->rec.fallbacks.direct += !ip->opt.direct_always;
+    ip->lin.ndirect++;
+  } else if (*verdict == IP_LINEAR_FAILED) {
+    ip->lin.ndirect = 0;
+    if (LooksIndefinite(ip)) *verdict = IP_LINEAR_INDEFINITE;
+    else if (Coarse(ip)) *verdict = IP_LINEAR_SOLVED;
+    else ip->rec.fallbacks.failures++;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Goes through the remedies until one gives a verdict on the matrix */
+static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  const size_t n     = PETSC_STATIC_ARRAY_LENGTH(remedies);
+  const size_t first = DirectOnly((TAO_IPFILTER *)tao->data) ? n - 1 : 0;
+  PetscBool    sound = PETSC_TRUE, possible;
+
+  PetscFunctionBegin;
+  for (size_t k = first; k < n && *verdict == IP_LINEAR_FAILED; k++) {
+    if (k == PetscMax(first, 1)) PetscCall(CheckNumbers(tao, &sound));
+    if (!sound) PetscFunctionReturn(0);
+    possible = PETSC_TRUE;
+    if (remedies[k].prepare) PetscCall((*remedies[k].prepare)(tao, &possible));
+    if (possible) PetscCall((*remedies[k].solve)(tao, b, d, verdict));
+    if (k == n - 1) PetscCall(ConcludeDirect(tao, verdict));
+  }
   PetscFunctionReturn(0);
 }
 
 /*
   Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold.
-  *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having: ip->linear_failed
+  *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having: ip->lin.failed
   tells that, which no shift of the Hessian cures.
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
@@ -286,14 +183,13 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, d, NULL));
-  PetscCall(VecNorm(b, NORM_2, &ip->linear_rhs));
-  ip->linear_target    = target;
-  ip->linear_reason[0] = '\0';
-  if (!IPFallbackHolds(ip)) PetscCall(IPKrylovSolve(tao, b, d, &verdict));
-  if (verdict == IP_LINEAR_FAILED) PetscCall(IPFallback(tao, b, d, &verdict));
-  *usable           = (PetscBool)(verdict == IP_LINEAR_SOLVED);
-  ip->linear_failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
-  if (*usable) ip->fallbacks.backward_error = PetscMax(ip->fallbacks.backward_error, ip->backward_error);
+  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
+  ip->lin.target = target;
+  ip->lin.why[0] = '\0';
+  PetscCall(TryRemedies(tao, b, d, &verdict));
+  *usable        = (PetscBool)(verdict == IP_LINEAR_SOLVED);
+  ip->lin.failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
+  if (*usable) ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, d, NULL));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,5 @@
-/* One line an iteration in IPOPT's columns, and the sentence that says why the solver stopped. */
+/* One line an iteration in IPOPT's columns. */
 #include "ipfilterimpl.h"
-#include <stdarg.h>
 
 /* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points, Krylov iterations
    (f: with the filter) */
@@ -11,25 +10,11 @@ PetscErrorCode IPMonitor(Tao tao)
   char          rg[16];
 
   PetscFunctionBegin;
-  if (!ip->monitor) PetscFunctionReturn(0);
+  if (!ip->opt.monitor) PetscFunctionReturn(0);
   if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp   kkt\n"));
-  if (tao->niter && ip->delta > 0.0) PetscCall(PetscSNPrintf(rg, sizeof(rg), "%5.1f", (double)PetscLog10Real(ip->delta)));
+  if (tao->niter && ip->shift.delta > 0.0) PetscCall(PetscSNPrintf(rg, sizeof(rg), "%5.1f", (double)PetscLog10Real(ip->shift.delta)));
   else PetscCall(PetscStrncpy(rg, "    -", sizeof(rg)));
-  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT "%c  %8.2e\n", tao->niter, (double)ip->f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0,
-                        (double)ip->dx_norm, rg, (double)ip->alpha_dual, (double)ip->alpha_primal, ip->step_tag, ip->nls, tao->ksp_its, ip->filtered ? 'f' : ' ', (double)ip->kkt.error));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode IPSetReason(Tao tao, TaoConvergedReason reason, const char format[], ...)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  va_list       args;
-
-  PetscFunctionBegin;
-  tao->reason = reason;
-  va_start(args, format);
-  PetscCall(PetscVSNPrintf(ip->reason, sizeof(ip->reason), format, NULL, args));
-  va_end(args);
-  PetscCall(PetscInfo(tao, "%s\n", ip->reason));
+  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT "%c  %8.2e\n", tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0,
+                        (double)ip->dir.norm, rg, (double)ip->search.alpha_dual, (double)ip->search.alpha, ip->search.tag, ip->search.ntrials, tao->ksp_its, ip->lin.filtered ? 'f' : ' ', (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

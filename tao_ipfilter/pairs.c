@@ -1,9 +1,10 @@
 /* Complementarity pairs (t, z): elementwise algebra of the barrier terms. An absent pair has t = PETSC_INFINITY. */
 #include "ipfilterimpl.h"
 
-PetscErrorCode IPPairCreate(Vec layout, Vec weights, IPPair *p)
+PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
 {
   PetscFunctionBegin;
+  p->sign = sign;
   PetscCall(VecDuplicate(layout, &p->t));
   PetscCall(VecDuplicate(layout, &p->z));
   PetscCall(VecDuplicate(layout, &p->dt));
@@ -55,8 +56,8 @@ static inline PetscBool Present(PetscScalar t)
   return (PetscBool)(PetscRealPart(t) < PETSC_INFINITY);
 }
 
-/* target = mu - dt dz, the second-order term of the last direction kept within +-most; most = 0 leaves it out */
-PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal most)
+/* target = mu - dt dz, the second-order term of the last direction kept within +-corrector_max; 0 leaves it out */
+PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
 {
   const Vec          v[2] = {p->dt, p->dz};
   const PetscScalar *a[2];
@@ -68,9 +69,28 @@ PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal most)
   PetscCall(VecGetLocalSize(p->target, &n));
   PetscCall(PairRead(2, v, a));
   PetscCall(VecGetArrayWrite(p->target, &target));
-  for (PetscInt i = 0; i < n; i++) target[i] = mu - (most > 0.0 ? PetscMax(-most, PetscMin(most, PetscRealPart(a[0][i] * a[1][i]))) : 0.0);
+  for (PetscInt i = 0; i < n; i++) target[i] = mu - (corrector_max > 0.0 ? PetscMax(-corrector_max, PetscMin(corrector_max, PetscRealPart(a[0][i] * a[1][i]))) : 0.0);
   PetscCall(VecRestoreArrayWrite(p->target, &target));
   PetscCall(PairRestore(2, v, a));
+  PetscFunctionReturn(0);
+}
+
+/* On the central path of mu with t as it is: z = mu / t */
+PetscErrorCode IPPairCenter(IPPair *p, PetscReal mu)
+{
+  const PetscScalar *t;
+  PetscScalar       *z;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  if (!p->n) PetscFunctionReturn(0);
+  PetscCall(VecSet(p->target, mu));
+  PetscCall(VecGetLocalSize(p->t, &n));
+  PetscCall(VecGetArrayRead(p->t, &t));
+  PetscCall(VecGetArrayWrite(p->z, &z));
+  for (PetscInt i = 0; i < n; i++) z[i] = Present(t[i]) ? mu / t[i] : 0.0;
+  PetscCall(VecRestoreArrayWrite(p->z, &z));
+  PetscCall(VecRestoreArrayRead(p->t, &t));
   PetscFunctionReturn(0);
 }
 
@@ -130,7 +150,7 @@ PetscErrorCode IPPairDualDirection(IPPair *p)
 }
 
 /* Largest alpha <= *alpha with v + alpha dv >= (1 - tau) v, for v > 0 */
-PetscErrorCode IPPairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha)
+static PetscErrorCode PairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha)
 {
   const Vec          vv[2] = {v, dv};
   const PetscScalar *a[2];
@@ -221,7 +241,7 @@ PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal 
 {
   const Vec          v[5] = {p->w, p->t, p->dt, p->z, p->dz};
   const PetscScalar *a[5];
-  PetscReal          most = 0.0, total = 0.0;
+  PetscReal          local = 0.0, total = 0.0;
   PetscInt           n;
   MPI_Comm           comm;
 
@@ -234,12 +254,12 @@ PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal 
   for (PetscInt i = 0; i < n; i++) {
     if (!Present(a[1][i])) continue;
     const PetscReal tz = PetscRealPart((a[1][i] + alpha_t * a[2][i]) * (a[3][i] + alpha_z * a[4][i]));
-    most               = PetscMax(most, tz);
+    local              = PetscMax(local, tz);
     total += PetscRealPart(a[0][i]) * tz;
   }
   PetscCall(PairRestore(5, v, a));
   PetscCall(PetscObjectGetComm((PetscObject)p->t, &comm));
-  if (largest) PetscCallMPI(MPI_Allreduce(&most, largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  if (largest) PetscCallMPI(MPI_Allreduce(&local, largest, 1, MPIU_REAL, MPIU_MAX, comm));
   if (sum) PetscCallMPI(MPI_Allreduce(&total, sum, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
@@ -284,10 +304,65 @@ PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
   PetscFunctionReturn(0);
 }
 
-/* trial = t + alpha dt */
-PetscErrorCode IPPairMoveTrial(IPPair *p, PetscReal alpha)
+/* sum w v^2 with the weights of the inequality constraints */
+PetscErrorCode IPPairWeightedSquare(Tao tao, Vec v, PetscReal *square)
 {
+  Vec         wv;
+  PetscScalar sum;
+
   PetscFunctionBegin;
-  if (p->n) PetscCall(VecWAXPY(p->trial, alpha, p->dt, p->t));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &wv));
+  PetscCall(VecPointwiseMult(wv, v, ((TAO_IPFILTER *)tao->data)->pair[IP_SLACK].w));
+  PetscCall(VecDot(v, wv, &sum));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &wv));
+  *square = PetscRealPart(sum);
+  PetscFunctionReturn(0);
+}
+
+/* Largest steps up to the given ones that keep a fraction 1 - tau of every t and z, in the blocks from first on; dual may be NULL */
+PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = first; b < IP_NPAIRS; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(PairMaxStep(p->t, p->dt, tau, primal));
+    if (dual) PetscCall(PairMaxStep(p->z, p->dz, tau, dual));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The point of the central path of one constraint that a penalty of stiffness rho bends: s z = mu and s - q = z/rho */
+PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
+{
+  const PetscScalar *qa, *ra;
+  PetscScalar       *sa, *za;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(q, &n));
+  PetscCall(VecGetArrayRead(q, &qa));
+  PetscCall(VecGetArrayRead(rho, &ra));
+  PetscCall(VecGetArrayWrite(s, &sa));
+  PetscCall(VecGetArrayWrite(z, &za));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal g = PetscRealPart(qa[i]), r = PetscRealPart(ra[i]), root = PetscSqrtReal(g * g + 4.0 * mu / r);
+
+    /* the root that does not cancel, and the other from their product mu/rho */
+    if (g >= 0.0) {
+      sa[i] = 0.5 * (g + root);
+      za[i] = mu / PetscRealPart(sa[i]);
+    } else {
+      za[i] = 0.5 * r * (root - g);
+      sa[i] = mu / PetscRealPart(za[i]);
+    }
+  }
+  PetscCall(VecRestoreArrayWrite(z, &za));
+  PetscCall(VecRestoreArrayWrite(s, &sa));
+  PetscCall(VecRestoreArrayRead(rho, &ra));
+  PetscCall(VecRestoreArrayRead(q, &qa));
   PetscFunctionReturn(0);
 }

@@ -5,15 +5,16 @@
 
    each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to bounds. The Hessian as
    metric lets an elastic body follow its surface. Its matrix is the condensed one with D = m/zeta in the violated rows, and
-   the augmented one with delta_c = zeta/w^2, so that the solvers of the iteration proper serve here too.
+   the augmented one with delta = zeta/w^2, so that the solvers of the iteration proper serve here too.
 */
 #include "ipfilterimpl.h"
 
-#define IP_RESTORE_MAX    200 /* steps */
-#define IP_RESTORE_METRIC 0.1 /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_MAX    200  /* steps */
+#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
 
 /* min(c, 0) */
-static PetscErrorCode Negative(Vec c, Vec v)
+static PetscErrorCode RestoreNegative(Vec c, Vec v)
 {
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
@@ -21,152 +22,135 @@ static PetscErrorCode Negative(Vec c, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* psi for constraint values c, ce */
-static PetscErrorCode SquaredViolation(Tao tao, Vec c, Vec ce, PetscReal *psi)
+/* psi at the point of an iterate */
+static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
 {
-  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  PetscScalar   sum = 0.0;
-  PetscReal     equality = 0.0;
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscReal     square = 0.0, equality = 0.0;
+  Vec           negative;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(Negative(c, ip->cwork));
-    PetscCall(VecPointwiseMult(ip->cwork2, ip->cwork, ip->pair[IP_SLACK].w));
-    PetscCall(VecDot(ip->cwork, ip->cwork2, &sum));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &negative));
+    PetscCall(RestoreNegative(it->c, negative));
+    PetscCall(IPPairWeightedSquare(tao, negative, &square));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &negative));
   }
-  if (ip->me) PetscCall(VecNorm(ce, NORM_2, &equality));
-  *psi = 0.5 * (PetscRealPart(sum) + PetscSqr(ip->equality_weight * equality));
+  if (ip->me) PetscCall(VecNorm(it->ce, NORM_2, &equality));
+  *psi = 0.5 * (square + PetscSqr(ip->search.equality_weight * equality));
   PetscFunctionReturn(0);
 }
 
 /* Gradient of psi at the present point */
-static PetscErrorCode ViolationGradient(Tao tao, Vec g)
+static PetscErrorCode RestoreGradient(Tao tao, Vec g)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
 
   PetscFunctionBegin;
   PetscCall(VecSet(g, 0.0));
   if (ip->mi) {
-    PetscCall(Negative(ip->c, ip->cwork));
-    PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
-    PetscCall(MatMultTranspose(ip->cond.J, ip->cwork, g));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(RestoreNegative(ip->at.c, force));
+    PetscCall(VecPointwiseMult(force, force, ip->pair[IP_SLACK].w));
+    PetscCall(MatMultTranspose(ip->jac.inequality, force, g));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
   if (ip->me) {
-    PetscCall(VecCopy(ip->ce, ip->cetrial));
-    PetscCall(VecScale(ip->cetrial, PetscSqr(ip->equality_weight)));
-    PetscCall(MatMultTransposeAdd(ip->JE, ip->cetrial, g, g));
+    PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
+    PetscCall(VecAXPBY(force, PetscSqr(ip->search.equality_weight), 0.0, ip->at.ce));
+    PetscCall(MatMultTransposeAdd(ip->jac.equality, force, g, g));
+    PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &force));
   }
   PetscFunctionReturn(0);
 }
 
-/* D = m/zeta in the violated rows, 0 in the others */
-static PetscErrorCode Assemble(Tao tao)
+/* The system's matrix: D = m/zeta in the violated rows, 0 in the others */
+static PetscErrorCode RestoreAssemble(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  Vec                D  = ip->restore.D;
   const PetscScalar *c;
   PetscScalar       *d;
   PetscInt           n;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(VecCopy(ip->pair[IP_SLACK].w, ip->rcsoc));
-    PetscCall(VecScale(ip->rcsoc, 1.0 / ip->zeta));
-    PetscCall(VecGetLocalSize(ip->c, &n));
-    PetscCall(VecGetArrayRead(ip->c, &c));
-    PetscCall(VecGetArray(ip->rcsoc, &d));
+    PetscCall(VecAXPBY(D, 1.0 / ip->restore.zeta, 0.0, ip->pair[IP_SLACK].w));
+    PetscCall(VecGetLocalSize(ip->at.c, &n));
+    PetscCall(VecGetArrayRead(ip->at.c, &c));
+    PetscCall(VecGetArray(D, &d));
     for (PetscInt i = 0; i < n; i++)
       if (PetscRealPart(c[i]) >= 0.0) d[i] = 0.0;
-    PetscCall(VecRestoreArray(ip->rcsoc, &d));
-    PetscCall(VecRestoreArrayRead(ip->c, &c));
+    PetscCall(VecRestoreArray(D, &d));
+    PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   }
-  ip->delta_c = ip->me ? ip->zeta / PetscSqr(ip->equality_weight) : 0.0;
-  PetscCall(IPCondenseMatrix(tao, ip->rcsoc));
+  ip->aug.delta = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
+  PetscCall(IPCondenseMatrix(tao, D));
+  PetscFunctionReturn(0);
+}
+
+/* Its right-hand side: the forces -J^T D c of the violation and those of the bounds */
+static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(rhs, 0.0));
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(VecPointwiseMult(force, ip->restore.D, ip->at.c));
+    PetscCall(VecScale(force, -1.0));
+    PetscCall(MatMultTranspose(ip->jac.inequality, force, rhs));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  }
+  PetscCall(IPBoundsAddForces(tao, rhs));
   PetscFunctionReturn(0);
 }
 
 /* The step; usable where it descends on the violation or on the bounds' barrier */
-static PetscErrorCode Solve(Tao tao, PetscBool *usable)
+static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     norm;
   PetscScalar   descent;
+  Vec           rhs;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(ip->rhs, 0.0));
-  if (ip->mi) {
-    PetscCall(VecPointwiseMult(ip->cwork, ip->rcsoc, ip->c));
-    PetscCall(VecScale(ip->cwork, -1.0));
-    PetscCall(MatMultTranspose(ip->cond.J, ip->cwork, ip->rhs));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  PetscCall(RestoreRHS(tao, rhs));
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  if (ip->me) PetscCall(IPAugmentedSolve(tao, rhs, ip->at.ce, ip->dir.x, PETSC_TRUE, usable));
+  else {
+    PetscCall(VecNorm(rhs, NORM_2, &norm));
+    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, 1e-3 * norm, usable));
+    PetscCall(VecDot(rhs, ip->dir.x, &descent));
+    *usable = (PetscBool)(*usable && PetscRealPart(descent) > 0.0);
   }
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    if (!ip->pair[b].n) continue;
-    PetscCall(IPPairGetForce(&ip->pair[b], ip->xwork));
-    PetscCall(VecAXPY(ip->rhs, b == IP_LOWER ? 1.0 : -1.0, ip->xwork));
-  }
-  PetscCall(VecSet(ip->dx, 0.0));
-  PetscCall(VecNorm(ip->rhs, NORM_2, &norm));
-  if (ip->me) PetscCall(IPAugmentedSolve(tao, ip->rhs, ip->ce, ip->dx, PETSC_TRUE, usable));
-  else PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, 1e-3 * norm, usable));
-  if (!*usable) PetscFunctionReturn(0);
-  if (ip->me) PetscFunctionReturn(0);
-  PetscCall(VecDot(ip->rhs, ip->dx, &descent));
-  *usable = (PetscBool)(PetscRealPart(descent) > 0.0);
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of bounds back on the central path of the present mu */
-static PetscErrorCode CenterBounds(Tao tao)
+/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not */
+static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  PetscCall(IPSetTargets(tao, ip->mu, 0.0));
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(VecSet(p->z, 0.0));
-    PetscCall(IPPairDualDirection(p));
-    PetscCall(VecCopy(p->dz, p->z));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Largest step that keeps x inside its bounds */
-static PetscErrorCode BoundStep(Tao tao, PetscReal *alpha)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal armijo = 1e-4;
+  const PetscInt  halvings = 12;
 
   PetscFunctionBegin;
   *alpha = 1.0;
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(VecCopy(ip->dx, p->dt));
-    if (b == IP_UPPER) PetscCall(VecScale(p->dt, -1.0));
-    PetscCall(IPPairMaxStep(p->t, p->dt, ip->tau_min, alpha));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Backtracks until psi falls; *psi is its value there, *alpha 0 where it does not */
-static PetscErrorCode Search(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
-{
-  TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
-  const PetscReal armijo = 1e-4;
-  const PetscInt  most   = 12;
-
-  PetscFunctionBegin;
-  PetscCall(BoundStep(tao, alpha));
-  for (PetscInt k = 0; k < most; k++, *alpha *= 0.5) {
+  PetscCall(IPBoundsDirection(tao));
+  PetscCall(IPFractionToBoundary(tao, IP_LOWER, ip->opt.tau_min, alpha, NULL));
+  for (PetscInt k = 0; k < halvings; k++, *alpha *= 0.5) {
     PetscReal trial;
 
-    PetscCall(VecWAXPY(ip->xtrial, *alpha, ip->dx, tao->solution));
-    PetscCall(TaoComputeObjective(tao, ip->xtrial, &ip->ftrial));
-    if (IPUndefined(ip->ftrial)) continue;
-    PetscCall(IPEvaluateConstraints(tao, ip->xtrial, ip->ctrial, ip->cetrial));
-    PetscCall(SquaredViolation(tao, ip->ctrial, ip->cetrial, &trial));
+    PetscCall(VecWAXPY(ip->trial.x, *alpha, ip->dir.x, tao->solution));
+    PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
+    if (IPUndefined(ip->trial.f)) continue;
+    PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
+    PetscCall(RestoreViolation(tao, &ip->trial, &trial));
     if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
     *psi = trial;
     PetscFunctionReturn(0);
@@ -176,107 +160,96 @@ static PetscErrorCode Search(Tao tao, PetscReal slope, PetscReal *psi, PetscReal
 }
 
 /* x, its constraint values and derivatives from the trial point */
-static PetscErrorCode TakeTrial(Tao tao)
+static PetscErrorCode RestoreTakeTrial(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(ip->xtrial, tao->solution));
-  if (ip->mi) PetscCall(VecCopy(ip->ctrial, ip->c));
-  if (ip->me) PetscCall(VecCopy(ip->cetrial, ip->ce));
-  ip->f = ip->ftrial;
+  PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
 }
 
 /* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path */
-static PetscErrorCode ChooseSlacks(Tao tao)
+static PetscErrorCode RestoreChooseSlacks(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  IPPair            *p  = &ip->pair[IP_SLACK];
   const PetscScalar *c, *rho;
   PetscScalar       *s;
   PetscInt           n;
+  Vec                z;
 
   PetscFunctionBegin;
-  PetscCall(IPCentralPair(ip->c, ip->stiffness, ip->mu, p->trial, ip->cwork));
-  PetscCall(VecGetLocalSize(ip->c, &n));
-  PetscCall(VecGetArrayRead(ip->c, &c));
-  PetscCall(VecGetArrayRead(ip->stiffness, &rho));
-  PetscCall(VecGetArray(p->trial, &s));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(IPCentralPair(ip->at.c, ip->stiff.rho, ip->mu, ip->trial.s, z));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(VecGetLocalSize(ip->at.c, &n));
+  PetscCall(VecGetArrayRead(ip->at.c, &c));
+  PetscCall(VecGetArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecGetArray(ip->trial.s, &s));
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal central = PetscSqrtReal(ip->mu / PetscRealPart(rho[i]));
 
     if (PetscRealPart(c[i]) >= 0.1 * central) s[i] = c[i];
     else s[i] = PetscMin(PetscRealPart(s[i]), central);
   }
-  PetscCall(VecRestoreArray(p->trial, &s));
-  PetscCall(VecRestoreArrayRead(ip->stiffness, &rho));
-  PetscCall(VecRestoreArrayRead(ip->c, &c));
+  PetscCall(VecRestoreArray(ip->trial.s, &s));
+  PetscCall(VecRestoreArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscFunctionReturn(0);
 }
 
 /* Whether the filter accepts the present x with slacks that belong to it, at clearly less violation than at the start */
-static PetscErrorCode Acceptable(Tao tao, PetscReal theta0, PetscBool *accepted)
+static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accepted)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
   const PetscReal reduction = 0.9;
   PetscReal       theta, phi;
 
   PetscFunctionBegin;
-  if (ip->mi) {
-    PetscCall(ChooseSlacks(tao));
-    PetscCall(VecCopy(ip->c, ip->ctrial));
-  }
-  if (ip->me) PetscCall(VecCopy(ip->ce, ip->cetrial));
+  if (ip->mi) PetscCall(RestoreChooseSlacks(tao));
+  PetscCall(IPIterateCopyPoint(&ip->at, &ip->trial));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_TRUE));
-  ip->ftrial = ip->f;
-  PetscCall(IPMeasureTrial(tao, &theta, &phi));
+  PetscCall(IPMeritMeasureTrial(tao, &theta, &phi));
   *accepted = (PetscBool)(theta <= reduction * theta0);
   if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi, accepted));
   PetscFunctionReturn(0);
 }
 
 /* Slacks and multipliers to go on from */
-static PetscErrorCode Leave(Tao tao)
+static PetscErrorCode RestoreLeave(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    IPPair *p = &ip->pair[IP_SLACK];
-
-    PetscCall(VecCopy(p->trial, p->t));
-    PetscCall(VecSet(p->dt, 0.0));
-    PetscCall(VecSet(p->z, 0.0));
-    PetscCall(IPPairSetTarget(p, ip->mu, 0.0));
-    PetscCall(IPPairDualDirection(p));
-    PetscCall(VecCopy(p->dz, p->z));
-    PetscCall(VecCopy(p->z, ip->lambda));
+    PetscCall(VecCopy(ip->trial.s, ip->at.s));
+    PetscCall(IPPairCenter(&ip->pair[IP_SLACK], ip->mu));
+    PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   }
   if (ip->me) PetscCall(IPEstimateMultipliers(tao));
-  ip->nerror      = 0;
-  ip->least_slack = PETSC_INFINITY;
+  ip->bar.nerrors       = 0;
+  ip->relax.least_slack = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
 /* zeta at which the metric and the violation's model weigh alike, from the stiffness of the constraints */
-static PetscErrorCode FirstZeta(Tao tao)
+static PetscErrorCode RestoreFirstZeta(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     rho;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(VecMax(ip->stiffness, NULL, &rho));
-    ip->zeta = 1.0 / rho;
-  } else ip->zeta = PetscSqr(ip->equality_weight * ip->scale.equality) / ip->scale.product;
+    PetscCall(VecMax(ip->stiff.rho, NULL, &rho));
+    ip->restore.zeta = 1.0 / rho;
+  } else ip->restore.zeta = PetscSqr(ip->search.equality_weight * ip->scale.equality) / ip->scale.product;
   PetscFunctionReturn(0);
 }
 
 /* Zeroes the entries of a gradient whose descent a bound close by stops */
-static PetscErrorCode Project(Vec gradient, const IPPair *p, PetscReal sign, PetscReal close)
+static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal close)
 {
   const PetscScalar *t;
   PetscScalar       *g;
@@ -288,7 +261,7 @@ static PetscErrorCode Project(Vec gradient, const IPPair *p, PetscReal sign, Pet
   PetscCall(VecGetArrayRead(p->t, &t));
   PetscCall(VecGetArray(gradient, &g));
   for (PetscInt i = 0; i < n; i++)
-    if (PetscRealPart(t[i]) <= close && sign * PetscRealPart(g[i]) > 0.0) g[i] = 0.0;
+    if (PetscRealPart(t[i]) <= close && p->sign * PetscRealPart(g[i]) > 0.0) g[i] = 0.0;
   PetscCall(VecRestoreArray(gradient, &g));
   PetscCall(VecRestoreArrayRead(p->t, &t));
   PetscFunctionReturn(0);
@@ -296,24 +269,28 @@ static PetscErrorCode Project(Vec gradient, const IPPair *p, PetscReal sign, Pet
 
 /* |J^T r| / (|J| |r|), without what bounds stop, with the constraints' gradients J at the start of the restoration: 0 where psi is
    stationary */
-static PetscErrorCode RelativeGradient(Tao tao, Vec gradient, PetscReal size, PetscReal psi, PetscReal *relative)
+static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscReal close = 1e-4;
   PetscReal       x;
+  Vec             gradient;
 
   PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
+  PetscCall(RestoreGradient(tao, gradient));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-  PetscCall(Project(gradient, &ip->pair[IP_LOWER], 1.0, close * x));
-  PetscCall(Project(gradient, &ip->pair[IP_UPPER], -1.0, close * x));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_LOWER], close * x));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_UPPER], close * x));
   PetscCall(IPFixedZero(tao, gradient));
   PetscCall(VecNorm(gradient, NORM_2, relative));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
   *relative = size > 0.0 && psi > 0.0 ? *relative / (size * PetscSqrtReal(2.0 * psi)) : 0.0;
   PetscFunctionReturn(0);
 }
 
 /* |J| in the weights of psi */
-static PetscErrorCode JacobianSize(Tao tao, PetscReal *size)
+static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     w = 0.0, j = 0.0;
@@ -321,13 +298,29 @@ static PetscErrorCode JacobianSize(Tao tao, PetscReal *size)
   PetscFunctionBegin;
   if (ip->mi) {
     PetscCall(VecMax(ip->pair[IP_SLACK].w, NULL, &w));
-    PetscCall(MatNorm(ip->cond.J, NORM_FROBENIUS, &j));
+    PetscCall(MatNorm(ip->jac.inequality, NORM_FROBENIUS, &j));
   }
   *size = PetscSqrtReal(w) * j;
   if (ip->me) {
-    PetscCall(MatNorm(ip->JE, NORM_FROBENIUS, &j));
-    *size += ip->equality_weight * j;
+    PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &j));
+    *size += ip->search.equality_weight * j;
   }
+  PetscFunctionReturn(0);
+}
+
+/* The slope of psi along dx */
+static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           gradient;
+  PetscScalar   gd;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
+  PetscCall(RestoreGradient(tao, gradient));
+  PetscCall(VecDot(gradient, ip->dir.x, &gd));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
+  *slope = PetscRealPart(gd);
   PetscFunctionReturn(0);
 }
 
@@ -335,68 +328,81 @@ static PetscErrorCode JacobianSize(Tao tao, PetscReal *size)
    where the bounds' barrier turns the step away from less violation. */
 static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient, PetscBool *descent)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal little = 1e-12;
-  PetscBool       usable = PETSC_FALSE;
-  PetscScalar     slope;
+  const PetscReal stationary = 1e-12;
+  PetscBool       usable     = PETSC_FALSE;
+  PetscReal       slope      = 0.0;
 
   PetscFunctionBegin;
   *alpha   = 0.0;
   *descent = PETSC_TRUE;
-  PetscCall(ViolationGradient(tao, ip->xwork));
-  PetscCall(RelativeGradient(tao, ip->xwork, size, *psi, gradient));
-  if (*gradient <= little) PetscFunctionReturn(0);
-  PetscCall(CenterBounds(tao));
-  PetscCall(IPRegularize(tao, IP_RESTORE_METRIC, Assemble, Solve, &usable));
+  PetscCall(RestoreRelativeGradient(tao, size, *psi, gradient));
+  if (*gradient <= stationary) PetscFunctionReturn(0);
+  PetscCall(IPBoundsCenter(tao));
+  PetscCall(IPRegularize(tao, IP_RESTORE_METRIC, RestoreAssemble, RestoreSolve, &usable));
   if (!usable) PetscFunctionReturn(0);
-  PetscCall(ViolationGradient(tao, ip->xwork));
-  PetscCall(VecDot(ip->xwork, ip->dx, &slope));
-  *descent = (PetscBool)(PetscRealPart(slope) < 0.0);
-  if (*descent) PetscCall(Search(tao, PetscRealPart(slope), psi, alpha));
+  PetscCall(RestoreSlope(tao, &slope));
+  *descent = (PetscBool)(slope < 0.0);
+  if (*descent) PetscCall(RestoreSearch(tao, slope, psi, alpha));
+  PetscFunctionReturn(0);
+}
+
+/* Steps until the filter accepts the point, or the violation falls no longer: its relative gradient, which may fall for longer, then is
+   *gradient at least */
+static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck, PetscReal *least)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal no_change = 1e-8, falling = 0.9;
+  const PetscInt  patience = 15;
+  PetscReal       size = 0.0, gradient = 1.0;
+  PetscInt        idle = 0;
+
+  PetscFunctionBegin;
+  *least = PETSC_INFINITY;
+  PetscCall(RestoreJacobianSize(tao, &size));
+  for (PetscInt k = 0; k < IP_RESTORE_MAX && !*ok && idle < patience; k++) {
+    const PetscReal before  = *psi;
+    PetscReal       alpha   = 0.0;
+    PetscBool       descent = PETSC_TRUE, falls;
+
+    PetscCall(RestoreStep(tao, size, psi, &alpha, &gradient, &descent));
+    PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k, (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore.zeta));
+    falls = (PetscBool)(*psi < (1.0 - no_change) * before);
+    if (falls) {
+      idle   = 0;
+      *least = PETSC_INFINITY;
+    } else if (gradient <= IP_RESTORE_SMALL || gradient > falling * *least) idle++;
+    *least = PetscMin(*least, gradient);
+    ip->restore.zeta *= alpha > 0.5 || !descent ? 0.1 : (alpha > 0.0 ? 1.0 : 10.0);
+    if (alpha == 0.0) continue;
+    PetscCall(RestoreTakeTrial(tao));
+    PetscCall(RestoreAccepts(tao, theta0, ok));
+  }
+  *stuck = (PetscBool)(idle >= patience);
   PetscFunctionReturn(0);
 }
 
 /*
   Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then tells whether
-  because the violation has a minimum that is not zero: it falls no longer, and its gradient, which may fall for longer, is small but
-  for what bounds stop.
+  because the violation has a minimum that is not zero: it falls no longer, and its gradient is small but for what bounds stop.
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
-  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscReal theta0  = ip->theta, still = 1e-8, small = 1e-3, falling = 0.9;
-  const PetscInt  most    = 15;
-  PetscReal       psi, size = 0.0, gradient = 1.0, least = PETSC_INFINITY;
-  PetscInt        idle = 0;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  PetscReal       theta0 = ip->search.theta, psi, least = 0.0;
+  PetscBool       stuck  = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(IPFilterAdd(tao));
+  PetscCall(IPMeritFilterAdd(tao));
   *ok = PETSC_FALSE;
-  ip->nrestored++;
-  PetscCall(FirstZeta(tao));
-  PetscCall(JacobianSize(tao, &size));
-  PetscCall(SquaredViolation(tao, ip->c, ip->ce, &psi));
-  PetscCall(Acceptable(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
-  for (PetscInt k = 0; k < IP_RESTORE_MAX && !*ok && idle < most; k++) {
-    const PetscReal before  = psi;
-    PetscReal       alpha   = 0.0;
-    PetscBool       descent = PETSC_TRUE;
-
-    PetscCall(RestoreStep(tao, size, &psi, &alpha, &gradient, &descent));
-    PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k, (double)PetscSqrtReal(2.0 * psi), (double)gradient, (double)alpha, (double)ip->zeta));
-    if (psi < (1.0 - still) * before) {
-      idle  = 0;
-      least = PETSC_INFINITY;
-    }
-    if (psi >= (1.0 - still) * before && (gradient <= small || gradient > falling * least)) idle++;
-    least = PetscMin(least, gradient);
-    ip->zeta *= alpha > 0.5 || !descent ? 0.1 : (alpha > 0.0 ? 1.0 : 10.0);
-    if (alpha == 0.0) continue;
-    PetscCall(TakeTrial(tao));
-    PetscCall(Acceptable(tao, theta0, ok));
-  }
-  *infeasible = (PetscBool)(!*ok && idle >= most && least <= small && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->theta_ref);
-  PetscCall(CenterBounds(tao));
-  if (*ok) PetscCall(Leave(tao));
+  ip->rec.nrestored++;
+  PetscCall(RestoreFirstZeta(tao));
+  PetscCall(RestoreViolation(tao, &ip->at, &psi));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  PetscCall(RestoreAccepts(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
+  PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  *infeasible = (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search.theta_ref);
+  PetscCall(IPBoundsCenter(tao));
+  if (*ok) PetscCall(RestoreLeave(tao));
   PetscFunctionReturn(0);
 }

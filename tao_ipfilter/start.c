@@ -2,49 +2,17 @@
 #include "ipfilterimpl.h"
 
 /* The given constants: t stays for bounds, s = s0, z = z0, lambda = 0, mu = mu0 */
-static PetscErrorCode Cold(Tao tao)
+static PetscErrorCode StartCold(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->mu = ip->mu0;
+  ip->mu = ip->opt.mu0;
   if (ip->mi) {
-    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->s0));
-    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->z0));
-    PetscCall(VecSet(ip->lambda, 0.0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt.s0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0));
+    PetscCall(VecSet(ip->at.lambda, 0.0));
   }
-  PetscFunctionReturn(0);
-}
-
-/* The point of the central path of one constraint that a penalty of stiffness rho bends: s z = mu and s - q = z/rho */
-PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
-{
-  const PetscScalar *qa, *ra;
-  PetscScalar       *sa, *za;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(q, &n));
-  PetscCall(VecGetArrayRead(q, &qa));
-  PetscCall(VecGetArrayRead(rho, &ra));
-  PetscCall(VecGetArrayWrite(s, &sa));
-  PetscCall(VecGetArrayWrite(z, &za));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal g = PetscRealPart(qa[i]), r = PetscRealPart(ra[i]), root = PetscSqrtReal(g * g + 4.0 * mu / r);
-
-    /* the root that does not cancel, and the other from their product mu/rho */
-    if (g >= 0.0) {
-      sa[i] = 0.5 * (g + root);
-      za[i] = mu / PetscRealPart(sa[i]);
-    } else {
-      za[i] = 0.5 * r * (root - g);
-      sa[i] = mu / PetscRealPart(za[i]);
-    }
-  }
-  PetscCall(VecRestoreArrayWrite(z, &za));
-  PetscCall(VecRestoreArrayWrite(s, &sa));
-  PetscCall(VecRestoreArrayRead(rho, &ra));
-  PetscCall(VecRestoreArrayRead(q, &qa));
   PetscFunctionReturn(0);
 }
 
@@ -52,164 +20,33 @@ PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
 static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           q2, weight;
   PetscScalar   sum;
 
   PetscFunctionBegin;
-  PetscCall(VecPointwiseMult(ip->cwork, q, q));
-  PetscCall(VecPointwiseMult(ip->cwork2, ip->stiffness, ip->pair[IP_SLACK].w));
-  PetscCall(VecDot(ip->cwork, ip->cwork2, &sum));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q2));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &weight));
+  PetscCall(VecPointwiseMult(q2, q, q));
+  PetscCall(VecPointwiseMult(weight, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(VecDot(q2, weight, &sum));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &weight));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q2));
   *mean = PetscRealPart(sum) / ip->pair[IP_SLACK].weight;
   PetscFunctionReturn(0);
 }
 
-/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = rho max(-c, 0) */
-static PetscErrorCode PenaltyPressure(Tao tao, Vec c, Vec z)
+/* Weighted mean of |v| */
+static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPPair *slack = &((TAO_IPFILTER *)tao->data)->pair[IP_SLACK];
+  Vec     wv;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(z, 0.0));
-  PetscCall(VecPointwiseMin(z, c, z));
-  PetscCall(VecPointwiseMult(z, z, ip->stiffness));
-  PetscCall(VecScale(z, -1.0));
-  PetscFunctionReturn(0);
-}
-
-/* Weighted sums of |c| and z, divided by the weight: a length and a pressure */
-static PetscErrorCode MeanMagnitudes(Tao tao, Vec c, Vec z, PetscReal *length, PetscReal *pressure)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPPair       *p  = &ip->pair[IP_SLACK];
-
-  PetscFunctionBegin;
-  PetscCall(VecPointwiseMult(ip->cwork2, c, p->w));
-  PetscCall(VecNorm(ip->cwork2, NORM_1, length));
-  PetscCall(VecPointwiseMult(ip->cwork2, z, p->w));
-  PetscCall(VecNorm(ip->cwork2, NORM_1, pressure));
-  *length /= p->weight;
-  *pressure /= p->weight;
-  PetscFunctionReturn(0);
-}
-
-/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of no use
-   along a direction in which it is not convex */
-static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     target;
-
-  PetscFunctionBegin;
-  PetscCall(VecPointwiseMult(ip->cwork, ip->stiffness, ip->pair[IP_SLACK].w));
-  PetscCall(IPCondenseMatrix(tao, ip->cwork));
-  PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
-  PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
-  PetscCall(VecCopy(tao->gradient, ip->rhs));
-  PetscCall(VecScale(ip->rhs, -1.0));
-  PetscCall(MatMultTransposeAdd(ip->cond.J, ip->cwork, ip->rhs, ip->rhs));
-  PetscCall(VecNorm(ip->rhs, NORM_2, &target));
-  PetscCall(VecSet(ip->dx, 0.0));
-  *usable = (PetscBool)(target > 0.0);
-  for (PetscInt pass = 0; pass < 3 && *usable; pass++) {
-    PetscReal force;
-
-    target *= ip->forcing_start;
-    PetscCall(IPLinearSolve(tao, ip->rhs, ip->dx, target, usable));
-    PetscCall(MatMultAdd(ip->cond.J, ip->dx, ip->c, ip->ctrial));
-    PetscCall(PenaltyPressure(tao, ip->ctrial, ip->cwork));
-    PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
-    PetscCall(MatMultTranspose(ip->cond.J, ip->cwork, ip->xwork));
-    PetscCall(VecNorm(ip->xwork, NORM_2, &force));
-    if (ip->linear_residual <= ip->forcing_start * force || force == 0.0) break;
-    target = force;
-  }
-  if (*usable) {
-    PetscScalar curvature;
-    PetscReal   size;
-
-    PetscCall(MatMult(ip->cond.A, ip->dx, ip->xwork));
-    PetscCall(VecDot(ip->dx, ip->xwork, &curvature));
-    PetscCall(VecNorm(ip->dx, NORM_2, &size));
-    *usable = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->hscale * PetscSqr(size));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* The penalized objective f + 1/2 sum m rho min(c, 0)^2 at x, whose f goes into ftrial and constraint values into c */
-static PetscErrorCode PenaltyObjective(Tao tao, Vec x, Vec c, PetscReal *value)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   penalty;
-
-  PetscFunctionBegin;
-  PetscCall(TaoComputeObjective(tao, x, &ip->ftrial));
-  *value = ip->ftrial;
-  if (IPUndefined(*value)) PetscFunctionReturn(0);
-  PetscCall(IPEvaluateConstraints(tao, x, c, ip->cetrial));
-  PetscCall(PenaltyPressure(tao, c, ip->cwork));
-  PetscCall(VecPointwiseMult(ip->cwork, ip->cwork, ip->pair[IP_SLACK].w));
-  PetscCall(VecDot(ip->cwork, c, &penalty));
-  *value -= 0.5 * PetscRealPart(penalty);
-  PetscFunctionReturn(0);
-}
-
-/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic program always */
-static PetscErrorCode ModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal some = 0.1;
-  PetscScalar     gd, dHd;
-  PetscReal       change, error, f;
-
-  PetscFunctionBegin;
-  PetscCall(MatMult(tao->hessian, ip->dx, ip->xwork));
-  PetscCall(VecDot(ip->xwork, ip->dx, &dHd));
-  PetscCall(VecDot(tao->gradient, ip->dx, &gd));
-  f = alpha * (PetscRealPart(gd) + 0.5 * alpha * PetscRealPart(dHd));
-  PetscCall(MatMult(ip->cond.J, ip->dx, ip->cwork));
-  PetscCall(VecScale(ip->cwork, alpha));
-  PetscCall(VecNorm(ip->cwork, NORM_2, &change));
-  PetscCall(VecAXPY(ip->cwork, 1.0, ip->c));
-  PetscCall(VecAXPY(ip->cwork, -1.0, ip->ctrial));
-  PetscCall(VecNorm(ip->cwork, NORM_2, &error));
-  *hold = (PetscBool)(error <= some * change && PetscAbsReal(ip->f + f - ip->ftrial) <= some * (alpha * PetscAbsScalar(gd) + alpha * alpha * PetscAbsScalar(dHd)));
-  PetscFunctionReturn(0);
-}
-
-/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the penalized
-   objective; *moved is false where it does not, where the problem's models do not reach so far, or where equality constraints
-   stand against it */
-static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     before, after, alpha = 1.0;
-  PetscBool     usable = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  *moved = PETSC_FALSE;
-  if (ip->me) PetscFunctionReturn(0);
-  PetscCall(PenaltySolve(tao, &usable));
-  if (!usable) PetscFunctionReturn(0);
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(VecCopy(ip->dx, p->dt));
-    if (b == IP_UPPER) PetscCall(VecScale(p->dt, -1.0));
-    PetscCall(IPPairMaxStep(p->t, p->dt, 0.9, &alpha));
-  }
-  PetscCall(PenaltyObjective(tao, tao->solution, ip->ctrial, &before));
-  for (PetscInt k = 0; k < 4 && !*moved; k++, alpha *= 0.5) {
-    PetscCall(VecWAXPY(ip->xtrial, alpha, ip->dx, tao->solution));
-    PetscCall(PenaltyObjective(tao, ip->xtrial, ip->ctrial, &after));
-    *moved = (PetscBool)(!IPUndefined(after) && after <= before);
-    if (*moved) PetscCall(ModelsHold(tao, alpha, moved));
-  }
-  if (!*moved) PetscFunctionReturn(0);
-  PetscCall(VecCopy(ip->xtrial, tao->solution));
-  PetscCall(VecCopy(ip->ctrial, ip->c));
-  ip->f = ip->ftrial;
-  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
-  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &wv));
+  PetscCall(VecPointwiseMult(wv, v, slack->w));
+  PetscCall(VecNorm(wv, NORM_1, mean));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &wv));
+  *mean /= slack->weight;
   PetscFunctionReturn(0);
 }
 
@@ -217,34 +54,41 @@ static PetscErrorCode PenaltyStep(Tao tao, PetscBool *moved)
 static PetscErrorCode GradientStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     gradient, transmitted, length, unused;
+  PetscReal     gradient, transmitted, length;
+  Vec           force;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
-  PetscCall(MatMultTranspose(ip->cond.J, ip->pair[IP_SLACK].w, ip->xwork));
-  PetscCall(VecNorm(ip->xwork, NORM_2, &transmitted));
-  PetscCall(MeanMagnitudes(tao, ip->c, ip->c, &length, &unused));
-  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0) PetscCall(VecSet(ip->stiffness, gradient / transmitted / length));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(MatMultTranspose(ip->jac.inequality, ip->pair[IP_SLACK].w, force));
+  PetscCall(VecNorm(force, NORM_2, &transmitted));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0) PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
   PetscFunctionReturn(0);
 }
 
 /* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
-static PetscErrorCode Predict(Tao tao)
+static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     length, pressure, mean;
   PetscBool     moved = PETSC_FALSE;
+  Vec           z;
 
   PetscFunctionBegin;
-  PetscCall(PenaltyStep(tao, &moved));
+  PetscCall(IPPenaltyStep(tao, &moved));
   if (!moved) PetscCall(GradientStiffness(tao));
-  PetscCall(PenaltyPressure(tao, ip->c, ip->cwork));
-  PetscCall(MeanMagnitudes(tao, ip->c, ip->cwork, &length, &pressure));
-  PetscCall(MeanProduct(tao, ip->c, &mean));
-  ip->mu = moved ? ip->mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
-  if (!(ip->mu > 0.0)) ip->mu = ip->mu0;
-  PetscCall(IPCentralPair(ip->c, ip->stiffness, ip->mu, ip->pair[IP_SLACK].t, ip->pair[IP_SLACK].z));
-  PetscCall(VecCopy(ip->pair[IP_SLACK].z, ip->lambda));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  PetscCall(MeanMagnitude(tao, z, &pressure));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(MeanProduct(tao, ip->at.c, &mean));
+  ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
+  if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
+  PetscCall(IPCentralPair(ip->at.c, ip->stiff.rho, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
+  PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   PetscFunctionReturn(0);
 }
 
@@ -252,42 +96,44 @@ static PetscErrorCode Predict(Tao tao)
    |c - s| against |c|, but no more than 1 */
 static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
-  PetscReal     force, imbalance, length, difference, unused;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     force, imbalance, length, difference;
 
   PetscFunctionBegin;
-  PetscCall(IPStationarity(tao, slack->z, ip->rx));
+  PetscCall(IPStationarity(tao, ip->at.z[IP_SLACK], ip->rx));
   PetscCall(VecNorm(tao->gradient, NORM_2, &force));
   PetscCall(VecNorm(ip->rx, NORM_2, &imbalance));
-  PetscCall(VecWAXPY(ip->rc, -1.0, slack->t, ip->c));
-  PetscCall(MeanMagnitudes(tao, ip->rc, ip->rc, &difference, &unused));
-  PetscCall(MeanMagnitudes(tao, ip->c, ip->c, &length, &unused));
+  PetscCall(VecWAXPY(ip->rc, -1.0, ip->at.s, ip->at.c));
+  PetscCall(MeanMagnitude(tao, ip->rc, &difference));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
   *mismatch = PetscMin(1.0, PetscMax(force > 0.0 ? imbalance / force : 1.0, length > 0.0 ? difference / length : 1.0));
   PetscFunctionReturn(0);
 }
 
 /* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred, farther from the boundary
    the less they belong to x */
-static PetscErrorCode Warm(Tao tao)
+static PetscErrorCode StartWarm(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
   PetscReal     mean, average, mismatch = 1.0;
+  Vec           q;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(ip->warm_s, slack->t));
-  PetscCall(VecCopy(ip->warm_z, slack->z));
-  PetscCall(IPScalingPair(tao, slack->t, slack->z, PETSC_FALSE));
+  PetscCall(VecCopy(ip->given.warm_s, slack->t));
+  PetscCall(VecCopy(ip->given.warm_z, slack->z));
+  PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
   PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
-  PetscCall(VecPointwiseDivide(ip->ctrial, slack->z, ip->stiffness));
-  PetscCall(VecAYPX(ip->ctrial, -1.0, slack->t));
-  PetscCall(MeanProduct(tao, ip->ctrial, &mean));
-  ip->mu = PetscMax(average, mismatch * ip->mu_warm * (mean > 0.0 ? mean : 1.0));
-  PetscCall(IPCentralPair(ip->ctrial, ip->stiffness, ip->mu, slack->t, slack->z));
-  PetscCall(VecCopy(slack->z, ip->lambda));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q));
+  PetscCall(VecPointwiseDivide(q, slack->z, ip->stiff.rho));
+  PetscCall(VecAYPX(q, -1.0, slack->t));
+  PetscCall(MeanProduct(tao, q, &mean));
+  ip->mu = PetscMax(average, mismatch * ip->opt.mu_warm * (mean > 0.0 ? mean : 1.0));
+  PetscCall(IPCentralPair(q, ip->stiff.rho, ip->mu, slack->t, slack->z));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q));
+  PetscCall(VecCopy(slack->z, ip->at.lambda));
   PetscFunctionReturn(0);
 }
 
@@ -300,23 +146,16 @@ PetscErrorCode IPStartPoint(Tao tao)
   PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
     if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
-  if (ip->start == IP_START_COLD || !ip->mi) PetscCall(Cold(tao));
-  else if (ip->start == IP_START_WARM && ip->warm_s) PetscCall(Warm(tao));
-  else PetscCall(Predict(tao));
-  if (!ip->mi && ip->scaling == IP_SCALING_PROBLEM) {
+  if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
+  else if (ip->opt.start == IP_START_WARM && ip->given.warm_s) PetscCall(StartWarm(tao));
+  else PetscCall(StartPredicted(tao));
+  if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
     PetscReal x;
 
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-    ip->mu = ip->mu_start * ip->hscale * (x > 0.0 ? x * x : 1.0);
+    ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
   }
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(IPPairSetTarget(p, ip->mu, 0.0));
-    PetscCall(IPPairDualDirection(p));
-    PetscCall(VecCopy(p->dz, p->z));
-  }
+  PetscCall(IPBoundsCenter(tao));
   if (ip->me) PetscCall(IPEstimateMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);

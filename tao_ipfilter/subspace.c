@@ -2,10 +2,10 @@
 #include "ipfilterimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
-PetscErrorCode IPSubspaceFind(Tao tao, IS *is)
+static PetscErrorCode SubspaceFind(Tao tao, IS *is)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  Mat                J  = ip->cond.J;
+  Mat                J  = ip->jac.inequality;
   Vec                mark;
   const PetscScalar *a;
   PetscReal          local = 0.0, largest;
@@ -26,7 +26,7 @@ PetscErrorCode IPSubspaceFind(Tao tao, IS *is)
       PetscCall(MatGetRow(J, i, &nc, &cols, &v));
       for (PetscInt k = 0; k < nc; k++) {
         if (!pass) local = PetscMax(local, PetscAbsScalar(v[k]));
-        else if (PetscAbsScalar(v[k]) > ip->filter_threshold * largest) PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
+        else if (PetscAbsScalar(v[k]) > ip->opt.filter_threshold * largest) PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
       }
       PetscCall(MatRestoreRow(J, i, &nc, &cols, &v));
     }
@@ -47,34 +47,73 @@ PetscErrorCode IPSubspaceFind(Tao tao, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* The filter's unknowns with those that A couples to them. Their couplings are weighed irregularly, so that none cancel. */
+/* The filter of the present Jacobian. The IS stays while its entries do, so that PCAMGF knows it again. */
+PetscErrorCode IPSubspaceUpdate(Tao tao)
+{
+  TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed      *cond = &ip->cond;
+  const IPJacobian *jac  = &ip->jac;
+  PetscBool         same = PETSC_FALSE;
+  IS                filter;
+
+  PetscFunctionBegin;
+  if (cond->filter && cond->filter_id == jac->user_id && cond->filter_state == jac->user_state) PetscFunctionReturn(0);
+  PetscCall(SubspaceFind(tao, &filter));
+  cond->filter_id    = jac->user_id;
+  cond->filter_state = jac->user_state;
+  if (cond->filter) PetscCall(ISEqual(filter, cond->filter, &same));
+  if (!same) {
+    PetscCall(ISDestroy(&cond->filter));
+    cond->filter = filter;
+  } else PetscCall(ISDestroy(&filter));
+  PetscFunctionReturn(0);
+}
+
+/* Marks the filter's unknowns in v by numbers so irregular that couplings to them do not cancel */
+static PetscErrorCode SubspaceMark(Tao tao, Vec v)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal golden = 0.6180339887498949;
+  const PetscInt *rows;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(v, 0.0));
+  PetscCall(ISGetLocalSize(ip->cond.filter, &n));
+  PetscCall(ISGetIndices(ip->cond.filter, &rows));
+  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i], 1.0), INSERT_VALUES));
+  PetscCall(ISRestoreIndices(ip->cond.filter, &rows));
+  PetscCall(VecAssemblyBegin(v));
+  PetscCall(VecAssemblyEnd(v));
+  PetscFunctionReturn(0);
+}
+
+/* The filter's unknowns with those that A couples to them */
 PetscErrorCode IPSubspaceGrow(Tao tao, IS *is)
 {
-  TAO_IPFILTER      *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal    weak     = 1e-8, golden = 0.6180339887498949;
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal    weak = 1e-8;
+  Vec                marked, coupled;
   const PetscScalar *coupling, *a;
-  const PetscInt    *rows;
   PetscInt           rstart, n, count = 0, *idx;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(ip->xwork, 0.0));
-  PetscCall(ISGetLocalSize(ip->cond.filter, &n));
-  PetscCall(ISGetIndices(ip->cond.filter, &rows));
-  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(ip->xwork, rows[i], 1.0 + fmod(golden * rows[i], 1.0), INSERT_VALUES));
-  PetscCall(ISRestoreIndices(ip->cond.filter, &rows));
-  PetscCall(VecAssemblyBegin(ip->xwork));
-  PetscCall(VecAssemblyEnd(ip->xwork));
-  PetscCall(MatMult(ip->cond.A, ip->xwork, ip->xwork2));
-  PetscCall(MatGetDiagonal(ip->cond.A, ip->xwork));
-  PetscCall(VecGetOwnershipRange(ip->xwork, &rstart, NULL));
-  PetscCall(VecGetLocalSize(ip->xwork, &n));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &marked));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &coupled));
+  PetscCall(SubspaceMark(tao, marked));
+  PetscCall(MatMult(ip->cond.A, marked, coupled));
+  PetscCall(MatGetDiagonal(ip->cond.A, marked));
+  PetscCall(VecGetOwnershipRange(marked, &rstart, NULL));
+  PetscCall(VecGetLocalSize(marked, &n));
   PetscCall(PetscMalloc1(n, &idx));
-  PetscCall(VecGetArrayRead(ip->xwork2, &coupling));
-  PetscCall(VecGetArrayRead(ip->xwork, &a));
+  PetscCall(VecGetArrayRead(coupled, &coupling));
+  PetscCall(VecGetArrayRead(marked, &a));
   for (PetscInt i = 0; i < n; i++)
     if (PetscAbsScalar(coupling[i]) > weak * PetscAbsScalar(a[i])) idx[count++] = rstart + i;
-  PetscCall(VecRestoreArrayRead(ip->xwork, &a));
-  PetscCall(VecRestoreArrayRead(ip->xwork2, &coupling));
+  PetscCall(VecRestoreArrayRead(marked, &a));
+  PetscCall(VecRestoreArrayRead(coupled, &coupling));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &coupled));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &marked));
   PetscCall(ISCreateGeneral(PetscObjectComm((PetscObject)tao), count, idx, PETSC_COPY_VALUES, is));
   PetscCall(PetscFree(idx));
   PetscFunctionReturn(0);
@@ -89,20 +128,25 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   const PetscScalar *h, *c;
   PetscReal          local = 0.0;
   PetscInt           rstart;
+  Vec                hessian, product;
 
   PetscFunctionBegin;
-  PetscCall(MatGetDiagonal(tao->hessian, ip->xwork));
-  PetscCall(MatGetDiagonal(cond->JtDJ, ip->xwork2));
-  PetscCall(VecGetOwnershipRange(ip->xwork, &rstart, NULL));
-  PetscCall(VecGetArrayRead(ip->xwork, &h));
-  PetscCall(VecGetArrayRead(ip->xwork2, &c));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hessian));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &product));
+  PetscCall(MatGetDiagonal(tao->hessian, hessian));
+  PetscCall(MatGetDiagonal(cond->JtDJ, product));
+  PetscCall(VecGetOwnershipRange(hessian, &rstart, NULL));
+  PetscCall(VecGetArrayRead(hessian, &h));
+  PetscCall(VecGetArrayRead(product, &c));
   for (PetscInt r = 0; r < cond->nrows; r++) {
     const PetscReal hii = PetscRealPart(h[cond->rows[r] - rstart]), cii = PetscRealPart(c[cond->rows[r] - rstart]);
 
     if (cii > 0.0) local = PetscMax(local, hii > 0.0 ? cii / hii : PETSC_INFINITY);
   }
-  PetscCall(VecRestoreArrayRead(ip->xwork2, &c));
-  PetscCall(VecRestoreArrayRead(ip->xwork, &h));
+  PetscCall(VecRestoreArrayRead(product, &c));
+  PetscCall(VecRestoreArrayRead(hessian, &h));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &product));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &hessian));
   PetscCallMPI(MPI_Allreduce(&local, ratio, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
   PetscFunctionReturn(0);
 }
@@ -119,10 +163,10 @@ PetscErrorCode IPSubspaceSwitch(Tao tao)
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf || ip->me) PetscFunctionReturn(0);
-  if (ip->filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
-  ip->filtered = (PetscBool)(ip->filter_forced || ratio > ip->filter_switch);
-  ip->nfiltered += ip->filtered;
-  PetscCall(PCAMGFSetFilterActive(pc, ip->filtered));
-  PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio, ip->filtered ? "on" : "off"));
+  if (ip->opt.filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
+  ip->lin.filtered = (PetscBool)(ip->lin.filter_forced || ratio > ip->opt.filter_switch);
+  ip->rec.nfiltered += ip->lin.filtered;
+  PetscCall(PCAMGFSetFilterActive(pc, ip->lin.filtered));
+  PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio, ip->lin.filtered ? "on" : "off"));
   PetscFunctionReturn(0);
 }

@@ -42,74 +42,60 @@ static PetscErrorCode RowScale(Mat J, Vec layout, PetscReal ratio, Vec *d)
 }
 
 /* Chooses the scales of this solve from the Jacobians just evaluated; tells whether there are any */
-PetscErrorCode IPScalingSetUp(Tao tao, PetscBool *scaled)
+PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->scaling == IP_SCALING_NONE || ip->row_ratio <= 0.0) PetscFunctionReturn(0);
-  if (ip->mi) PetscCall(RowScale(ip->cond.J, ip->c, ip->row_ratio, &ip->cscale));
-  if (ip->me) PetscCall(RowScale(ip->JE, ip->ce, ip->row_ratio, &ip->cescale));
-  *scaled = (PetscBool)(ip->cscale || ip->cescale);
+  if (ip->opt.scaling == IP_SCALING_NONE || ip->opt.row_ratio <= 0.0) PetscFunctionReturn(0);
+  if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, ip->opt.row_ratio, &ip->rows.inequality));
+  if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, ip->opt.row_ratio, &ip->rows.equality));
+  *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);
   PetscFunctionReturn(0);
 }
 
-/* Forgets the scales of the last solve, and what was condensed with them */
-PetscErrorCode IPScalingReset(Tao tao)
+/* Forgets the scales of the last solve. *changed: the inequality Jacobian had been scaled by them. */
+PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->cscale) PetscCall(IPCondensedDestroy(&ip->cond));
-  PetscCall(VecDestroy(&ip->cscale));
-  PetscCall(VecDestroy(&ip->cescale));
-  PetscFunctionReturn(0);
-}
-
-/* The Jacobian with rows scaled and the columns of fixed variables zeroed: a copy, or the Jacobian itself where nothing is to be done */
-PetscErrorCode IPScalingJacobian(Tao tao, Mat J, Vec scale, Mat *scaled)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  if (!scale && !ip->fixed) {
-    PetscCall(PetscObjectReference((PetscObject)J));
-    *scaled = J;
-    PetscFunctionReturn(0);
-  }
-  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, scaled));
-  PetscCall(VecSet(ip->xwork, 1.0));
-  PetscCall(IPFixedZero(tao, ip->xwork));
-  PetscCall(MatDiagonalScale(*scaled, scale, ip->xwork));
+  *changed = (PetscBool)(ip->rows.inequality != NULL);
+  PetscCall(VecDestroy(&ip->rows.inequality));
+  PetscCall(VecDestroy(&ip->rows.equality));
   PetscFunctionReturn(0);
 }
 
 /* Slacks and multipliers of a pair of the inequalities from the caller's units, or back to them */
-PetscErrorCode IPScalingPair(Tao tao, Vec s, Vec z, PetscBool back)
+PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (!ip->cscale) PetscFunctionReturn(0);
+  if (!ip->rows.inequality) PetscFunctionReturn(0);
   if (back) {
-    PetscCall(VecPointwiseDivide(s, s, ip->cscale));
-    PetscCall(VecPointwiseMult(z, z, ip->cscale));
+    PetscCall(VecPointwiseDivide(s, s, ip->rows.inequality));
+    PetscCall(VecPointwiseMult(z, z, ip->rows.inequality));
   } else {
-    PetscCall(VecPointwiseMult(s, s, ip->cscale));
-    PetscCall(VecPointwiseDivide(z, z, ip->cscale));
+    PetscCall(VecPointwiseMult(s, s, ip->rows.inequality));
+    PetscCall(VecPointwiseDivide(z, z, ip->rows.inequality));
   }
   PetscFunctionReturn(0);
 }
 
-/* Largest entry of a residual in the caller's units */
-PetscErrorCode IPScalingNorm(Vec r, Vec scale, Vec work, PetscReal *norm)
+/* Largest entry of a residual of the constraints in the caller's units */
+PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
 {
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  Vec           scale = space == IP_INEQUALITIES ? ip->rows.inequality : ip->rows.equality, unscaled = NULL;
+
   PetscFunctionBegin;
   if (scale) {
-    PetscCall(VecPointwiseDivide(work, r, scale));
-    r = work;
+    PetscCall(IPGetWork(tao, space, &unscaled));
+    PetscCall(VecPointwiseDivide(unscaled, r, scale));
   }
-  PetscCall(VecNorm(r, NORM_INFINITY, norm));
+  PetscCall(VecNorm(scale ? unscaled : r, NORM_INFINITY, norm));
+  PetscCall(IPRestoreWork(tao, space, &unscaled));
   PetscFunctionReturn(0);
 }

@@ -1,14 +1,14 @@
 /*
    The condensed matrix A = H + ... + J^T D J in memory.
 
-   A has H's type, except that it is BAIJ where one process has an SBAIJ H, unless the preconditioner factors SBAIJ: H then
-   takes half the memory, while products with A and hypre work on whole rows. A's pattern is the union of H's and J^T J's and is
+   A has H's type, except that it is AIJ for a dense H, and BAIJ where one process has an SBAIJ H, unless the preconditioner factors
+   SBAIJ: H then takes half the memory, while products with A and hypre work on whole rows. A's pattern is the union of H's and J^T J's and is
    preallocated; while H is unchanged only the rows that J^T D J touches are written again, so a constant H is copied once.
 */
 #include "ipfilterimpl.h"
 
 /* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on */
-static PetscErrorCode BlockRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n, PetscInt cols[])
+static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n, PetscInt cols[])
 {
   PetscFunctionBegin;
   *n           = 0;
@@ -35,7 +35,7 @@ static PetscErrorCode BlockRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, Pe
 }
 
 /* Longest row of H plus that of J^T D J times the block size bounds a block row's pattern */
-static PetscErrorCode LongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
+static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
 {
   PetscInt rstart, rend, h = 0, c = 0;
 
@@ -56,37 +56,64 @@ static PetscErrorCode LongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* A new A of H's type, preallocated for the union pattern */
-static PetscErrorCode CreateCondensed(Mat H, Mat C, Mat *A)
+/* Lengths of the block rows of the union pattern: of this rank's columns, and of the others' */
+static PetscErrorCode CondensedCountBlocks(Mat H, Mat C, PetscInt bs, PetscBool upper, PetscInt dnz[], PetscInt onz[])
 {
-  PetscInt     bs = 1, hbs, rstart, rend, m, n, M, N, *cols, *dnz, *onz, longest = 0;
+  PetscInt rstart, rend, longest = 0, *cols;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  if (upper) PetscCall(MatGetRowUpperTriangular(H));
+  PetscCall(CondensedLongestRow(H, C, bs, &longest));
+  PetscCall(PetscMalloc1(longest, &cols));
+  for (PetscInt ib = rstart / bs; ib < rend / bs; ib++) {
+    const PetscInt row = ib - rstart / bs;
+    PetscInt       nb;
+
+    PetscCall(CondensedRowPattern(H, C, ib, bs, upper, &nb, cols));
+    dnz[row] = onz[row] = 0;
+    for (PetscInt j = 0; j < nb; j++) {
+      if (cols[j] >= rstart / bs && cols[j] < rend / bs) dnz[row]++;
+      else onz[row]++;
+    }
+  }
+  PetscCall(PetscFree(cols));
+  if (upper) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* The type of A for a Hessian of H's type, and whether it consists of blocks, or of the upper triangle of blocks */
+static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij, PetscBool *sbaij)
+{
+  PetscBool aij, dense;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &dense, MATSEQDENSE, MATMPIDENSE, ""));
+  PetscCall(MatGetType(H, type));
+  PetscCheck(aij || *baij || *sbaij || dense, PetscObjectComm((PetscObject)H), PETSC_ERR_SUP, "TAOIPFILTER takes a Hessian of type AIJ, BAIJ, SBAIJ or dense, not %s", *type);
+  if (dense) *type = MATAIJ;
+  PetscFunctionReturn(0);
+}
+
+/* A new A, preallocated for the union pattern */
+static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
+{
+  PetscInt     bs = 1, hbs, m, n, M, N, *dnz, *onz;
   PetscBool    baij, sbaij;
   MatType      type;
   MatNullSpace near;
 
   PetscFunctionBegin;
-  PetscCall(MatGetType(H, &type));
+  PetscCall(CondensedChooseType(H, &type, &baij, &sbaij));
   PetscCall(MatGetBlockSize(H, &hbs));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
   if (baij || sbaij) bs = hbs;
   PetscCall(MatGetLocalSize(H, &m, &n));
   PetscCall(MatGetSize(H, &M, &N));
-  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
-  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
-  PetscCall(LongestRow(H, C, bs, &longest));
-  PetscCall(PetscMalloc3(longest, &cols, m / bs, &dnz, m / bs, &onz));
-  for (PetscInt ib = rstart / bs; ib < rend / bs; ib++) {
-    PetscInt nb;
-
-    PetscCall(BlockRowPattern(H, C, ib, bs, sbaij, &nb, cols));
-    dnz[ib - rstart / bs] = onz[ib - rstart / bs] = 0;
-    for (PetscInt j = 0; j < nb; j++) {
-      if (cols[j] >= rstart / bs && cols[j] < rend / bs) dnz[ib - rstart / bs]++;
-      else onz[ib - rstart / bs]++;
-    }
-  }
-  if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscCall(PetscMalloc2(m / bs, &dnz, m / bs, &onz));
+  PetscCall(CondensedCountBlocks(H, C, bs, sbaij, dnz, onz));
   PetscCall(MatCreate(PetscObjectComm((PetscObject)H), A));
   PetscCall(MatSetSizes(*A, m, n, M, N));
   PetscCall(MatSetType(*A, type));
@@ -97,7 +124,7 @@ static PetscErrorCode CreateCondensed(Mat H, Mat C, Mat *A)
     PetscCall(MatSeqAIJSetPreallocation(*A, 0, dnz));
     PetscCall(MatMPIAIJSetPreallocation(*A, 0, dnz, 0, onz));
   }
-  PetscCall(PetscFree3(cols, dnz, onz));
+  PetscCall(PetscFree2(dnz, onz));
   if (sbaij) PetscCall(MatSetOption(*A, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
   PetscCall(MatSetOption(*A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatSetOption(*A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
@@ -107,7 +134,7 @@ static PetscErrorCode CreateCondensed(Mat H, Mat C, Mat *A)
 }
 
 /* Zeroes in A the pattern of C; A's other entries stay */
-static PetscErrorCode ZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt rows[])
+static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt rows[])
 {
   PetscScalar *zeros = NULL;
   PetscInt     nz    = 0;
@@ -131,7 +158,7 @@ static PetscErrorCode ZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt r
 }
 
 /* Whether H has its upper triangle only, and A is to have whole rows */
-static PetscErrorCode Unfolds(Tao tao, Mat H, PetscBool *unfolds)
+static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
 {
   PC        pc;
   PetscBool half, factored;
@@ -206,7 +233,7 @@ static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
 }
 
 /* Writes all of H into A */
-static PetscErrorCode WriteHessian(Mat A, Mat H)
+static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
 {
   PetscInt  rstart, rend, bs;
   PetscBool baij, sbaij;
@@ -227,7 +254,7 @@ static PetscErrorCode WriteHessian(Mat A, Mat H)
 }
 
 /* Writes the rows of H into A that J^T D J touches */
-static PetscErrorCode RestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
+static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
 {
   PetscBool sbaij;
 
@@ -251,7 +278,7 @@ PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool val
   PetscBool    unfolds = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(Unfolds(tao, H, &unfolds));
+  PetscCall(HessianUnfolds(tao, H, &unfolds));
   if (unfolds && values) {
     PetscCall(MatConvert(tao->hessian, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
     PetscCall(MatGetNearNullSpace(tao->hessian, &near));
@@ -259,12 +286,12 @@ PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool val
   } else PetscCall(PetscObjectReference((PetscObject)H));
   if (pattern) {
     PetscCall(MatDestroy(&cond->A));
-    PetscCall(CreateCondensed(H, cond->JtDJ, &cond->A));
+    PetscCall(CondensedCreate(H, cond->JtDJ, &cond->A));
     cond->shifted = PETSC_FALSE;
   }
-  if (cond->JtDJ) PetscCall(ZeroTouched(cond->A, cond->JtDJ, cond->nrows, cond->rows));
-  if (values) PetscCall(WriteHessian(cond->A, H));
-  else PetscCall(RestoreTouched(cond, H, unfolds));
+  if (cond->JtDJ) PetscCall(CondensedZeroTouched(cond->A, cond->JtDJ, cond->nrows, cond->rows));
+  if (values) PetscCall(CondensedCopyHessian(cond->A, H));
+  else PetscCall(CondensedRestoreTouched(cond, H, unfolds));
   PetscCall(MatDestroy(&H));
   PetscFunctionReturn(0);
 }

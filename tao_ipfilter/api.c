@@ -38,7 +38,7 @@ static PetscErrorCode TaoIPFilterSetSlackMass_IPFilter(Tao tao, Vec mass)
 
   PetscFunctionBegin;
   PetscCall(CheckPositive(tao, mass, "slack"));
-  PetscCall(ReplaceVec(mass, &ip->slack_mass));
+  PetscCall(ReplaceVec(mass, &ip->given.slack_mass));
   PetscFunctionReturn(0);
 }
 
@@ -48,7 +48,7 @@ static PetscErrorCode TaoIPFilterSetPrimalMass_IPFilter(Tao tao, Vec mass)
 
   PetscFunctionBegin;
   PetscCall(CheckPositive(tao, mass, "primal"));
-  PetscCall(ReplaceVec(mass, &ip->primal_mass));
+  PetscCall(ReplaceVec(mass, &ip->given.primal_mass));
   PetscFunctionReturn(0);
 }
 
@@ -58,8 +58,8 @@ static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
 
   PetscFunctionBegin;
   PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP, "give both slacks and multipliers, or neither");
-  PetscCall(CopyVec(s, &ip->warm_s));
-  PetscCall(CopyVec(z, &ip->warm_z));
+  PetscCall(CopyVec(s, &ip->given.warm_s));
+  PetscCall(CopyVec(z, &ip->given.warm_z));
   PetscFunctionReturn(0);
 }
 
@@ -78,8 +78,8 @@ static PetscErrorCode TaoIPFilterGetKSPIterations_IPFilter(Tao tao, PetscInt *n,
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (n) *n = ip->niter_ksp;
-  if (its) *its = ip->ksp_iterations;
+  if (n) *n = ip->rec.nksp;
+  if (its) *its = ip->rec.ksp_iterations;
   PetscFunctionReturn(0);
 }
 
@@ -98,7 +98,7 @@ static PetscErrorCode TaoIPFilterGetReason_IPFilter(Tao tao, const char *reason[
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *reason = ip->reason;
+  *reason = ip->rec.reason;
   PetscFunctionReturn(0);
 }
 
@@ -107,8 +107,8 @@ static PetscErrorCode TaoIPFilterGetFilterUse_IPFilter(Tao tao, PetscInt *system
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (systems) *systems = ip->nsystems;
-  if (filtered) *filtered = ip->nfiltered;
+  if (systems) *systems = ip->rec.nsystems;
+  if (filtered) *filtered = ip->rec.nfiltered;
   PetscFunctionReturn(0);
 }
 
@@ -117,16 +117,16 @@ static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (steps) *steps = ip->nregularized;
-  if (retries) *retries = ip->nretried;
-  if (largest) *largest = ip->delta_largest;
+  if (steps) *steps = ip->rec.nregularized;
+  if (retries) *retries = ip->rec.nretried;
+  if (largest) *largest = ip->rec.delta_largest;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallbacks *fallbacks)
 {
   PetscFunctionBegin;
-  *fallbacks = ((TAO_IPFILTER *)tao->data)->fallbacks;
+  *fallbacks = ((TAO_IPFILTER *)tao->data)->rec.fallbacks;
   PetscFunctionReturn(0);
 }
 

@@ -1,0 +1,157 @@
+/* When the iteration ends, and with what reason. */
+#include "ipfilterimpl.h"
+
+/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero. Nothing
+   there gives a scale to measure errors by, so it is not left to the iteration to find out. */
+PetscErrorCode IPTestFirstPoint(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     least = 0.0;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(VecMin(ip->at.c, NULL, &least));
+  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || least < 0.0) PetscFunctionReturn(0);
+  if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++)
+    if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
+  ip->mu = 0.0;
+  PetscCall(PetscMemzero(&ip->kkt, sizeof(ip->kkt)));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and violates nothing"));
+  PetscFunctionReturn(0);
+}
+
+/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
+static PetscErrorCode AddAbsoluteForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
+{
+  const PetscScalar *z;
+  PetscInt           rstart, rend;
+  Vec                force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, space, &force));
+  PetscCall(VecCopy(multiplier, force));
+  if (weights) PetscCall(VecPointwiseMult(force, force, weights));
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  PetscCall(VecGetArrayRead(force, &z));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscScalar *v;
+    const PetscInt    *column;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(J, i, &n, &column, &v));
+    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
+    PetscCall(MatRestoreRow(J, i, &n, &column, &v));
+  }
+  PetscCall(VecRestoreArrayRead(force, &z));
+  PetscCall(IPRestoreWork(tao, space, &force));
+  PetscCall(VecAssemblyBegin(r));
+  PetscCall(VecAssemblyEnd(r));
+  PetscFunctionReturn(0);
+}
+
+/* Largest force of all the constraints at an unknown, as if none cancelled another */
+static PetscErrorCode AbsoluteForce(Tao tao, PetscReal *largest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           sum, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sum));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(VecSet(sum, 0.0));
+  if (ip->mi) PetscCall(AddAbsoluteForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.z[IP_SLACK], ip->pair[IP_SLACK].w, sum));
+  if (ip->me) PetscCall(AddAbsoluteForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecPointwiseMult(force, ip->pair[b].w, ip->pair[b].z));
+    PetscCall(VecAXPY(sum, 1.0, force));
+  }
+  PetscCall(VecNorm(sum, NORM_INFINITY, largest));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sum));
+  PetscFunctionReturn(0);
+}
+
+/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they cancel one
+   another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
+static PetscErrorCode Cancellation(Tao tao, PetscReal *times)
+{
+  const PetscReal vanishing = 1e-3; /* of the first gradient */
+  PetscReal       force, gradient;
+
+  PetscFunctionBegin;
+  PetscCall(AbsoluteForce(tao, &force));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  gradient = PetscMax(gradient, vanishing * ((TAO_IPFILTER *)tao->data)->first.gradient);
+  *times   = gradient > 0.0 ? force / gradient : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Whether the objective has fallen so far below its first value, against that value and against what a Newton step from
+   the start would gain, that it can only be unbounded */
+static PetscBool Unbounded(const TAO_IPFILTER *ip)
+{
+  const PetscReal size = PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x), PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+
+  return (PetscBool)(size > 0.0 && ip->at.f < ip->first.f - ip->opt.unbounded_factor * size);
+}
+
+/* Counts steps in a row that rounding makes of x */
+static PetscErrorCode CountTinySteps(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  ip->rec.ntiny = tao->niter && ip->search.tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size ? ip->rec.ntiny + 1 : 0;
+  PetscFunctionReturn(0);
+}
+
+/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away */
+static PetscErrorCode ConvergeUnlessCancelled(Tao tao)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal limit = 1e4;
+  PetscReal       times = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(Cancellation(tao, &times));
+  if (times <= limit) PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g", (double)ip->kkt.error, (double)ip->tol));
+  else PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but by multipliers %g times larger than what they balance: bounded ones may not exist", (double)ip->kkt.error, (double)times));
+  PetscFunctionReturn(0);
+}
+
+/* Ends the iteration where the KKT error, a limit or the values themselves say so */
+PetscErrorCode IPTestConvergence(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  const IPKKT  *k  = &ip->kkt;
+  PetscInt      nfuncs, max_tiny = 3;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
+  PetscCall(CountTinySteps(tao));
+  ip->rec.nacceptable = k->error <= ip->opt.acceptable_tol ? ip->rec.nacceptable + 1 : 0;
+  if (IPUndefined(k->error) || IPUndefined(ip->at.f)) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
+  } else if (k->error <= ip->tol) {
+    PetscCall(ConvergeUnlessCancelled(tao));
+  } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->at.f, (double)tao->fmin));
+  } else if (Unbounded(ip)) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->first.f, (double)ip->at.f));
+    ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, no other does */
+  } else if (ip->rec.nacceptable >= ip->opt.acceptable_it) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->opt.acceptable_tol, (double)ip->tol));
+  } else if (ip->rec.ntiny >= max_tiny) {
+    if (k->error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)ip->tol));
+    else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)k->error));
+  } else if (tao->niter >= tao->max_it) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
+  } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)k->error));
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,201 @@
+/* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough curvature. */
+#include "ipfilterimpl.h"
+
+/* d^T (H + Sigma + delta M_u) d and d^T d */
+static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscReal *square)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           d = ip->dir.x, Wd;
+  PetscScalar   dHd, dd, dSd = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
+  PetscCall(MatMult(tao->hessian, d, Wd));
+  PetscCall(VecDot(d, Wd, &dHd));
+  PetscCall(VecDot(d, d, &dd));
+  if (ip->cond.shifted) {
+    PetscCall(VecPointwiseMult(Wd, ip->cond.shift, d));
+    PetscCall(VecDot(d, Wd, &dSd));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Wd));
+  *curvature = PetscRealPart(dHd) + PetscRealPart(dSd);
+  *square    = PetscRealPart(dd);
+  PetscFunctionReturn(0);
+}
+
+/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) and, with constants in the problem's units, ds^T ds */
+static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscReal *square)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  Vec           v, ds2;
+  PetscScalar   sDs, ss, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ds2));
+  PetscCall(IPPairGetSigma(slack, v));
+  PetscCall(VecPointwiseMult(ds2, slack->dt, slack->dt));
+  PetscCall(VecDot(v, ds2, &sDs));
+  PetscCall(VecSum(ds2, &ss));
+  PetscCall(VecWAXPY(v, 1.0, ip->at.lambda, ip->dir.lambda));
+  PetscCall(VecPointwiseMult(v, v, slack->w));
+  PetscCall(VecDot(v, ip->rc, &force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ds2));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
+  *curvature += PetscRealPart(sDs) + PetscMax(PetscRealPart(force), 0.0);
+  if (ip->opt.scaling == IP_SCALING_NONE) *square += PetscRealPart(ss);
+  PetscFunctionReturn(0);
+}
+
+/* d^T W d + max(lambda+^T M (c - s), 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
+   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A step that rounding makes of x has no
+   curvature to speak of. */
+static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  const PetscReal kappa = ip->opt.kappa_curvature * (ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->stiff.hscale);
+  PetscReal       curvature = 0.0, square = 0.0, step, size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &step));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *passes = (PetscBool)(step <= IP_TINY_STEP * size);
+  if (*passes) PetscFunctionReturn(0);
+  PetscCall(CurvatureOfUnknowns(tao, &curvature, &square));
+  if (ip->mi) PetscCall(CurvatureAddSlacks(tao, &curvature, &square));
+  *passes = (PetscBool)(curvature >= kappa * square);
+  if (!*passes) PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature, (double)(kappa * square)));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the whole step would end the solve but for the forces left out of balance: steps of one, well away from the
+   boundary, and all products (t + dt)(z + dz) within the tolerance */
+static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal margin  = 0.9;
+  PetscReal       largest = 0.0, primal = 1.0, dual = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, margin, &primal, &dual));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal product;
+
+    PetscCall(IPPairStepProducts(&ip->pair[b], 1.0, 1.0, &product, NULL));
+    largest = PetscMax(largest, product);
+  }
+  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product);
+  PetscFunctionReturn(0);
+}
+
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last */
+static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last)
+{
+  const PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
+
+  return PetscMax(loose, last);
+}
+
+/* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
+   balance only to a few percent, so that the multipliers are right to a few percent; a step that would finish is
+   continued to what convergence asks for. matrix tells that A is new. */
+static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal last   = ip->opt.forcing_last * ip->tol * ip->scale.dual;
+  PetscBool       finish = PETSC_FALSE;
+  Vec             rhs;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  PetscCall(IPCondenseRHS(tao, rc, rhs));
+  if (ip->me) PetscCall(IPAugmentedSolve(tao, rhs, ce, ip->dir.x, matrix, usable));
+  else PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, ForcingTarget(ip, last), usable));
+  if (*usable) PetscCall(IPBackSubstitute(tao, rc));
+  if (*usable && !ip->me && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
+  if (finish) {
+    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, last, usable));
+    if (*usable) PetscCall(IPBackSubstitute(tao, rc));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+  PetscFunctionReturn(0);
+}
+
+/* Right-hand sides of the pairs */
+static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corrector_max)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], mu, corrector_max));
+  PetscFunctionReturn(0);
+}
+
+/* The matrix with the present delta */
+static PetscErrorCode DirectionAssemble(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           D;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
+  if (ip->mi) PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], D));
+  PetscCall(IPCondenseMatrix(tao, D));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
+   guess of the direction proper. */
+static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscBool     matrix = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  if (ip->bar.free) {
+    PetscCall(DirectionSetTargets(tao, 0.0, 0.0));
+    PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, PETSC_TRUE, usable));
+    if (!*usable) PetscFunctionReturn(0);
+    PetscCall(IPBarrierFromAffine(tao));
+    matrix = PETSC_FALSE;
+  }
+  PetscCall(DirectionSetTargets(tao, ip->mu, ip->bar.free ? ip->bar.corrector_max : 0.0));
+  PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, matrix, usable));
+  PetscFunctionReturn(0);
+}
+
+/* Another direction with the matrix of the last one, for the residuals of a second-order correction */
+PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(DirectionSolve(tao, rc, ce, PETSC_FALSE, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The Newton direction, whose curvature (or, with equality constraints, whose matrix's inertia) is in order */
+static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(DirectionSolveSystem(tao, usable));
+  if (*usable && !((TAO_IPFILTER *)tao->data)->me) PetscCall(CurvatureTest(tao, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The direction of the next step; *ok is false where there is none of sufficient curvature, or no solver gives it */
+PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->aug.delta = 0.0;
+  PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
+  if (!*ok || ip->shift.delta == 0.0) PetscFunctionReturn(0);
+  ip->shift.last    = ip->shift.delta;
+  ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
+  ip->rec.nregularized++;
+  ip->bar.curved = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,81 @@
+/* Magnitudes that residuals are measured by. */
+#include "ipfilterimpl.h"
+
+#define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
+#define IP_RUNAWAY   100.0 /* an iterate counts for no more than so many times its first size */
+
+/* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
+   residuals look small */
+static PetscReal Within(PetscReal size, PetscReal limit)
+{
+  return limit > 0.0 ? PetscMin(size, limit) : size;
+}
+
+/* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
+   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. */
+static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPScale      *s  = &ip->scale;
+  PetscReal     c, t;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &c));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
+  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length), 10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
+  s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
+  s->product  = s->length * s->pressure;
+  PetscFunctionReturn(0);
+}
+
+/* Values of the equality constraints: the first, or those of their linear parts */
+static PetscErrorCode EqualityScale(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           linear;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &linear));
+  PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
+  PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
+  ip->scale.equality = PetscMax(ip->first.equality, norm);
+  PetscFunctionReturn(0);
+}
+
+/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
+   forces against the forces that cancel, constraints against their largest value, products t z against length times
+   pressure. Where these vanish, small fractions of first values, and of the stiffness's pressure, take their place. */
+PetscErrorCode IPComputeScale(Tao tao)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscBool limited = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+  PetscReal       norm, floor, xsize, z;
+  IPScale        *s = &ip->scale;
+
+  PetscFunctionBegin;
+  *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
+  if (ip->opt.scaling == IP_SCALING_NONE || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  *s = (IPScale){0.0, 0.0, 0.0, 0.0, 0.0};
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  PetscCall(IPRoundingFloor(tao, &floor));
+  s->dual = PetscMax(norm, (limited ? IP_VANISHING : 1.0) * ip->first.gradient);
+  s->dual = PetscMax(s->dual, Within(floor / ip->tol, PetscMax(ip->first.gradient, ip->first.floor / ip->tol)));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first.x), ip->first.x);
+  if (ip->mi) PetscCall(InequalityScale(tao, xsize));
+  if (ip->me) PetscCall(EqualityScale(tao));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
+    s->product = PetscMax(s->product, xsize * PetscMax(z, IP_VANISHING * ip->stiff.hscale * xsize));
+  }
+  if (!(s->dual > 0.0)) s->dual = 1.0;
+  if (!(s->length > 0.0)) s->length = 1.0;
+  if (!(s->equality > 0.0)) s->equality = 1.0;
+  if (!(s->pressure > 0.0)) s->pressure = 1.0;
+  if (!(s->product > 0.0)) s->product = 1.0;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,286 @@
+/* The outer iteration. */
+#include "ipfilterimpl.h"
+
+/* Objective, constraints and derivatives at the starting point; without them where the objective is not a number */
+static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     alone;
+
+  PetscFunctionBegin;
+  PetscCall(TaoIsGradientDefined(tao, &alone));
+  if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
+  *defined = (PetscBool)!(alone && IPUndefined(ip->at.f));
+  if (!*defined) PetscFunctionReturn(0);
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Drops what was made from another set of fixed variables or with other scales of the rows */
+static PetscErrorCode ForgetSystem(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscFunctionReturn(0);
+}
+
+/* Chooses the scales of the rows, and sees constraints and derivatives through them */
+static PetscErrorCode ScaleRows(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     scaled;
+
+  PetscFunctionBegin;
+  PetscCall(IPRowScaleSetUp(tao, &scaled));
+  if (!scaled) PetscFunctionReturn(0);
+  if (ip->rows.inequality) PetscCall(ForgetSystem(tao));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Sizes at the starting point; *finite is false where one is not a number */
+static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFirst      *first = &ip->first;
+
+  PetscFunctionBegin;
+  first->f = ip->at.f;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  if (ip->mi) {
+    PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
+    PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
+  }
+  if (ip->me) PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
+  *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) && !IPUndefined(first->equality));
+  PetscFunctionReturn(0);
+}
+
+/* The starting point, pushed inside its bounds, and everything there; *finite is false where something is not a number */
+static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     other_fixed, other_scales;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeVariableBounds(tao));
+  PetscCall(IPFixedSetUp(tao, &other_fixed));
+  PetscCall(IPRowScaleReset(tao, &other_scales));
+  if (other_fixed || other_scales) PetscCall(ForgetSystem(tao));
+  PetscCall(IPBoundsSetUp(tao));
+  PetscCall(IPIterateBind(tao));
+  PetscCall(IPBoundsPush(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->first.x));
+  PetscCall(EvaluateFirst(tao, finite));
+  if (!*finite) PetscFunctionReturn(0);
+  PetscCall(ScaleRows(tao));
+  PetscCall(MeasureFirst(tao, finite));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the last solve, but for what the next one may reuse: matrices, scratch vectors, and room for records */
+static PetscErrorCode ResetSolve(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPRecord     *rec = &ip->rec;
+
+  PetscFunctionBegin;
+  *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY};
+  ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
+  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA)};
+  ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
+  ip->shift        = (IPShift){.delta = 0.0};
+  ip->first        = (IPFirst){.f = 0.0};
+  ip->dir.norm     = 0.0;
+  tao->ksp_its     = 0;
+  tao->ksp_tot_its = 0;
+  tao->reason      = TAO_CONTINUE_ITERATING;
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Keeps the iterate of smallest KKT error */
+static PetscErrorCode KeepBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->kkt.error >= ip->rec.best_error) PetscFunctionReturn(0);
+  ip->rec.best_error = ip->kkt.error;
+  PetscCall(IPIterateCopy(&ip->at, &ip->best));
+  PetscFunctionReturn(0);
+}
+
+/* Returns to the best iterate where the last one is worse */
+static PetscErrorCode RestoreBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec.best_error == PETSC_INFINITY || ip->kkt.error <= ip->rec.best_error) PetscFunctionReturn(0);
+  PetscCall(IPIterateCopy(&ip->best, &ip->at));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* KKT error at the new iterate, its record and the monitors */
+static PetscErrorCode AssessIterate(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPComputeKKT(tao));
+  PetscCall(IPTestConvergence(tao));
+  if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
+  PetscCall(KeepBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, tao->ksp_tot_its));
+  PetscCall(IPMonitor(tao));
+  PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, ip->search.alpha));
+  PetscFunctionReturn(0);
+}
+
+/* The reason where no solver gave a direction */
+static PetscErrorCode EndLinear(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm; /* no direction, no reduction */
+
+  PetscFunctionBegin;
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s", KSPConvergedReasons[ip->lin.reason], (double)residual, (double)ip->lin.rhs, ip->lin.why[0] ? "; " : "", ip->lin.why));
+  PetscFunctionReturn(0);
+}
+
+/* The reason where no restoration helped, either */
+static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+  else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
+  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s", (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
+  else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
+  PetscFunctionReturn(0);
+}
+
+/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then the violation is
+   reduced by itself. */
+static PetscErrorCode Recover(Tao tao, PetscBool solved)
+{
+  TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
+  const PetscInt  iterations = 10;
+  const PetscBool violated   = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (ip->kkt.error <= ip->opt.acceptable_tol) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
+    PetscFunctionReturn(0);
+  }
+  if (!solved && ip->lin.failed) {
+    PetscCall(EndLinear(tao));
+    PetscFunctionReturn(0);
+  }
+  if (ip->bar.free) {
+    PetscCall(IPBarrierHold(tao, iterations));
+    PetscFunctionReturn(0);
+  }
+  if (violated && ip->search.theta0 >= 0.0) {
+    PetscCall(IPRestore(tao, &ok, &infeasible));
+    if (!ok) PetscCall(IPComputeKKT(tao));
+  }
+  if (ok) {
+    ip->search.tag = 'R';
+    tao->niter++;
+  } else PetscCall(EndUnrestored(tao, solved, violated, infeasible));
+  PetscFunctionReturn(0);
+}
+
+/* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
+static PetscErrorCode TakeNewtonStep(Tao tao)
+{
+  PetscBool solved = PETSC_FALSE, ok = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  tao->ksp_its = 0;
+  PetscCall(IPRelax(tao));
+  PetscCall(IPBarrierUpdate(tao));
+  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPComputeDirection(tao, &solved));
+  if (solved) PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) {
+    PetscCall(Recover(tao, solved));
+    PetscFunctionReturn(0);
+  }
+  tao->niter++;
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The starting point; *finite is false where it is none. Ends the solve there and where it is stationary. */
+static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
+{
+  PetscFunctionBegin;
+  PetscCall(FirstPoint(tao, finite));
+  if (!*finite) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPTestFirstPoint(tao));
+  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
+  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPStartPoint(tao));
+  PetscCall(AssessIterate(tao));
+  PetscFunctionReturn(0);
+}
+
+/* What the caller sees: the best iterate, in its units */
+static PetscErrorCode EndSolve(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(RestoreBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
+  tao->fc       = ip->at.f;
+  tao->residual = ip->kkt.error;
+  tao->cnorm    = ip->kkt.inf_pr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoSolve_IPFilter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     finite;
+
+  PetscFunctionBegin;
+  PetscCall(IPSetUpSizes(tao));
+  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
+  PetscCall(ResetSolve(tao));
+  PetscCall(BeginSolve(tao, &finite));
+  if (!finite) PetscFunctionReturn(0);
+  while (tao->reason == TAO_CONTINUE_ITERATING) {
+    PetscTryTypeMethod(tao, update, tao->niter, tao->user_update);
+    PetscCall(TakeNewtonStep(tao));
+    if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(AssessIterate(tao));
+  }
+  PetscCall(EndSolve(tao));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,24 @@
+/* What -tao_view says. */
+#include "ipfilterimpl.h"
+
+PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
+{
+  TAO_IPFILTER               *ip = (TAO_IPFILTER *)tao->data;
+  const TaoIPFilterFallbacks *f  = &ip->rec.fallbacks;
+  PetscBool                   ascii;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
+  if (!ascii) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt.start], IPBarrierRules[ip->opt.barrier], IPForcings[ip->opt.forcing], IPKKTMeasures[ip->opt.measure]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->rec.nsystems, ip->rec.nfiltered));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec.nrestored));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT "\n", ip->rec.nregularized, (double)ip->rec.delta_largest, ip->rec.nretried));
+  if (ip->rec.reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->rec.reason));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscFunctionReturn(0);
+}
