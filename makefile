@@ -76,7 +76,7 @@ install: all
 	install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib
 	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
 	install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact
-	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*),install -m 644 $(wildcard share/$(kind)/*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
+	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*.*),install -m 644 $(wildcard share/$(kind)/*.*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
 
 include share/checks.mk

@@ -1,9 +1,9 @@
 # -accuracy TARGET: Hertz's cylinder from a coarse mesh, its force against the exact one, his sphere, and a cantilever; what the estimates
-# are worth, and what cannot be reached is said. check_accuracy.py holds the summaries against the exact solution.
+# are worth, and what cannot be reached is said. accuracy.py holds the summaries against the exact solution.
 contact=$AMGF_DIR/bin/contact
 
-for body in sphere cylinder; do # the coarsest of the bench's meshes
-  "$PYTHON" -B "$AMGF_DIR/share/bench/problems.py" hertz_$body coarse > $body.yaml
+for body in sphere cylinder; do
+  "$PYTHON" "$AMGF_DIR/share/scenes/meshes.py" hertz_$body coarse > $body.yaml
 done
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
 
@@ -24,7 +24,7 @@ run sphere sphere -accuracy 3e-3 -accuracy_max_dofs 45000
 run sphere_loose sphere -accuracy 1e-1
 run cantilever cantilever -accuracy 1e-2
 run cantilever_fine cantilever -refine 2
-"$PYTHON" "$AMGF_DIR/tests/check_accuracy.py"
+PYTHONPATH=$AMGF_DIR/share/scenes "$PYTHON" "$AMGF_DIR/tests/accuracy.py"
 
 for wrong in '-accuracy 0' '-accuracy 2' '-accuracy little' '-accuracy 0.1 -accuracy_share 1' '-accuracy 0.1 -error_estimate 0'; do
   # shellcheck disable=SC2086

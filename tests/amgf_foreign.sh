@@ -48,7 +48,7 @@ filtered() {
   fi
 }
 
-script="$python $top/tests/foreign_petsc4py.py"
+script="$python $top/tests/amgf_foreign.py"
 $script -write system > /dev/null
 mpiexec --oversubscribe -n 1 ./ex56 -ne 7 -alpha 1e6 -log_stages 0 -ksp_view_mat binary:ex56.mat -ksp_max_it 1 > /dev/null
 $script -stiff ex56.mat

@@ -5,5 +5,5 @@ for ranks in 1 3; do
   [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
   "${launch[@]}" "$AMGF_DIR/bin/contact" "$AMGF_DIR/tests/contact_patch.yaml" -quiet -output "patch_$ranks" -tao_ipfilter_tol 1e-12
   echo "$ranks: exit $?"
-  "$PYTHON" "$AMGF_DIR/tests/check_patch.py" "patch_$ranks"
+  "$PYTHON" "$AMGF_DIR/tests/contact_patch.py" "patch_$ranks"
 done

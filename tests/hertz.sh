@@ -1,5 +1,5 @@
 # Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one to the next;
-# check_hertz.py holds pressures, contact areas and approaches against the exact solutions. Then SSNV104 as shipped.
+# hertz.py holds pressures, contact areas and approaches against the exact solutions. Then SSNV104 as shipped.
 run() {
   "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" || echo "$1: exit code $?"
 }
@@ -9,17 +9,21 @@ shipped() {
   run "$2"
 }
 
-coarser() { # one of the bench's meshes
-  "$PYTHON" -B "$AMGF_DIR/share/bench/problems.py" "hertz_$1" "$2" > "$1_$2.yaml"
+coarser() {
+  "$PYTHON" "$AMGF_DIR/share/scenes/meshes.py" "hertz_$1" "$2" > "$1_$2.yaml"
   run "$1_$2"
+}
+
+judge() {
+  PYTHONPATH=$AMGF_DIR/share/scenes "$PYTHON" "$AMGF_DIR/tests/hertz.py" "$@"
 }
 
 for body in sphere cylinder; do
   coarser $body coarse
   coarser $body medium
   shipped hertz_$body ${body}_fine
-  "$PYTHON" "$AMGF_DIR/tests/check_hertz.py" $body ${body}_coarse ${body}_medium ${body}_fine
+  judge $body ${body}_coarse ${body}_medium ${body}_fine
 done
 
 shipped ssnv104 ssnv104
-"$PYTHON" "$AMGF_DIR/tests/check_hertz.py" ssnv104 ssnv104
+judge ssnv104 ssnv104

@@ -1,5 +1,5 @@
 #define _XOPEN_SOURCE 700 /* setrlimit() */
-static char help[] = "Writes two bodies with known fields; check_output.py reads them back with h5py: -base NAME.\n\
+static char help[] = "Writes two bodies with known fields; output_fields.py reads them back with h5py: -base NAME.\n\
   -full  no file can grow beyond 2 kB from the second step on\n";
 
 #include <signal.h>
@@ -7,7 +7,7 @@ static char help[] = "Writes two bodies with known fields; check_output.py reads
 #include <mesh.h>
 #include <output.h>
 
-/* The same functions stand in check_output.py */
+/* The same functions stand in output_fields.py */
 static PetscReal Displacement(const PetscReal x[3], PetscInt component, PetscReal time)
 {
   return time * (x[component] + 10 * x[(component + 1) % 3]);
@@ -177,7 +177,7 @@ int main(int argc, char **argv)
 
     test:
       suffix: 1
-      filter: (cat; ${PYTHON} ${AMGF_DIR}/tests/check_output.py results)
+      filter: (cat; ${PYTHON} ${AMGF_DIR}/tests/output_fields.py results)
       output_file: output/output_fields_1.out
 
     test:
@@ -189,6 +189,6 @@ int main(int argc, char **argv)
   test:
     suffix: full
     args: -base full -full
-    filter: Error: (grep -o "cannot write [^?]*?" | sort -u; ${PYTHON} ${AMGF_DIR}/tests/check_output.py full)
+    filter: Error: (grep -o "cannot write [^?]*?" | sort -u; ${PYTHON} ${AMGF_DIR}/tests/output_fields.py full)
 
 TEST*/

@@ -48,7 +48,7 @@ int main(int argc, char **argv)
 
     test:
       suffix: 1
-      filter: (cat; ${PYTHON} ${AMGF_DIR}/tests/check_report.py summary.json)
+      filter: (cat; ${PYTHON} ${AMGF_DIR}/tests/output_report.py summary.json)
       output_file: output/output_report_1.out
 
     test:

@@ -1,5 +1,5 @@
 # What a load step may call for: dead loads, the two models of finite strain, updates of the gap, cut steps, bounds.
-# check_step_models.py holds the summaries against exact values and against each other.
+# step_models.py holds the summaries against exact values and against each other.
 contact=$AMGF_DIR/bin/contact
 
 run() {
@@ -62,4 +62,4 @@ cp squash.yaml gentle.yaml
 run squash
 run gentle -load_steps 10
 "$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 | grep -c 'contact: load step 1 failed: the prescribed displacements turn an element inside out at the start'
-"$PYTHON" "$AMGF_DIR/tests/check_step_models.py"
+"$PYTHON" "$AMGF_DIR/tests/step_models.py"

@@ -1,15 +1,13 @@
-"""The problems of the bench: their meshes, what is measured on them, and the answers they are held against.
-
-python problems.py PROBLEM MESH prints the scene, for the tests that run one
-"""
+"""The problems of the bench: their meshes, what is measured on them, and the answers they are held against."""
 import os
 import re
 import sys
 from dataclasses import dataclass
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(TOP, "tests"))
-import check_hertz  # noqa: E402  (what the tests hold Hertz's contacts against is what the bench holds it against)
+sys.path.insert(0, os.path.join(TOP, "share", "scenes"))  # what the tests hold Hertz's contacts against is what the bench holds them against
+import hertz_solution  # noqa: E402
+from meshes import MESHES, edited  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -53,12 +51,7 @@ class Problem:
 
     def scene(self, level, body=()):
         """The text of the scene on a mesh; body: keys and values that every body gets"""
-        with open(os.path.join(TOP, "share", "scenes", self.name + ".yaml")) as file:
-            text = file.read()
-        for pattern, value in self.levels[level].edits:
-            text, n = re.subn(pattern, value, text, flags=re.M)
-            if not n:
-                raise ValueError(f"{self.name}.yaml has nothing like {pattern}")
+        text = edited(self.name, self.levels[level].edits)
         for key, value in body:
             text = re.sub(rf"^ *{key}:.*\n", "", text, flags=re.M)
             text = re.sub(r"^( *)(poisson:.*)$", rf"\1\2\n\1{key}: {value}", text, flags=re.M)
@@ -101,7 +94,7 @@ class Hertz(Problem):
         self.solution = solution
 
     def measure(self, base, summary):
-        errors = check_hertz.measure(self.solution, base)["errors"]
+        errors = hertz_solution.measure(self.solution, base)["errors"]
         return {"peak pressure": 1 + errors["peak pressure"], "contact radius": 1 + errors["contact radius"], "contact force": force(summary), "energy": last(summary)["energy"]}
 
     def exact(self, references):
@@ -119,47 +112,30 @@ def two_block_level(factor):
     return Level(str(factor), 0, unknowns, tuple(cells), factor)
 
 
-def face_cells(patches, grading, even):
-    """Edits of a curved body's cells along its three axes: how many, how they are graded, how many are equal"""
-    keys = {"patches": patches, "grading": grading, "even": even}
-    return tuple((rf"^ *{key}: .*", f"      {key}: {list(value)}") for key, value in keys.items())
-
-
-def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
-    """Hertz's sphere on a coarser mesh"""
-    depth = {"layers": layers, "layer_grading": layer_grading, "layer_even": layer_even}
-    return face_cells((patch, patch, 1), (grading, grading, 1), (even, even, 1)) + tuple((f"{key}: .*", f"{key}: {value}") for key, value in depth.items())
-
-
-def cylinder_cells(around, grading, even, ring, ring_grading, ring_even):
-    """Hertz's cylinder on a coarser mesh: cells around the arc and in the ring"""
-    return face_cells((8, around, ring), (1, grading, ring_grading), (1, even, ring_even))
-
-
 PROBLEMS = {
     problem.name: problem
     for problem in (
         Hertz(
             "hertz_sphere",
             [
-                Level("coarse", 0, 5397, ball_cells(11, 312.5, 5, 9, 0.005304, 3)),
-                Level("medium", 0, 11800, ball_cells(15, 334.5, 6, 12, 0.004552, 4)),
+                Level("coarse", 0, 5397, MESHES["hertz_sphere"]["coarse"]),
+                Level("medium", 0, 11800, MESHES["hertz_sphere"]["medium"]),
                 Level("0", 0, 29805),
                 Level("1", 1, 222660),
             ],
-            check_hertz.Sphere(),
+            hertz_solution.Sphere(),
             title="Hertz sphere",
         ),
         Hertz(
             "hertz_cylinder",
             [
-                Level("coarse", 0, 3456, cylinder_cells(19, 361.2, 6, 14, 0.004865, 2)),
-                Level("medium", 0, 6030, cylinder_cells(28, 432.9, 9, 20, 0.00386, 3)),
+                Level("coarse", 0, 3456, MESHES["hertz_cylinder"]["coarse"]),
+                Level("medium", 0, 6030, MESHES["hertz_cylinder"]["medium"]),
                 Level("0", 0, 11058),
                 Level("1", 1, 64000),
                 Level("2", 2, 420000),
             ],
-            check_hertz.Cylinder(),
+            hertz_solution.Cylinder(),
             title="Hertz cylinder",
         ),
         TwoBlock("two_block", [two_block_level(factor) for factor in (1, 2, 3, 4, 6, 8)], steps=2, title="two-block"),
@@ -169,7 +145,3 @@ PROBLEMS = {
         Cantilever("cantilever", [Level("0", 0, 3075), Level("1", 1, 19683), Level("2", 2, 140000), Level("3", 3, 1050000)]),
     )
 }
-
-
-if __name__ == "__main__":
-    print(PROBLEMS[sys.argv[1]].scene(sys.argv[2]))

@@ -1,4 +1,4 @@
-"""Checks a written contact patch test against uniaxial stress: python check_patch.py BASE."""
+"""Checks a written contact patch test against uniaxial stress: python contact_patch.py BASE."""
 import sys
 
 import h5py

@@ -1,5 +1,5 @@
 """Holds runs with -accuracy against exact solutions: the cylinder's force at its approach is Hertz's."""
-from check_hertz import Cylinder
+from hertz_solution import Cylinder
 from summaries import load, say
 
 cylinder = Cylinder()

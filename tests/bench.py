@@ -1,6 +1,6 @@
 """Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own summaries.
 
-python check_bench.py FOLDER, of a bench with the study `forcing`
+python bench.py FOLDER, of a bench with the study `forcing`
 """
 import csv
 import json
@@ -8,17 +8,15 @@ import math
 import os
 import sys
 
+import growth
+import references
+import roofline
+from plots import front
+from problems import PROBLEMS, TOP
+from runner import execute, last_words, read_summary
+from store import CONTACT
+from studies import BUILT_IN
 from summaries import say
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "share", "bench"))
-import growth  # noqa: E402
-import references  # noqa: E402
-import roofline  # noqa: E402
-from plots import front  # noqa: E402
-from problems import PROBLEMS, TOP  # noqa: E402
-from runner import execute, last_words, read_summary  # noqa: E402
-from store import CONTACT  # noqa: E402
-from studies import BUILT_IN  # noqa: E402
 
 
 def check_extrapolation():

@@ -1,6 +1,6 @@
 """A petsc4py program that knows nothing of PCAMGF but the name under which it composes the stiff unknowns.
 
-    python3 foreign_petsc4py.py -dll_append /path/to/libpetscamgf.so -pc_type amgf [-filter composed] [-write PREFIX] [-stiff MATRIX]
+    python3 amgf_foreign.py -dll_append /path/to/libpetscamgf.so -pc_type amgf [-filter composed] [-write PREFIX] [-stiff MATRIX]
 
 A = K + J^T D J: a Laplacian on a square grid, and J ties its lower to its upper edge with a stiffness D of many orders.
 -filter composed    composes an IS of the tied unknowns on A; otherwise name them by -pc_amgf_filter_file or -pc_amgf_detect

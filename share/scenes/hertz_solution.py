@@ -1,8 +1,6 @@
-"""Holds runs of the Hertz scenes against Hertz's solution at the computed force.
+"""Hertz's solutions of the scenes hertz_sphere, hertz_cylinder and ssnv104, and a run's figures beside the one at its computed force.
 
-python check_hertz.py sphere|cylinder COARSE MEDIUM FINE   judges three runs, written with -output NAME -summary NAME.json
-python check_hertz.py ssnv104 NAME                         judges SSNV104
-python check_hertz.py sphere|cylinder|ssnv104 NAME -v      prints the figures of a run
+python hertz_solution.py sphere|cylinder|ssnv104 NAME   prints the figures of a run, written with -output NAME -summary NAME.json
 
 Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to the nodal forces of the mortar method over
 the nodal areas, averages of the computed pressure that are weighted with hat functions. The nodal pressures themselves are off by up
@@ -116,39 +114,8 @@ def measure(problem, name):
     }
 
 
-def say(what, good, seen):
-    print(what + (": yes" if good else ": NO, " + str(seen)))
-
-
-def judge_convergence(title, runs):
-    for what in runs[0]["errors"]:
-        errors = [abs(run["errors"][what]) for run in runs]
-        say("%s: %s within 3 %% of Hertz on the finest mesh" % (title, what), errors[2] <= 0.03, errors)
-        # an error that is small on every mesh has nothing left to lose: its sign may change
-        say("%s: %s converges from mesh to mesh" % (title, what), all(fine < coarse or fine < 3e-3 for coarse, fine in zip(errors, errors[1:])), errors)
-    say("%s: largest nodal pressure within 3 %% of Hertz on the finest mesh" % title, abs(runs[2]["nodal error"]) <= 0.03, runs[2]["nodal error"])
-    say("%s: the gap was updated until it was true" % title, all(1 < run["updates"] < 10 for run in runs), [run["updates"] for run in runs])
-
-
-def judge_ssnv104(run):
-    """At a/R = 0.2 the middle is so near that the ball is stiffer than Hertz's half-spaces; the contact itself is still his"""
-    for what in ("peak pressure", "contact radius"):
-        say("ssnv104: %s within 1 %% of Hertz at the computed force" % what, abs(run["errors"][what]) <= 0.01, run["errors"][what])
-    say("ssnv104: approach 7 to 8 % below Hertz at the computed force", -0.08 <= run["errors"]["approach"] <= -0.07, run["errors"]["approach"])
-    for what, reference in (("peak pressure", 2798.3), ("contact radius", 10)):
-        say("ssnv104: %s within 5 %% of the published reference" % what, abs(run[what] / reference - 1) <= 0.05, run[what])
-
-
-def main():
-    problem = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}[sys.argv[1]]()
-    runs = [measure(problem, name) for name in sys.argv[2:] if name != "-v"]
-    if "-v" in sys.argv:
-        print(json.dumps(runs, indent=2))
-    elif sys.argv[1] == "ssnv104":
-        judge_ssnv104(runs[0])
-    else:
-        judge_convergence(sys.argv[1], runs)
+SOLUTIONS = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}
 
 
 if __name__ == "__main__":
-    main()
+    print(json.dumps(measure(SOLUTIONS[sys.argv[1]](), sys.argv[2]), indent=2))
