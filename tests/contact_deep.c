@@ -1,7 +1,7 @@
 static char help[] = "Bodies that overlap at the start: deeper than contact looks is an error, and nothing else is.\n";
 
 #include "contact_problem.h"
-#include "contact_attempt.h"
+#include "attempt.h"
 
 /* Turns about the y axis, so that the boxes about the bodies overlap where the bodies touch */
 static void PlaceTurned(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal y[3])
@@ -39,8 +39,9 @@ static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal heig
   PetscCall(VecGetSize(lin->g, &nrows));
   PetscCall(AttemptBegin());
   ierr = ContactCheckDepth(contact, lin);
+  PetscCall(AttemptEnd());
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s: ", what, GapTypes[gap], nrows ? "rows" : "no rows"));
-  PetscCall(AttemptEnd(ierr));
+  PetscCall(AttemptPrint(ierr));
   if (depth) PetscCall(PetscOptionsClearValue(NULL, "-contact_search_depth"));
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCall(ContactDestroy(&contact));

@@ -2,7 +2,7 @@ static char help[] = "Contact: what is wrong with pairs, options and displacemen
 
 #include <mesh.h>
 #include <gap.h>
-#include "contact_attempt.h"
+#include "attempt.h"
 
 static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[], const char option[], const char value[], PetscBool finite)
 {
@@ -26,7 +26,8 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
   ierr = ContactCreate(dm, npairs, pairs, &contact);
   if (!ierr) ierr = ContactSetFromOptions(contact);
   if (!ierr) ierr = ContactLinearize(contact, u, &lin);
-  PetscCall(AttemptEnd(ierr));
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptPrint(ierr));
   if (contact) PetscCall(ContactDestroy(&contact));
   if (option) PetscCall(PetscOptionsClearValue(NULL, option));
   PetscCall(VecDestroy(&u));

@@ -1,6 +1,7 @@
 static char help[] = "Linear solvers that fail: each is seen, another takes its place in order, or the solve ends and says so.\n\n";
 
 #include "ipfilter_problem.h"
+#include "ipfilter_separable.h"
 
 /* A string of n masses on springs that stiffen, f = 1/2 x^T K x + 1/4 sum_i c_i x_i^4 + sum_i x_i. Each of the second n/20 masses and one of
    the first hold an obstacle between them: (x_i + x_j)/2 >= -depth. */
@@ -13,55 +14,37 @@ typedef struct {
 
 static const PetscReal depth = 0.3;
 
-/* The springs' fourth-order terms differ by orders of magnitude: their stiffness at rest says nothing about later */
-static PetscReal Hardening(PetscInt i)
+/* A spring's fourth-order term and the load. The former differ by orders of magnitude: the stiffness at rest says nothing about later */
+static void Spring(const void *ctx, PetscInt i, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 {
-  return PetscPowReal(10.0, (PetscReal)(i % 7) - 3.0);
+  const PetscReal c = PetscPowReal(10.0, (PetscReal)(i % 7) - 3.0);
+
+  (void)ctx;
+  *f = 0.25 * c * PetscPowReal(x, 4.0) + x;
+  *g = c * PetscPowReal(x, 3.0) + 1.0;
+  *h = 3.0 * c * PetscSqr(x);
 }
 
 static PetscErrorCode Gradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
 {
-  String            *s = (String *)user;
-  const PetscScalar *a;
-  PetscScalar       *ga, xKx;
-  PetscReal          local = 0.0;
-  PetscInt           lo, hi;
+  PetscScalar xKx;
 
   PetscFunctionBeginUser;
   (void)tao;
-  PetscCall(MatMult(s->K, x, g));
+  PetscCall(MatMult(((String *)user)->K, x, g));
   PetscCall(VecDot(x, g, &xKx));
-  PetscCall(VecGetOwnershipRange(x, &lo, &hi));
-  PetscCall(VecGetArrayRead(x, &a));
-  PetscCall(VecGetArray(g, &ga));
-  for (PetscInt i = lo; i < hi; i++) {
-    const PetscReal xi = PetscRealPart(a[i - lo]), c = Hardening(i);
-
-    local += 0.25 * c * PetscPowReal(xi, 4.0) + xi;
-    ga[i - lo] += c * PetscPowReal(xi, 3.0) + 1.0;
-  }
-  PetscCall(VecRestoreArray(g, &ga));
-  PetscCall(VecRestoreArrayRead(x, &a));
-  PetscCallMPI(MPI_Allreduce(&local, f, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  *f += 0.5 * PetscRealPart(xKx);
+  *f = 0.5 * PetscRealPart(xKx);
+  PetscCall(SeparableAddGradient(Spring, NULL, x, f, g));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
 {
-  const PetscScalar *a;
-  PetscInt           lo, hi;
-
   PetscFunctionBeginUser;
   (void)tao;
   (void)Hpre;
   PetscCall(MatCopy(((String *)user)->K, H, SAME_NONZERO_PATTERN));
-  PetscCall(VecGetOwnershipRange(x, &lo, &hi));
-  PetscCall(VecGetArrayRead(x, &a));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(MatSetValue(H, i, i, 3.0 * Hardening(i) * PetscSqr(PetscRealPart(a[i - lo])), ADD_VALUES));
-  PetscCall(VecRestoreArrayRead(x, &a));
-  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(SeparableAddHessian(Spring, NULL, x, H));
   PetscFunctionReturn(0);
 }
 

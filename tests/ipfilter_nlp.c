@@ -6,21 +6,25 @@ static char help[] = "Small problems whose solutions are known: Hock and Schittk
 
 #define MAXM 16 /* constraints of one kind */
 
-/* A problem on a communicator: every rank evaluates with the whole x and sets the rows it owns */
+/* Constraints of one kind; every rank evaluates with the whole x and sets the rows it owns */
+typedef struct {
+  PetscInt    n, m; /* unknowns, constraints */
+  const char *formula[MAXM];
+} Constraints;
+
 typedef struct {
   const NLP  *p;
-  PetscInt    n, mi, me;
-  const char *ci[MAXM], *ce[MAXM];
-  VecScatter  all;
-  Vec         whole;
+  PetscInt    n;
+  Constraints ci, ce;
 } Context;
 
-/* Where each formula of a list separated by semicolons begins */
-static void Split(const char *list, const char *part[], PetscInt *m)
+/* The formulas of a list separated by semicolons */
+static void Split(const char *list, PetscInt n, Constraints *c)
 {
-  *m = 0;
+  c->n = n;
+  c->m = 0;
   while (*list) {
-    part[(*m)++] = list;
+    c->formula[c->m++] = list;
     list += strcspn(list, ";");
     if (*list) list++;
   }
@@ -57,16 +61,24 @@ static PetscErrorCode VecFromText(PetscInt n, const char *text, PetscInt k, Vec 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Gather(Context *ctx, Vec x, PetscReal a[])
+/* All entries of a short vector on every rank */
+static PetscErrorCode Gather(Vec v, PetscReal a[])
 {
+  VecScatter         all;
+  Vec                whole;
+  PetscInt           n;
   const PetscScalar *w;
 
   PetscFunctionBeginUser;
-  PetscCall(VecScatterBegin(ctx->all, x, ctx->whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(ctx->all, x, ctx->whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArrayRead(ctx->whole, &w));
-  for (PetscInt i = 0; i < ctx->n; i++) a[i] = PetscRealPart(w[i]);
-  PetscCall(VecRestoreArrayRead(ctx->whole, &w));
+  PetscCall(VecScatterCreateToAll(v, &all, &whole));
+  PetscCall(VecScatterBegin(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGetSize(whole, &n));
+  PetscCall(VecGetArrayRead(whole, &w));
+  for (PetscInt i = 0; i < n; i++) a[i] = PetscRealPart(w[i]);
+  PetscCall(VecRestoreArrayRead(whole, &w));
+  PetscCall(VecScatterDestroy(&all));
+  PetscCall(VecDestroy(&whole));
   PetscFunctionReturn(0);
 }
 
@@ -79,7 +91,7 @@ static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, 
 
   PetscFunctionBeginUser;
   (void)tao;
-  PetscCall(Gather(ctx, x, a));
+  PetscCall(Gather(x, a));
   jet = ExpressionEvaluate(ctx->p->objective, a, NULL);
   *f  = jet.v;
   PetscCall(VecGetOwnershipRange(x, &lo, &hi));
@@ -89,89 +101,56 @@ static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Constraints(Context *ctx, const char *const part[], Vec x, Vec c)
+static PetscErrorCode EvaluateConstraints(Tao tao, Vec x, Vec c, void *user)
 {
-  PetscReal a[EXPRESSION_MAX];
-  PetscInt  lo, hi;
+  const Constraints *constraints = (const Constraints *)user;
+  PetscReal          a[EXPRESSION_MAX];
+  PetscInt           lo, hi;
 
   PetscFunctionBeginUser;
-  PetscCall(Gather(ctx, x, a));
+  (void)tao;
+  PetscCall(Gather(x, a));
   PetscCall(VecGetOwnershipRange(c, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(VecSetValue(c, i, ExpressionEvaluate(part[i], a, NULL).v, INSERT_VALUES));
+  for (PetscInt i = lo; i < hi; i++) PetscCall(VecSetValue(c, i, ExpressionEvaluate(constraints->formula[i], a, NULL).v, INSERT_VALUES));
   PetscCall(VecAssemblyBegin(c));
   PetscCall(VecAssemblyEnd(c));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Jacobian(Context *ctx, const char *const part[], Vec x, Mat J)
+static PetscErrorCode EvaluateJacobian(Tao tao, Vec x, Mat J, Mat Jpre, void *user)
 {
-  PetscReal a[EXPRESSION_MAX];
-  PetscInt  lo, hi;
+  const Constraints *constraints = (const Constraints *)user;
+  PetscReal          a[EXPRESSION_MAX];
+  PetscInt           lo, hi;
 
   PetscFunctionBeginUser;
-  PetscCall(Gather(ctx, x, a));
+  (void)tao;
+  (void)Jpre;
+  PetscCall(Gather(x, a));
   PetscCall(MatGetOwnershipRange(J, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++) {
-    Jet jet = ExpressionEvaluate(part[i], a, NULL);
+    Jet jet = ExpressionEvaluate(constraints->formula[i], a, NULL);
 
-    for (PetscInt j = 0; j < ctx->n; j++) PetscCall(MatSetValue(J, i, j, jet.g[j], INSERT_VALUES));
+    for (PetscInt j = 0; j < constraints->n; j++) PetscCall(MatSetValue(J, i, j, jet.g[j], INSERT_VALUES));
   }
   PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Inequality(Tao tao, Vec x, Vec c, void *user)
+/* Adds the Hessians of the constraints times their multipliers */
+static PetscErrorCode AddConstraints(const Constraints *c, const PetscReal x[], PetscReal sign, Vec multipliers, Jet *sum)
 {
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(Constraints((Context *)user, ((Context *)user)->ci, x, c));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Equality(Tao tao, Vec x, Vec c, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(Constraints((Context *)user, ((Context *)user)->ce, x, c));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode InequalityJacobian(Tao tao, Vec x, Mat J, Mat Jpre, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)Jpre;
-  PetscCall(Jacobian((Context *)user, ((Context *)user)->ci, x, J));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode EqualityJacobian(Tao tao, Vec x, Mat J, Mat Jpre, void *user)
-{
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)Jpre;
-  PetscCall(Jacobian((Context *)user, ((Context *)user)->ce, x, J));
-  PetscFunctionReturn(0);
-}
-
-/* All entries of a short vector on every rank */
-static PetscErrorCode GatherAll(Vec v, PetscInt m, PetscReal a[])
-{
-  VecScatter         all;
-  Vec                whole;
-  const PetscScalar *w;
+  PetscReal y[MAXM];
 
   PetscFunctionBeginUser;
-  if (!m) PetscFunctionReturn(0);
-  PetscCall(VecScatterCreateToAll(v, &all, &whole));
-  PetscCall(VecScatterBegin(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArrayRead(whole, &w));
-  for (PetscInt i = 0; i < m; i++) a[i] = PetscRealPart(w[i]);
-  PetscCall(VecRestoreArrayRead(whole, &w));
-  PetscCall(VecScatterDestroy(&all));
-  PetscCall(VecDestroy(&whole));
+  if (!c->m) PetscFunctionReturn(0);
+  PetscCall(Gather(multipliers, y));
+  for (PetscInt i = 0; i < c->m; i++) {
+    Jet jet = ExpressionEvaluate(c->formula[i], x, NULL);
+
+    *sum = JetAdd(sum, sign * y[i], &jet);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -180,27 +159,17 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
 {
   Context  *ctx = (Context *)user;
   Vec       DE, DI;
-  PetscReal a[EXPRESSION_MAX], y[MAXM], z[MAXM];
+  PetscReal a[EXPRESSION_MAX];
   PetscInt  lo, hi;
   Jet       sum;
 
   PetscFunctionBeginUser;
   (void)Hpre;
   PetscCall(TaoGetDualVariables(tao, &DE, &DI));
-  PetscCall(GatherAll(DE, ctx->me, y));
-  PetscCall(GatherAll(DI, ctx->mi, z));
-  PetscCall(Gather(ctx, x, a));
+  PetscCall(Gather(x, a));
   sum = ExpressionEvaluate(ctx->p->objective, a, NULL);
-  for (PetscInt i = 0; i < ctx->me; i++) {
-    Jet c = ExpressionEvaluate(ctx->ce[i], a, NULL);
-
-    sum = JetAdd(&sum, y[i], &c);
-  }
-  for (PetscInt i = 0; i < ctx->mi; i++) {
-    Jet c = ExpressionEvaluate(ctx->ci[i], a, NULL);
-
-    sum = JetAdd(&sum, -z[i], &c);
-  }
+  PetscCall(AddConstraints(&ctx->ce, a, 1.0, DE, &sum));
+  PetscCall(AddConstraints(&ctx->ci, a, -1.0, DI, &sum));
   PetscCall(MatGetOwnershipRange(H, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++)
     for (PetscInt j = 0; j < ctx->n; j++) PetscCall(MatSetValue(H, i, j, sum.h[i][j], INSERT_VALUES));
@@ -230,12 +199,12 @@ static PetscErrorCode Violation(Context *ctx, Vec x, Vec xl, Vec xu, PetscReal *
 
   PetscFunctionBeginUser;
   *violation = 0.0;
-  PetscCall(Gather(ctx, xl, l));
-  PetscCall(Gather(ctx, xu, u));
-  PetscCall(Gather(ctx, x, a));
+  PetscCall(Gather(xl, l));
+  PetscCall(Gather(xu, u));
+  PetscCall(Gather(x, a));
   for (PetscInt i = 0; i < ctx->n; i++) *violation = PetscMax(*violation, PetscMax(l[i] - a[i], a[i] - u[i]));
-  for (PetscInt i = 0; i < ctx->me; i++) *violation = PetscMax(*violation, PetscAbsReal(ExpressionEvaluate(ctx->ce[i], a, NULL).v));
-  for (PetscInt i = 0; i < ctx->mi; i++) *violation = PetscMax(*violation, -ExpressionEvaluate(ctx->ci[i], a, NULL).v);
+  for (PetscInt i = 0; i < ctx->ce.m; i++) *violation = PetscMax(*violation, PetscAbsReal(ExpressionEvaluate(ctx->ce.formula[i], a, NULL).v));
+  for (PetscInt i = 0; i < ctx->ci.m; i++) *violation = PetscMax(*violation, -ExpressionEvaluate(ctx->ci.formula[i], a, NULL).v);
   PetscFunctionReturn(0);
 }
 
@@ -300,38 +269,35 @@ static PetscErrorCode Solve(const NLP *p, PetscBool second, PetscBool table)
   Tao     tao;
 
   PetscFunctionBeginUser;
-  Split(p->inequalities, ctx.ci, &ctx.mi);
-  Split(p->equalities, ctx.ce, &ctx.me);
   for (const char *s = p->start; *s; s++) ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
+  Split(p->inequalities, ctx.n, &ctx.ci);
+  Split(p->equalities, ctx.n, &ctx.ce);
   PetscCall(VecFromText(ctx.n, p->start, -1, &x));
   PetscCall(VecFromText(ctx.n, p->bounds, 0, &xl));
   PetscCall(VecFromText(ctx.n, p->bounds, 1, &xu));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.mi, &ci));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.me, &ce));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.ci.m, &ci));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.ce.m, &ce));
   PetscCall(DenseAIJ(x, x, &H));
   PetscCall(DenseAIJ(ci, x, &Ji));
   PetscCall(DenseAIJ(ce, x, &Je));
-  PetscCall(VecScatterCreateToAll(x, &ctx.all, &ctx.whole));
   PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
   PetscCall(TaoSetType(tao, TAOIPFILTER));
   PetscCall(TaoSetSolution(tao, x));
   PetscCall(TaoSetVariableBounds(tao, xl, xu));
   PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, &ctx));
   if (second) PetscCall(TaoSetHessian(tao, H, H, Hessian, &ctx));
-  if (ctx.mi) {
-    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, Inequality, &ctx));
-    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, InequalityJacobian, &ctx));
+  if (ctx.ci.m) {
+    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, EvaluateConstraints, &ctx.ci));
+    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, EvaluateJacobian, &ctx.ci));
   }
-  if (ctx.me) {
-    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, Equality, &ctx));
-    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, EqualityJacobian, &ctx));
+  if (ctx.ce.m) {
+    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, EvaluateConstraints, &ctx.ce));
+    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, EvaluateJacobian, &ctx.ce));
   }
   PetscCall(TaoSetFromOptions(tao));
   PetscCall(TaoSolve(tao));
   PetscCall(Report(tao, &ctx, x, xl, xu, table));
   PetscCall(TaoDestroy(&tao));
-  PetscCall(VecScatterDestroy(&ctx.all));
-  PetscCall(VecDestroy(&ctx.whole));
   PetscCall(MatDestroy(&H));
   PetscCall(MatDestroy(&Ji));
   PetscCall(MatDestroy(&Je));

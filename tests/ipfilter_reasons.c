@@ -1,6 +1,7 @@
 static char help[] = "Every end of TAOIPFILTER has its reason: infeasible, unbounded, NaN, limits, failed linear solver.\n\n";
 
 #include "ipfilter_problem.h"
+#include "ipfilter_separable.h"
 
 typedef enum {
   CASE_SOLVABLE,
@@ -17,8 +18,11 @@ static const char *const case_names[] = {"solvable", "infeasible", "unbounded", 
 
 /* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x <= 0;
    overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
-static void Term(Case c, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
+static void Term(const void *ctx, PetscInt i, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 {
+  const Case c = *(const Case *)ctx;
+
+  (void)i;
   *f = PetscSqr(x - 3.0);
   *g = 2.0 * (x - 3.0);
   *h = 2.0;
@@ -40,48 +44,21 @@ static void Term(Case c, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 
 static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
 {
-  const PetscScalar *xa;
-  PetscScalar       *ga;
-  PetscReal          local = 0.0;
-  PetscInt           n;
-
   PetscFunctionBeginUser;
   (void)tao;
-  PetscCall(VecGetLocalSize(x, &n));
-  PetscCall(VecGetArrayRead(x, &xa));
-  PetscCall(VecGetArrayWrite(g, &ga));
-  for (PetscInt i = 0; i < n; i++) {
-    PetscReal fi, gi, hi;
-
-    Term(*(Case *)user, PetscRealPart(xa[i]), &fi, &gi, &hi);
-    local += fi;
-    ga[i] = gi;
-  }
-  PetscCall(VecRestoreArrayWrite(g, &ga));
-  PetscCall(VecRestoreArrayRead(x, &xa));
-  PetscCallMPI(MPI_Allreduce(&local, f, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  *f = 0.0;
+  PetscCall(VecSet(g, 0.0));
+  PetscCall(SeparableAddGradient(Term, user, x, f, g));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
 {
-  const PetscScalar *xa;
-  PetscInt           lo, hi;
-
   PetscFunctionBeginUser;
   (void)tao;
   (void)Hpre;
-  PetscCall(VecGetOwnershipRange(x, &lo, &hi));
-  PetscCall(VecGetArrayRead(x, &xa));
-  for (PetscInt i = lo; i < hi; i++) {
-    PetscReal f, g, h;
-
-    Term(*(Case *)user, PetscRealPart(xa[i - lo]), &f, &g, &h);
-    PetscCall(MatSetValue(H, i, i, h, INSERT_VALUES));
-  }
-  PetscCall(VecRestoreArrayRead(x, &xa));
-  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatZeroEntries(H));
+  PetscCall(SeparableAddHessian(Term, user, x, H));
   PetscFunctionReturn(0);
 }
 

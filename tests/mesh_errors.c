@@ -1,38 +1,17 @@
 static char help[] = "Bad input to the mesh gives one sentence, the same error on every rank, and no hang.\n\n";
 
 #include "elasticity_problem.h"
+#include "attempt.h"
 
-static char message[1024];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)PetscStrncpy(message, text, sizeof(message));
-  return n;
-}
-
-/* Prints the first error of a call, which must be the same on all ranks; ierr comes from the call */
-static PetscErrorCode Expect(const char name[], PetscErrorCode ierr)
-{
-  PetscInt code[2] = {(PetscInt)ierr, -(PetscInt)ierr};
-
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, code, 2, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n  %s%s\n", name, ierr ? message : "NO ERROR", code[0] == -code[1] ? "" : " (DIFFERENT ERRORS)"));
-  PetscFunctionReturn(0);
-}
-
+/* Prints the error of a call */
 #define EXPECT(name, call) \
   do { \
     PetscErrorCode expected; \
-    PetscCall(PetscPushErrorHandler(KeepMessage, NULL)); \
+    PetscCall(AttemptBegin()); \
     expected = call; \
-    PetscCall(PetscPopErrorHandler()); \
-    PetscCall(Expect(name, expected)); \
+    PetscCall(AttemptEnd()); \
+    PetscCall(AttemptCompareRanks(name, expected)); \
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n  %s\n", name, expected ? attempt_sentence : "NO ERROR")); \
   } while (0)
 
 static PetscErrorCode BadBodies(void)

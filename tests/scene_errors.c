@@ -2,6 +2,7 @@ static char help[] = "Every error of a scene: one sentence, the same on every ra
 
 #include <mesh.h>
 #include <petscviewer.h>
+#include "attempt.h"
 
 typedef struct {
   const char *name;
@@ -105,15 +106,6 @@ static const Mistake mistakes[] = {
   {"free along y",                      "value: [0, 0, -1/10]",            "value: [0, free, -1/10]"               },
 };
 
-static char said[1024];
-
-static PetscErrorCode Listen(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
-{
-  (void)comm, (void)line, (void)function, (void)file, (void)ctx;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(said, message, sizeof(said));
-  return n;
-}
-
 static PetscErrorCode WriteScene(const char file[], const Mistake *mistake)
 {
   char       *text, *where;
@@ -154,28 +146,17 @@ static PetscErrorCode LoadAndMesh(const char file[])
   PetscFunctionReturn(0);
 }
 
-/* Loads and says what came of it; every rank must have the same error */
+/* Loads and says what came of it */
 static PetscErrorCode TryScene(const char name[], const char file[])
 {
   PetscErrorCode ierr;
-  PetscMPIInt    codes[2], all[2];
-  char           first[sizeof(said)];
-  PetscBool      same;
 
   PetscFunctionBeginUser;
-  said[0] = 0;
-  PetscCall(PetscPushErrorHandler(Listen, NULL));
+  PetscCall(AttemptBegin());
   ierr = LoadAndMesh(file);
-  PetscCall(PetscPopErrorHandler());
-  codes[0] = (PetscMPIInt)ierr;
-  codes[1] = -(PetscMPIInt)ierr;
-  PetscCallMPI(MPI_Allreduce(codes, all, 2, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
-  PetscCheck(all[0] == -all[1], PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%s: ranks end with different errors", name);
-  PetscCall(PetscArraycpy(first, said, sizeof(said)));
-  PetscCallMPI(MPI_Bcast(first, (PetscMPIInt)sizeof(first), MPI_CHAR, 0, PETSC_COMM_WORLD));
-  PetscCall(PetscStrcmp(first, said, &same));
-  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "%s: ranks say different things", name);
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    %s\n", name, ierr ? said : "loads"));
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks(name, ierr));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    %s\n", name, ierr ? attempt_sentence : "loads"));
   PetscFunctionReturn(0);
 }
 

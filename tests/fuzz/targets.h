@@ -7,18 +7,10 @@
 
 #include <mesh.h>
 #include <stdio.h>
+#include "../attempt.h"
 
 /* Larger meshes only cost time */
 #define FUZZ_MAX_CELLS 1000
-
-static char fuzz_sentence[1024];
-
-static PetscErrorCode FuzzKeepSentence(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *context)
-{
-  (void)comm, (void)line, (void)function, (void)file, (void)context;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(fuzz_sentence, message, sizeof(fuzz_sentence));
-  return n;
-}
 
 /* Few cells, and no solver options, which could make PETSc write files */
 static PetscBool FuzzIsSmall(Scene scene)
@@ -67,18 +59,17 @@ static inline PetscErrorCode FuzzMeshGmsh(const char file[])
   PetscFunctionReturn(0);
 }
 
-/* sound: PETSC_FALSE if there was an error, whose sentence is in fuzz_sentence */
+/* sound: PETSC_FALSE if there was an error, whose sentence is in attempt_sentence */
 static PetscErrorCode FuzzRun(PetscErrorCode (*target)(const char[]), const char file[], PetscBool *sound)
 {
   PetscErrorCode ierr;
 
   PetscFunctionBeginUser;
-  fuzz_sentence[0] = 0;
-  PetscCall(PetscPushErrorHandler(FuzzKeepSentence, NULL));
+  PetscCall(AttemptBegin());
   ierr = target(file);
-  PetscCall(PetscPopErrorHandler());
+  PetscCall(AttemptEnd());
   *sound = ierr ? PETSC_FALSE : PETSC_TRUE;
-  PetscCheck(!ierr || fuzz_sentence[0], PETSC_COMM_SELF, PETSC_ERR_PLIB, "An error without a sentence, in %s", file);
+  PetscCheck(!ierr || attempt_sentence[0], PETSC_COMM_SELF, PETSC_ERR_PLIB, "An error without a sentence, in %s", file);
   PetscFunctionReturn(0);
 }
 
