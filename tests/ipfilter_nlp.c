@@ -1,10 +1,47 @@
-static char help[] = "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly scaled ones.\n\n";
+static char help[] = "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly scaled ones.\n\
+  -mode NAME        solver options by their name below, for which steps and evaluations are held\n\
+  -problems A,B     some problems only\n\
+  -table            a line a problem with all figures, nothing held: for tests/stress/nlp.py\n\
+  -print_counts     the rows of tests/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts them in place\n\n";
 
 #include "ipfilter_problem.h"
 #include "ipfilter_expression.h"
 #include "ipfilter_nlp.h"
 
-#define MAXM 16 /* constraints of one kind */
+#define MAXM   16 /* constraints of one kind */
+#define NMODES 4
+
+static const struct {
+  const char *name, *options, *skip; /* skip: the problem that is not solved, and why stands beside it */
+} modes[NMODES] = {
+  {"default", "-tao_max_it 200", ""},
+  /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which is stationary */
+  {"direct", "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps", "bilinear2"},
+  /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
+  {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", "HS104"},
+  {"differences", "-tao_max_it 200 -hessian 0", ""}
+};
+
+typedef struct {
+  PetscInt steps, evaluations;
+} Counts;
+
+/* What each problem takes in each mode: the most of one to three ranks */
+static const struct {
+  const char *name;
+  Counts      mode[NMODES];
+} expected[] = {
+#include "ipfilter_nlp_counts.inc"
+};
+
+/* Rounding decides which way this one goes, and one way is twice as long as another: its counts are not held */
+static const char erratic[] = "HS108";
+
+/* What another one may take: rounding differs from machine to machine */
+static PetscInt Limit(PetscInt count)
+{
+  return count + count / 4 + 3;
+}
 
 /* Constraints of one kind; every rank evaluates with the whole x and sets the rows it owns */
 typedef struct {
@@ -17,6 +54,15 @@ typedef struct {
   PetscInt    n;
   Constraints ci, ce;
 } Context;
+
+/* What came of it */
+typedef struct {
+  PetscBool          good; /* as the problem says it ends */
+  TaoConvergedReason reason;
+  const char        *sentence;
+  PetscReal          f, error, violation;
+  Counts             counts;
+} Outcome;
 
 /* The formulas of a list separated by semicolons */
 static void Split(const char *list, PetscInt n, Constraints *c)
@@ -31,12 +77,12 @@ static void Split(const char *list, PetscInt n, Constraints *c)
 }
 
 /* Vector of the numbers in text, or bound k (0: lower, 1: upper) of each "lower:upper" in it */
-static PetscErrorCode VecFromText(PetscInt n, const char *text, PetscInt k, Vec *v)
+static PetscErrorCode VecFromText(MPI_Comm comm, PetscInt n, const char *text, PetscInt k, Vec *v)
 {
   PetscInt lo, hi;
 
   PetscFunctionBeginUser;
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, n, v));
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, n, v));
   PetscCall(VecGetOwnershipRange(*v, &lo, &hi));
   for (PetscInt i = 0; i < n; i++) {
     const char *entry, *end;
@@ -188,7 +234,7 @@ static PetscErrorCode DenseAIJ(Vec r, Vec c, Mat *A)
   PetscCall(VecGetLocalSize(c, &n));
   PetscCall(VecGetSize(r, &M));
   PetscCall(VecGetSize(c, &N));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, m, n, M, N, n, NULL, N - n, NULL, A));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)r), m, n, M, N, n, NULL, N - n, NULL, A));
   PetscFunctionReturn(0);
 }
 
@@ -234,70 +280,109 @@ static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentenc
   return (PetscBool)(violation < 1e-6 && error < (reason == TAO_CONVERGED_STEPTOL ? 1e-3 : 1e-6));
 }
 
-/* What is to be seen: the known optimum at a feasible point; or that there is none */
-static PetscErrorCode Report(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, PetscBool table)
+/* The known optimum at a feasible point; or it is said that there is none */
+static PetscErrorCode Judge(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, Outcome *o)
 {
-  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded"};
-  const NLP         *p = ctx->p;
-  PetscReal          f, error, violation;
-  PetscInt           its, nfuncs;
-  PetscBool          good;
-  TaoConvergedReason reason;
-  const char        *sentence;
+  const NLP *p = ctx->p;
 
   PetscFunctionBeginUser;
-  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
-  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
-  PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(Violation(ctx, x, xl, xu, &violation));
-  error = ObjectiveError(p, f);
-  if (p->end == NLP_SOLVED) good = (PetscBool)(reason > 0 && error < 1e-6 && violation < 1e-6);
-  else if (p->end == NLP_DEGENERATE) good = DegenerateIsGood(reason, sentence, error, violation);
-  else if (p->end == NLP_INFEASIBLE) good = (PetscBool)(reason < 0 && strstr(sentence, "infeasible"));
-  else good = (PetscBool)(reason < 0 && strstr(sentence, "unbounded"));
-  if (table) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%-12s %s %-24s f %16.9e error %8.1e violation %8.1e steps %4" PetscInt_FMT " evaluations %4" PetscInt_FMT "  %s\n", p->name, good ? "good" : "BAD ", TaoConvergedReasons[reason], (double)f, (double)error, (double)violation, its, nfuncs, sentence));
-  else if (good) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", p->name, verdicts[p->end]));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: NOT AS EXPECTED: %s, objective %.9e, error %g, violation %g; %s\n", p->name, TaoConvergedReasons[reason], (double)f, (double)error, (double)violation, sentence));
+  PetscCall(TaoGetSolutionStatus(tao, &o->counts.steps, &o->f, NULL, NULL, NULL, &o->reason));
+  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &o->counts.evaluations));
+  PetscCall(TaoIPFilterGetReason(tao, &o->sentence));
+  PetscCall(Violation(ctx, x, xl, xu, &o->violation));
+  o->error = ObjectiveError(p, o->f);
+  if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
+  else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
+  else if (p->end == NLP_INFEASIBLE) o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "infeasible"));
+  else o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "unbounded"));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Solve(const NLP *p, PetscBool second, PetscBool table)
+/* The most that a problem may take in a mode, or anything where mode is negative */
+static PetscErrorCode GetLimits(const NLP *p, PetscInt mode, Counts *most)
+{
+  PetscBool same;
+
+  PetscFunctionBeginUser;
+  *most = (Counts){PETSC_MAX_INT, PETSC_MAX_INT};
+  PetscCall(PetscStrcmp(p->name, erratic, &same));
+  if (mode < 0 || same) PetscFunctionReturn(0);
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(expected) && !same; k++) {
+    *most = (Counts){Limit(expected[k].mode[mode].steps), Limit(expected[k].mode[mode].evaluations)};
+    PetscCall(PetscStrcmp(expected[k].name, p->name, &same));
+  }
+  PetscCheck(same, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%s has no counts: make -f tests/makefile nlp-counts", p->name);
+  PetscFunctionReturn(0);
+}
+
+/* mode: whose counts are held, or negative */
+static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *o)
+{
+  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded"};
+  Counts                   most;
+
+  PetscFunctionBeginUser;
+  PetscCall(GetLimits(p, mode, &most));
+  if (!o->good) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: NOT AS EXPECTED: %s, objective %.9e, error %g, violation %g; %s\n", p->name, TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->sentence));
+  else if (o->counts.steps > most.steps || o->counts.evaluations > most.evaluations)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s, IN MORE THAN %" PetscInt_FMT " steps or %" PetscInt_FMT " evaluations: %" PetscInt_FMT " and %" PetscInt_FMT "\n", p->name, verdicts[p->end], most.steps, most.evaluations, o->counts.steps, o->counts.evaluations));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", p->name, verdicts[p->end]));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReportRow(const NLP *p, const Outcome *o)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%-12s %s %-24s f %16.9e error %8.1e violation %8.1e steps %4" PetscInt_FMT " evaluations %4" PetscInt_FMT "  %s\n", p->name, o->good ? "good" : "BAD ", TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->counts.steps, o->counts.evaluations, o->sentence));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetProblem(Tao tao, Context *ctx, Vec ci, Vec ce, Mat H, Mat Ji, Mat Je)
+{
+  PetscBool second = PETSC_TRUE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-hessian", &second, NULL));
+  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, ctx));
+  if (second) PetscCall(TaoSetHessian(tao, H, H, Hessian, ctx));
+  if (ctx->ci.m) {
+    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, EvaluateConstraints, &ctx->ci));
+    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, EvaluateJacobian, &ctx->ci));
+  }
+  if (ctx->ce.m) {
+    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, EvaluateConstraints, &ctx->ce));
+    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, EvaluateJacobian, &ctx->ce));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* tao: the solver after it, which has the sentence */
+static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *tao)
 {
   Context ctx = {.p = p};
   Vec     x, xl, xu, ci, ce;
   Mat     H, Ji, Je;
-  Tao     tao;
 
   PetscFunctionBeginUser;
   for (const char *s = p->start; *s; s++) ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
   Split(p->inequalities, ctx.n, &ctx.ci);
   Split(p->equalities, ctx.n, &ctx.ce);
-  PetscCall(VecFromText(ctx.n, p->start, -1, &x));
-  PetscCall(VecFromText(ctx.n, p->bounds, 0, &xl));
-  PetscCall(VecFromText(ctx.n, p->bounds, 1, &xu));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.ci.m, &ci));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, ctx.ce.m, &ce));
+  PetscCall(VecFromText(comm, ctx.n, p->start, -1, &x));
+  PetscCall(VecFromText(comm, ctx.n, p->bounds, 0, &xl));
+  PetscCall(VecFromText(comm, ctx.n, p->bounds, 1, &xu));
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ci.m, &ci));
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ce.m, &ce));
   PetscCall(DenseAIJ(x, x, &H));
   PetscCall(DenseAIJ(ci, x, &Ji));
   PetscCall(DenseAIJ(ce, x, &Je));
-  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
-  PetscCall(TaoSetType(tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(tao, x));
-  PetscCall(TaoSetVariableBounds(tao, xl, xu));
-  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, &ctx));
-  if (second) PetscCall(TaoSetHessian(tao, H, H, Hessian, &ctx));
-  if (ctx.ci.m) {
-    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, EvaluateConstraints, &ctx.ci));
-    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, EvaluateJacobian, &ctx.ci));
-  }
-  if (ctx.ce.m) {
-    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, EvaluateConstraints, &ctx.ce));
-    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, EvaluateJacobian, &ctx.ce));
-  }
-  PetscCall(TaoSetFromOptions(tao));
-  PetscCall(TaoSolve(tao));
-  PetscCall(Report(tao, &ctx, x, xl, xu, table));
-  PetscCall(TaoDestroy(&tao));
+  PetscCall(TaoCreate(comm, tao));
+  PetscCall(TaoSetType(*tao, TAOIPFILTER));
+  PetscCall(TaoSetSolution(*tao, x));
+  PetscCall(TaoSetVariableBounds(*tao, xl, xu));
+  PetscCall(SetProblem(*tao, &ctx, ci, ce, H, Ji, Je));
+  PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(TaoSolve(*tao));
+  PetscCall(Judge(*tao, &ctx, x, xl, xu, outcome));
   PetscCall(MatDestroy(&H));
   PetscCall(MatDestroy(&Ji));
   PetscCall(MatDestroy(&Je));
@@ -309,51 +394,144 @@ static PetscErrorCode Solve(const NLP *p, PetscBool second, PetscBool table)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PushMode(PetscInt mode, PetscOptions *options)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsCreate(options));
+  PetscCall(PetscOptionsInsertString(*options, modes[mode].options));
+  PetscCall(PetscOptionsPush(*options));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PopMode(PetscOptions *options)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsPop());
+  PetscCall(PetscOptionsDestroy(options));
+  PetscFunctionReturn(0);
+}
+
+/* The most that a problem takes in a mode on the first rank, on the first two, and so on: with each, sums are rounded in another way */
+static PetscErrorCode Measure(const NLP *p, PetscInt mode, Counts *most)
+{
+  PetscMPIInt  size, rank;
+  PetscOptions options;
+
+  PetscFunctionBeginUser;
+  *most = (Counts){0, 0};
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(PushMode(mode, &options));
+  for (PetscMPIInt n = 1; n <= size; n++) {
+    MPI_Comm comm;
+    Outcome  outcome;
+    Tao      tao;
+
+    PetscCallMPI(MPI_Comm_split(PETSC_COMM_WORLD, rank < n ? 0 : MPI_UNDEFINED, rank, &comm));
+    if (comm == MPI_COMM_NULL) continue;
+    PetscCall(Solve(comm, p, &outcome, &tao));
+    PetscCall(TaoDestroy(&tao));
+    PetscCallMPI(MPI_Comm_free(&comm));
+    most->steps       = PetscMax(most->steps, outcome.counts.steps);
+    most->evaluations = PetscMax(most->evaluations, outcome.counts.evaluations);
+  }
+  PetscCall(PopMode(&options));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PrintCounts(void)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "/* {steps, evaluations}; `make -f tests/makefile nlp-counts` makes this file anew.\n  "));
+  for (PetscInt mode = 0; mode < NMODES; mode++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s%s", modes[mode].name, mode + 1 < NMODES ? "," : " */\n"));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  {\"%s\", {", problems[k].name));
+    for (PetscInt mode = 0; mode < NMODES; mode++) {
+      Counts most;
+
+      PetscCall(Measure(&problems[k], mode, &most));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s{%" PetscInt_FMT ", %" PetscInt_FMT "}", mode ? ", " : "", most.steps, most.evaluations));
+    }
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether a problem is to be solved: it is named, or none is and the mode does not skip it */
+static PetscErrorCode Wanted(const NLP *p, PetscInt mode, PetscInt nonly, char *const only[], PetscBool *wanted)
+{
+  PetscFunctionBeginUser;
+  *wanted = PETSC_FALSE;
+  for (PetscInt i = 0; i < nonly && !*wanted; i++) PetscCall(PetscStrcmp(only[i], p->name, wanted));
+  if (nonly) PetscFunctionReturn(0);
+  if (mode >= 0) PetscCall(PetscStrcmp(modes[mode].skip, p->name, wanted));
+  *wanted = (PetscBool)!*wanted;
+  PetscFunctionReturn(0);
+}
+
+/* mode: negative for the options of the command line */
+static PetscErrorCode SolveAll(PetscInt mode, PetscBool table)
+{
+  char        *only[8];
+  PetscInt     nonly = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(only);
+  PetscOptions options;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetStringArray(NULL, NULL, "-problems", only, &nonly, NULL));
+  if (mode >= 0) PetscCall(PushMode(mode, &options));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
+    Outcome   outcome;
+    Tao       tao;
+    PetscBool wanted;
+
+    PetscCall(Wanted(&problems[k], mode, nonly, only, &wanted));
+    if (!wanted) continue;
+    PetscCall(Solve(PETSC_COMM_WORLD, &problems[k], &outcome, &tao));
+    if (table) PetscCall(ReportRow(&problems[k], &outcome));
+    else PetscCall(ReportVerdict(&problems[k], mode, &outcome));
+    PetscCall(TaoDestroy(&tao));
+  }
+  if (mode >= 0) PetscCall(PopMode(&options));
+  for (PetscInt i = 0; i < nonly; i++) PetscCall(PetscFree(only[i]));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
-  PetscBool second = PETSC_TRUE, table = PETSC_FALSE, only = PETSC_FALSE;
-  char     *names[8];
-  PetscInt  nonly = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(names), nskip = nonly;
+  const char *names[NMODES];
+  PetscInt    mode = -1;
+  PetscBool   table = PETSC_FALSE, print = PETSC_FALSE, given;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-hessian", &second, NULL));
+  for (PetscInt i = 0; i < NMODES; i++) names[i] = modes[i].name;
+  PetscCall(PetscOptionsGetEList(NULL, NULL, "-mode", names, NMODES, &mode, &given));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-table", &table, NULL));
-  PetscCall(PetscOptionsGetStringArray(NULL, NULL, "-problems", names, &nonly, &only));
-  if (!only) PetscCall(PetscOptionsGetStringArray(NULL, NULL, "-skip", names, &nskip, NULL));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
-    PetscBool named = PETSC_FALSE;
-
-    for (PetscInt i = 0; i < (only ? nonly : nskip) && !named; i++) PetscCall(PetscStrcmp(names[i], problems[k].name, &named));
-    if (named == only) PetscCall(Solve(&problems[k], second, table));
-  }
-  for (PetscInt i = 0; i < (only ? nonly : nskip); i++) PetscCall(PetscFree(names[i]));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-print_counts", &print, NULL));
+  if (print) PetscCall(PrintCounts());
+  else PetscCall(SolveAll(given ? mode : -1, table));
   PetscCall(PetscFinalize());
   return 0;
 }
 
 /*TEST
 
-   testset:
-      args: -tao_max_it 200
+   test:
+      suffix: 1
+      nsize: {{1 2}}
+      args: -mode default
 
-      test:
-         suffix: 1
-         nsize: {{1 2}}
+   test:
+      suffix: direct
+      args: -mode direct
 
-      # a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which is stationary
-      test:
-         suffix: direct
-         args: -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps -skip bilinear2
+   test:
+      suffix: monotone
+      args: -mode monotone
 
-      # HS104: the monotone mode runs into a corner from which restoration leads to a local minimum of the violation, and says so
-      test:
-         suffix: monotone
-         args: -tao_ipfilter_barrier monotone -skip HS104
-
-      test:
-         suffix: differences
-         args: -hessian 0
+   test:
+      suffix: differences
+      args: -mode differences
 
 TEST*/
