@@ -1,8 +1,8 @@
 /*
    Equality constraints. Their multipliers are not eliminated: the symmetric indefinite system
 
-     [ A    J_E^T    ] [ dx     ]   [  b   ]
-     [ J_E  -delta   ] [ y + dy ] = [ -c_E ]
+     [ A    J_E^T    ] [ dx     ]   [  b             ]
+     [ J_E  -delta   ] [ y + dy ] = [ -c_E - delta y ]
 
    is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last block is switched on
    where the system is singular (dependent constraints).
@@ -192,23 +192,40 @@ static PetscErrorCode AugmentedRefine(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* The unit of delta: that of a row of J_E A^-1 J_E^T, beside which it stands */
+static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  *unit = 1.0;
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &norm));
+  if (norm > 0.0) *unit = PetscSqr(norm) / ip->me / ip->stiff.hscale;
+  PetscFunctionReturn(0);
+}
+
 /* Assembles K and factors it, with a regularization of dependent constraints where it is singular without */
 static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
   PetscBool     singular = PETSC_FALSE;
+  PetscReal     unit;
 
   PetscFunctionBegin;
   PetscCall(AugmentedAssemble(tao, ip->cond.A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
-  ip->aug.delta = ip->opt.delta_equality;
+  PetscCall(AugmentedUnit(tao, &unit));
+  ip->aug.delta    = ip->opt.delta_equality * unit;
+  ip->aug.centered = PETSC_TRUE;
   PetscCall(AugmentedAssemble(tao, ip->cond.A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   PetscFunctionReturn(0);
 }
 
-/* K (top, bottom) = (b, -ce), refined */
+/* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is left of it at a solution */
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER      *ip  = (TAO_IPFILTER *)tao->data;
@@ -219,6 +236,7 @@ static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &negative));
   PetscCall(VecAXPBY(negative, -1.0, 0.0, ce));
+  if (aug->centered) PetscCall(VecAXPY(negative, -aug->delta, ip->at.y));
   PetscCall(AugmentedJoin(aug->rhs, b, negative, PETSC_FALSE));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &negative));
   PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
@@ -270,7 +288,8 @@ PetscErrorCode IPEstimateMultipliers(Tao tao)
   PetscCall(VecGetLocalSize(ip->rx, &n));
   PetscCall(VecGetSize(ip->rx, &N));
   PetscCall(MatCreateConstantDiagonal(PetscObjectComm((PetscObject)tao), n, n, N, N, 1.0, &identity));
-  ip->aug.delta = 0.0;
+  ip->aug.delta    = 0.0;
+  ip->aug.centered = PETSC_FALSE;
   PetscCall(AugmentedAssemble(tao, identity));
   PetscCall(MatDestroy(&identity));
   PetscCall(AugmentedFactor(tao, &inertia, &singular));

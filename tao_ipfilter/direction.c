@@ -190,7 +190,8 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->aug.delta = 0.0;
+  ip->aug.delta    = 0.0;
+  ip->aug.centered = PETSC_FALSE;
   PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
   if (!*ok || ip->shift.delta == 0.0) PetscFunctionReturn(0);
   ip->shift.last    = ip->shift.delta;

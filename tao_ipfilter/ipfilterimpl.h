@@ -235,7 +235,8 @@ typedef struct {
   KSP       ksp;
   Mat       K;
   Mat       shift; /* -delta I */
-  PetscReal delta; /* regularization of dependent equality constraints */
+  PetscReal delta;    /* of restoration steps, or regularization of dependent constraints: */
+  PetscBool centered; /* about the present multipliers, instead of zero */
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
 

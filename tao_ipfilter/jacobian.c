@@ -1,4 +1,4 @@
-/* The constraints' Jacobians as the iteration sees them: the inequalities' as AIJ, rows scaled, columns of fixed variables zeroed. */
+/* The constraints' Jacobians as the iteration sees them: as AIJ, rows scaled, columns of fixed variables zeroed. */
 #include "ipfilterimpl.h"
 
 PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
@@ -30,14 +30,31 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
+/* A Jacobian as AIJ: itself, or converted */
+static PetscErrorCode JacobianTakeAIJ(Mat user, Mat *J)
+{
+  PetscBool aij;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  if (aij) {
+    PetscCall(PetscObjectReference((PetscObject)user));
+    *J = user;
+  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, J));
+  PetscFunctionReturn(0);
+}
+
 /* Takes over the equality Jacobian at tao->solution */
 PetscErrorCode IPJacobianEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Mat           J;
 
   PetscFunctionBegin;
   PetscCall(MatDestroy(&ip->jac.equality));
-  PetscCall(JacobianScale(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.equality));
+  PetscCall(JacobianTakeAIJ(tao->jacobian_equality, &J));
+  PetscCall(JacobianScale(tao, J, ip->rows.equality, &ip->jac.equality));
+  PetscCall(MatDestroy(&J));
   PetscFunctionReturn(0);
 }
 
@@ -49,17 +66,12 @@ PetscErrorCode IPJacobianInequality(Tao tao)
   IPJacobian      *jac  = &ip->jac;
   Mat              user = tao->jacobian_inequality, J;
   PetscObjectState state;
-  PetscBool        aij;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)user, &state));
   if (jac->inequality && state == jac->user_state && jac->user_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
   PetscCall(MatDestroy(&jac->inequality));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  if (aij) {
-    PetscCall(PetscObjectReference((PetscObject)user));
-    J = user;
-  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, &J));
+  PetscCall(JacobianTakeAIJ(user, &J));
   jac->user_state = state;
   jac->user_id    = ((PetscObject)user)->id;
   jac->pattern_id = ((PetscObject)J)->id;

@@ -85,7 +85,8 @@ static PetscErrorCode RestoreAssemble(Tao tao)
     PetscCall(VecRestoreArray(D, &d));
     PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   }
-  ip->aug.delta = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
+  ip->aug.delta    = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
+  ip->aug.centered = PETSC_FALSE;
   PetscCall(IPCondenseMatrix(tao, D));
   PetscFunctionReturn(0);
 }

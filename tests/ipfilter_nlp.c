@@ -9,7 +9,7 @@ static char help[] = "Small problems whose solutions are known: Hock and Schittk
 #include "ipfilter_nlp.h"
 
 #define MAXM   16 /* constraints of one kind */
-#define NMODES 4
+#define NMODES 5
 
 static const struct {
   const char *name, *options, *skip; /* skip: the problem that is not solved, and why stands beside it */
@@ -19,7 +19,9 @@ static const struct {
   {"direct", "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps", "bilinear2"},
   /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", "HS104"},
-  {"differences", "-tao_max_it 200 -hessian 0", ""}
+  {"differences", "-tao_max_it 200 -hessian 0", ""},
+  /* dense matrices, whose conversions drop zeros: the same path as in the first mode */
+  {"dense", "-tao_max_it 200 -dense", ""}
 };
 
 typedef struct {
@@ -224,17 +226,20 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
   PetscFunctionReturn(0);
 }
 
-/* Full pattern, rows laid out as r, columns as c */
-static PetscErrorCode DenseAIJ(Vec r, Vec c, Mat *A)
+/* Full pattern, rows laid out as r, columns as c: AIJ, or dense */
+static PetscErrorCode CreateFull(Vec r, Vec c, Mat *A)
 {
-  PetscInt m, n, M, N;
+  PetscInt  m, n, M, N;
+  PetscBool dense = PETSC_FALSE;
 
   PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-dense", &dense, NULL));
   PetscCall(VecGetLocalSize(r, &m));
   PetscCall(VecGetLocalSize(c, &n));
   PetscCall(VecGetSize(r, &M));
   PetscCall(VecGetSize(c, &N));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)r), m, n, M, N, n, NULL, N - n, NULL, A));
+  if (dense) PetscCall(MatCreateDense(PetscObjectComm((PetscObject)r), m, n, M, N, NULL, A));
+  else PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)r), m, n, M, N, n, NULL, N - n, NULL, A));
   PetscFunctionReturn(0);
 }
 
@@ -372,9 +377,9 @@ static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *
   PetscCall(VecFromText(comm, ctx.n, p->bounds, 1, &xu));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ci.m, &ci));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ce.m, &ce));
-  PetscCall(DenseAIJ(x, x, &H));
-  PetscCall(DenseAIJ(ci, x, &Ji));
-  PetscCall(DenseAIJ(ce, x, &Je));
+  PetscCall(CreateFull(x, x, &H));
+  PetscCall(CreateFull(ci, x, &Ji));
+  PetscCall(CreateFull(ce, x, &Je));
   PetscCall(TaoCreate(comm, tao));
   PetscCall(TaoSetType(*tao, TAOIPFILTER));
   PetscCall(TaoSetSolution(*tao, x));
@@ -533,5 +538,10 @@ int main(int argc, char **argv)
    test:
       suffix: differences
       args: -mode differences
+
+   test:
+      suffix: dense
+      nsize: {{1 2}}
+      args: -mode dense
 
 TEST*/

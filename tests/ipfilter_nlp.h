@@ -22,6 +22,9 @@ typedef struct {
 #define HS35       "9-8*x1-6*x2-4*x3+2*x1^2+2*x2^2+x3^2+2*x1*x2+2*x1*x3"
 #define HS71       "x1*x4*(x1+x2+x3)+x3"
 
+#define TWICE         "x1^2-x2^2+(x2-1)^4+x3^2"
+#define TWICE_OPTIMUM -2.548914701202683
+
 static const NLP problems[] = {
   {"HS1", ROSENBROCK, "", "", ": -1.5:", "-2 1", 0.0, NLP_SOLVED, NULL},
   {"HS2", ROSENBROCK, "", "", ": 1.5:", "-2 1", 0.0504261879, NLP_SOLVED, "4.94122931799"},
@@ -108,6 +111,14 @@ static const NLP problems[] = {
   /* one constraint twice, thrice */
   {"twice", "(x1+x2)^2+(x2+x3)^2", "", "x1+2*x2+3*x3-1; 2*x1+4*x2+6*x3-2", "", "-4 1 1", 0.0, NLP_SOLVED, NULL},
   {"thrice", HS35, "3-x1-x2-2*x3; 3-x1-x2-2*x3; 6-2*x1-2*x2-4*x3", "", "0: 0: 0:", "0.5 0.5 0.5", 0.111111111111, NLP_SOLVED, NULL},
+  /* the Hessian is indefinite on a constraint stated twice, in units that scale both regularizations */
+  {"twice0", TWICE, "", "x1+x2+x3-1; x1+x2+x3-1", "", "0.5 0.5 0.5", TWICE_OPTIMUM, NLP_SOLVED, NULL},
+  {"twice4", "1e4*(" TWICE ")", "", "x1+x2+x3-1; x1+x2+x3-1", "", "0.5 0.5 0.5", 1e4 * TWICE_OPTIMUM, NLP_SOLVED, NULL},
+  {"twice8", "1e8*(" TWICE ")", "", "x1+x2+x3-1; x1+x2+x3-1", "", "0.5 0.5 0.5", 1e8 * TWICE_OPTIMUM, NLP_SOLVED, NULL},
+  {"twice-8", "1e-8*(" TWICE ")", "", "x1+x2+x3-1; x1+x2+x3-1", "", "0.5 0.5 0.5", 1e-8 * TWICE_OPTIMUM, NLP_SOLVED, NULL},
+  {"twice rows", TWICE, "", "1e4*(x1+x2+x3-1); 1e4*(x1+x2+x3-1)", "", "0.5 0.5 0.5", TWICE_OPTIMUM, NLP_SOLVED, NULL},
+  /* a gradient that has a zero at the start only */
+  {"hyperbola", "x1^2+x2^2", "x1*x2-1", "", "", "0 2", 2.0, NLP_SOLVED, NULL},
   /* HS35 and HS71 with a variable fixed where the solution has it */
   {"fixed", HS35, "3-x1-x2-2*x3", "", "0: 0.777777777777778:0.777777777777778 0:", "0.5 0.5 0.5", 0.111111111111, NLP_SOLVED, NULL},
   {"fixed71", HS71, "x1*x2*x3*x4-25", "x1^2+x2^2+x3^2+x4^2-40", "1:1 1:5 1:5 1:5", "1 5 5 1", 17.0140172892, NLP_SOLVED, NULL},
