@@ -146,12 +146,12 @@ typedef struct {
 
 /* Sizes at the starting point */
 typedef struct {
-  PetscReal f, gradient; /* objective and norm of its gradient */
-  PetscReal length;      /* of c_I */
-  PetscReal equality;    /* of c_E */
+  PetscReal f, gradient;       /* objective and norm of its gradient */
+  PetscReal length, equality;  /* of c_I and c_E */
   PetscReal x;
-  PetscReal jacobian;    /* largest row sum of |J| */
-  PetscReal floor;       /* what rounding leaves of the gradient */
+  PetscReal jacobian;          /* largest row sum of |J|, */
+  PetscReal equality_jacobian; /* and of |J_E| */
+  PetscReal floor;             /* what rounding leaves of the gradient */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */

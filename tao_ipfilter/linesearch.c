@@ -31,21 +31,31 @@ static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscRe
   return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) > ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
 }
 
-/* Whether (theta, phi) at step alpha is acceptable; *objective tells that Armijo decided */
+/* Violation that theta's limits are fractions and multiples of */
+static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
+{
+  return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
+}
+
+/* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching condition promises, or that
+   there is no violation that could fall instead: the iterate left behind then stays out of the filter (equations (18) to (20) there) */
 static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi, PetscBool *accepted, PetscBool *objective)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal first = ip->opt.scaling == IP_SCALING_NONE ? PetscMax(1.0, ip->search.theta0) : PetscMax(ip->search.theta_ref, ip->search.theta0);
-  const PetscReal least = ip->opt.theta_min_fact * first, slack = ip->search.rounding;
-  const PetscBool alone = (PetscBool)(ip->search.theta <= 0.0); /* no violation that could fall instead */
-  const PetscReal rise  = ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY : ip->opt.obj_max_inc * PetscMax(PetscAbsReal(ip->search.phi), ip->search.phi_ref);
+  const TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  const IPSearch     *search = &ip->search;
+  const IPOptions    *opt    = &ip->opt;
+  const PetscReal     first = SearchFirstViolation(ip), change = phi - search->phi;
+  const PetscReal     rise     = opt->scaling == IP_SCALING_NONE ? PETSC_INFINITY : opt->obj_max_inc * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
+  const PetscBool     alone    = (PetscBool)(search->theta <= 0.0);
+  const PetscBool     switches = SearchSwitches(ip, alpha, slope);
+  const PetscBool     armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
 
   PetscFunctionBegin;
-  *objective = (PetscBool)(alone || (ip->search.theta <= least && SearchSwitches(ip, alpha, slope)));
-  if (theta > ip->opt.theta_max_fact * first || phi - ip->search.phi > rise) *accepted = PETSC_FALSE;
-  else if (*objective) *accepted = (PetscBool)(phi - ip->search.phi <= ip->opt.eta_phi * alpha * PetscMin(slope, 0.0) + slack);
-  else *accepted = (PetscBool)(theta <= (1.0 - ip->opt.gamma_theta) * ip->search.theta || phi - ip->search.phi <= -ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta + slack);
-  if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - slack, accepted));
+  *objective = (PetscBool)(alone || (switches && armijo));
+  if (theta > opt->theta_max_fact * first || change > rise) *accepted = PETSC_FALSE;
+  else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
+  else *accepted = (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta || change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
+  if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
   PetscFunctionReturn(0);
 }
 
@@ -55,10 +65,8 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
   const PetscReal theta = ip->search.theta / ip->search.theta_ref, descent = -slope / ip->search.phi_ref;
   PetscReal       least = ip->opt.gamma_theta;
 
-  if (descent > 0.0) {
-    least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
-    least = PetscMin(least, ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
-  }
+  if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
+  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip)) least = PetscMin(least, ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
   return PetscMax(ip->opt.gamma_alpha * least, 1e-12);
 }
 

@@ -290,7 +290,7 @@ static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* |J| in the weights of psi */
+/* |J| in the weights of psi, here or at the start of the solve: where it vanishes, its gradients are no measure of themselves */
 static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -300,10 +300,12 @@ static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
   if (ip->mi) {
     PetscCall(VecMax(ip->pair[IP_SLACK].w, NULL, &w));
     PetscCall(MatNorm(ip->jac.inequality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first.jacobian);
   }
   *size = PetscSqrtReal(w) * j;
   if (ip->me) {
     PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first.equality_jacobian);
     *size += ip->search.equality_weight * j;
   }
   PetscFunctionReturn(0);

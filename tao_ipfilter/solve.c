@@ -58,7 +58,10 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
   }
-  if (ip->me) PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
+  if (ip->me) {
+    PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
+    PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &first->equality_jacobian));
+  }
   *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) && !IPUndefined(first->equality));
   PetscFunctionReturn(0);
 }
@@ -198,7 +201,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPBarrierHold(tao, iterations));
     PetscFunctionReturn(0);
   }
-  if (violated && ip->search.theta0 >= 0.0) {
+  if (violated) {
+    PetscCall(IPMeritMeasure(tao)); /* no line search has where there was no direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
   }
