@@ -51,6 +51,25 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper triangle */
+static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
+{
+  PetscBool missing;
+  PetscInt  rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, block));
+  PetscCall(MatMissingDiagonal(*block, &missing, NULL));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)A)));
+  if (!missing) PetscFunctionReturn(0);
+  PetscCall(MatSetOption(*block, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  PetscCall(MatGetOwnershipRange(*block, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(MatSetValue(*block, i, i, 0.0, ADD_VALUES));
+  PetscCall(MatAssemblyBegin(*block, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*block, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
 /* K with A in its first block */
 static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
@@ -64,7 +83,7 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscCall(VecSet(diagonal, -aug->delta));
   PetscCall(MatDiagonalSet(aug->shift, diagonal, INSERT_VALUES));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &diagonal));
-  PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &blocks[0]));
+  PetscCall(AugmentedFirstBlock(A, &blocks[0]));
   PetscCall(MatTranspose(ip->jac.equality, MAT_INITIAL_MATRIX, &blocks[1]));
   blocks[2] = ip->jac.equality;
   blocks[3] = aug->shift;

@@ -539,6 +539,11 @@ int main(int argc, char **argv)
       suffix: differences
       args: -mode differences
 
+   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line search
+   test:
+      suffix: no_direction
+      args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+
    test:
       suffix: dense
       nsize: {{1 2}}
