@@ -1,5 +1,6 @@
 /* Defaults and options of the inner solvers */
 #include "amgfimpl.h"
+#include "mumps.h"
 
 typedef struct {
   const char *name, *value;
@@ -118,7 +119,7 @@ static PetscErrorCode SetDirectSolver(PC inner)
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)inner), &size));
-  PetscCall(MatSolverTypeGet(MATSOLVERMUMPS, size > 1 ? MATMPIAIJ : MATSEQAIJ, factor, NULL, &mumps, NULL));
+  PetscCall(AMGFMumpsFactors(size > 1 ? MATMPIAIJ : MATSEQAIJ, factor, &mumps));
   if (!mumps && size > 1) {
     KSP redundant;
 

@@ -1,0 +1,56 @@
+/*
+   MUMPS where PETSc was configured with it. PETSc declares MatMumps*() in either case, but a library without MUMPS does not define them:
+   one call left unguarded, and nothing links. Compile with -DAMGF_WITHOUT_MUMPS to be as a PETSc without MUMPS would make it.
+*/
+#ifndef AMGF_MUMPS_H
+#define AMGF_MUMPS_H
+
+#include <petscmat.h>
+
+#if defined(PETSC_HAVE_MUMPS) && !defined(AMGF_WITHOUT_MUMPS)
+  #define AMGF_HAVE_MUMPS 1
+#endif
+
+/* Whether MUMPS factors matrices of a type; everything below is for those it does */
+static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor, PetscBool *factors)
+{
+  PetscFunctionBegin;
+  *factors = PETSC_FALSE;
+#if defined(AMGF_HAVE_MUMPS)
+  PetscCall(MatSolverTypeGet(MATSOLVERMUMPS, type, factor, NULL, factors, NULL));
+#else
+  (void)type;
+  (void)factor;
+#endif
+  PetscFunctionReturn(0);
+}
+
+/* Without MUMPS no matrix is a factor of it, so there is nothing to control */
+static inline PetscErrorCode AMGFMumpsSetIcntl(Mat F, PetscInt icntl, PetscInt value)
+{
+  PetscFunctionBegin;
+#if defined(AMGF_HAVE_MUMPS)
+  PetscCall(MatMumpsSetIcntl(F, icntl, value));
+#else
+  (void)F;
+  (void)icntl;
+  (void)value;
+#endif
+  PetscFunctionReturn(0);
+}
+
+/* Without MUMPS nothing was factored, and 0 is what it would say of that */
+static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *value)
+{
+  PetscFunctionBegin;
+#if defined(AMGF_HAVE_MUMPS)
+  PetscCall(MatMumpsGetInfog(F, infog, value));
+#else
+  (void)F;
+  (void)infog;
+  *value = 0;
+#endif
+  PetscFunctionReturn(0);
+}
+
+#endif
