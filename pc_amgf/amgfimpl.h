@@ -6,8 +6,6 @@
 #include <petsc/private/pcimpl.h>
 #include <petscamgf.h>
 
-PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
-
 /* Who named the subspace; in order of precedence after NONE */
 typedef enum {
   AMGF_SOURCE_NONE,
@@ -79,6 +77,9 @@ typedef struct {
   AMGFLag lag;
 } PC_AMGF;
 
+/* log.c */
+PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
 /* subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);

@@ -1,8 +1,6 @@
 /* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
 #include "amgfimpl.h"
 
-PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
-
 static PetscBool initialized = PETSC_FALSE;
 
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
@@ -28,10 +26,7 @@ PetscErrorCode PetscAMGFInitializePackage(void)
   initialized = PETSC_TRUE;
   PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
   PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
-  PetscCall(PetscLogEventRegister("PCAMGFAMGSetUp", PC_CLASSID, &PC_AMGF_AMGSetUp));
-  PetscCall(PetscLogEventRegister("PCAMGFAMGApply", PC_CLASSID, &PC_AMGF_AMGApply));
-  PetscCall(PetscLogEventRegister("PCAMGFFltSetUp", PC_CLASSID, &PC_AMGF_FltSetUp));
-  PetscCall(PetscLogEventRegister("PCAMGFFltApply", PC_CLASSID, &PC_AMGF_FltApply));
+  PetscCall(PCAMGFLogRegister_Private());
   PetscCall(PetscRegisterFinalize(PetscAMGFFinalizePackage));
   PetscFunctionReturn(0);
 }
