@@ -5,7 +5,8 @@ ifneq ($(PETSC_DIR),)
   export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PKG_CONFIG_PATH)
 endif
 comma := ,
-pkg_config = $(shell pkg-config $(1) 2>/dev/null)
+# GNU make before 4.4 exports nothing to $(shell)
+pkg_config = $(shell PKG_CONFIG_PATH='$(PKG_CONFIG_PATH)' pkg-config $(1) 2>/dev/null)
 
 PETSC_PREFIX := $(or $(PETSC_DIR),$(call pkg_config,--variable=prefix PETSc))
 PETSC_CFLAGS := $(call pkg_config,--cflags PETSc)
