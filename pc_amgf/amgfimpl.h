@@ -69,10 +69,10 @@ typedef struct {
   AMGFStamp    galerkin; /* operator R and Aw were filled from */
   Mat          rowsA;    /* rows of A where P is nonzero; with a general P only */
   Mat          rowsP;    /* the same rows of P */
-  Mat          R;        /* P^T A, thin: n_c x n */
-  Mat          Aw;       /* P^T A P */
+  Mat          R;        /* P^H A, thin: n_c x n */
+  Mat          Aw;       /* P^H A P */
   Vec          rc, ec, wc; /* n_c */
-  Vec          w[2];     /* n */
+  Vec          w[PetscDefined(USE_COMPLEX) ? 3 : 2]; /* n */
 
   AMGFLag lag;
 } PC_AMGF;

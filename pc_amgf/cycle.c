@@ -1,11 +1,20 @@
 /*
-   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^T A (thin); A_w = R P; Q = P A_w^-1 P^T.
-   Each cycle is symmetric: its transpose is the same cycle with B^T and Q^T.
+   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^H A (thin); A_w = R P; Q = P A_w^-1 P^H.
+   A is Hermitian, so the adjoint of each cycle is the same cycle with B^H and Q^H, and its transpose is M^T r = conj(M^H conj(r)).
+   With real scalars, conjugation does nothing.
 */
 #include "amgfimpl.h"
 
-/* z = B r */
-static PetscErrorCode ApplyAMG(PC pc, PetscBool transpose, Vec r, Vec z)
+/* VecConjugate() refuses vectors that are locked for reading, real ones too */
+static PetscErrorCode ConjugateInPlace(Vec x)
+{
+  PetscFunctionBegin;
+  if (PetscDefined(USE_COMPLEX)) PetscCall(VecConjugate(x));
+  PetscFunctionReturn(0);
+}
+
+/* z = B r, or B^H r */
+static PetscErrorCode ApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   PetscBool hypre;
@@ -13,22 +22,26 @@ static PetscErrorCode ApplyAMG(PC pc, PetscBool transpose, Vec r, Vec z)
   PetscFunctionBegin;
   amgf->counts.amg_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_AMGApply, pc, r, z, 0));
-  if (transpose) {
+  if (adjoint) {
     /* hypre's transposed cycle relaxes by Jacobi only and leaves out every other smoother; PCAMGF asks for a symmetric B anyway */
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
-    if (hypre) transpose = PETSC_FALSE;
+    if (hypre) adjoint = PETSC_FALSE;
   }
-  if (transpose) PetscCall(PCApplyTranspose(amgf->amg, r, z));
-  else PetscCall(PCApply(amgf->amg, r, z));
+  if (adjoint) {
+    PetscCall(ConjugateInPlace(r));
+    PetscCall(PCApplyTranspose(amgf->amg, r, z));
+    PetscCall(ConjugateInPlace(r));
+    PetscCall(ConjugateInPlace(z));
+  } else PetscCall(PCApply(amgf->amg, r, z));
   PetscCall(PetscLogEventEnd(PC_AMGF_AMGApply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }
 
-/* rc = P^T r */
+/* rc = P^H r */
 static PetscErrorCode Restrict(PC_AMGF *amgf, Vec r, Vec rc)
 {
   PetscFunctionBegin;
-  if (amgf->sub.P) PetscCall(MatMultTranspose(amgf->sub.P, r, rc));
+  if (amgf->sub.P) PetscCall(MatMultHermitianTranspose(amgf->sub.P, r, rc));
   else PetscCall(VecISCopy(r, amgf->sub.rows, SCATTER_REVERSE, rc));
   PetscFunctionReturn(0);
 }
@@ -42,16 +55,20 @@ static PetscErrorCode ProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* ec = A_w^-1 rc */
-static PetscErrorCode SolveFilter(PC pc, PetscBool transpose)
+/* ec = A_w^-1 rc, or A_w^-H rc */
+static PetscErrorCode SolveFilter(PC pc, PetscBool adjoint)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
   amgf->counts.filter_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
-  if (transpose) PetscCall(KSPSolveTranspose(amgf->filter, amgf->rc, amgf->ec));
-  else PetscCall(KSPSolve(amgf->filter, amgf->rc, amgf->ec));
+  if (adjoint) {
+    PetscCall(ConjugateInPlace(amgf->rc));
+    PetscCall(KSPSolveTranspose(amgf->filter, amgf->rc, amgf->ec));
+    PetscCall(ConjugateInPlace(amgf->rc));
+    PetscCall(ConjugateInPlace(amgf->ec));
+  } else PetscCall(KSPSolve(amgf->filter, amgf->rc, amgf->ec));
   PetscCall(KSPCheckSolve(amgf->filter, pc, amgf->ec));
   PetscCall(PetscLogEventEnd(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
   PetscFunctionReturn(0);
@@ -67,32 +84,32 @@ static PetscErrorCode SubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 }
 
 /* (I-BA)(I-QA)(I-BA) */
-static PetscErrorCode ApplyBFB(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode ApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
   const Mat A = pc->useAmat ? pc->mat : pc->pmat;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, transpose, r, z));
+  PetscCall(ApplyAMG(pc, adjoint, r, z));
   PetscCall(MatMult(A, z, work));
   PetscCall(VecWAXPY(residual, -1.0, work, r));
   PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
+  PetscCall(SolveFilter(pc, adjoint));
   PetscCall(ProlongAdd(amgf, amgf->ec, z));
   if (A == pc->pmat) PetscCall(SubtractFiltered(amgf, work, residual));
   else { /* R belongs to the Pmat: mixing the two would lose the symmetry */
     PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
-  PetscCall(ApplyAMG(pc, transpose, residual, work));
+  PetscCall(ApplyAMG(pc, adjoint, residual, work));
   PetscCall(VecAXPY(z, 1.0, work));
   PetscFunctionReturn(0);
 }
 
-/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^T (r_1 - A y) = P^T r_1 - R y.
-   P^T r_1 vanishes if A_w is solved exactly. */
-static PetscErrorCode ApplyFBF(PC pc, PetscBool transpose, Vec r, Vec z)
+/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A y) = P^H r_1 - R y.
+   P^H r_1 vanishes if A_w is solved exactly. */
+static PetscErrorCode ApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
   Vec      residual = amgf->w[0], work = amgf->w[1];
@@ -100,40 +117,40 @@ static PetscErrorCode ApplyFBF(PC pc, PetscBool transpose, Vec r, Vec z)
   PetscFunctionBegin;
   PetscCall(VecCopy(r, residual));
   PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
+  PetscCall(SolveFilter(pc, adjoint));
   PetscCall(SubtractFiltered(amgf, work, residual));
-  PetscCall(ApplyAMG(pc, transpose, residual, z));
+  PetscCall(ApplyAMG(pc, adjoint, residual, z));
   PetscCall(MatMult(amgf->R, z, amgf->wc));
   PetscCall(ProlongAdd(amgf, amgf->ec, z));
   PetscCall(Restrict(amgf, residual, amgf->rc));
   PetscCall(VecAXPY(amgf->rc, -1.0, amgf->wc));
-  PetscCall(SolveFilter(pc, transpose));
+  PetscCall(SolveFilter(pc, adjoint));
   PetscCall(ProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
 /* B + Q */
-static PetscErrorCode ApplyAdditive(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode ApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, transpose, r, z));
+  PetscCall(ApplyAMG(pc, adjoint, r, z));
   PetscCall(Restrict(amgf, r, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
+  PetscCall(SolveFilter(pc, adjoint));
   PetscCall(ProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ApplyCycle(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode ApplyCycle(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  if (!amgf->active || !amgf->sub.n) PetscCall(ApplyAMG(pc, transpose, r, z));
-  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(ApplyBFB(pc, transpose, r, z));
-  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(ApplyFBF(pc, transpose, r, z));
-  else PetscCall(ApplyAdditive(pc, transpose, r, z));
+  if (!amgf->active || !amgf->sub.n) PetscCall(ApplyAMG(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(ApplyBFB(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(ApplyFBF(pc, adjoint, r, z));
+  else PetscCall(ApplyAdditive(pc, adjoint, r, z));
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +163,16 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 
 PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
 {
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  Vec      conjugate = r; /* r itself must not be written to */
+
   PetscFunctionBegin;
-  PetscCall(ApplyCycle(pc, PETSC_TRUE, r, z));
+  if (PetscDefined(USE_COMPLEX)) {
+    conjugate = amgf->w[2];
+    PetscCall(VecCopy(r, conjugate));
+    PetscCall(VecConjugate(conjugate));
+  }
+  PetscCall(ApplyCycle(pc, PETSC_TRUE, conjugate, z));
+  PetscCall(ConjugateInPlace(z));
   PetscFunctionReturn(0);
 }

@@ -89,6 +89,16 @@ static PetscErrorCode ConfigureBoomerAMG(PC pc, PC amg)
   PetscFunctionReturn(0);
 }
 
+/* PCGAMG restricts with P^T: of a complex operator that makes a Hermitian B for as long as P is real, which it is unless it is smoothed */
+static PetscErrorCode ConfigureGAMG(PC amg)
+{
+  PetscFunctionBegin;
+  PetscCall(PCSetType(amg, PCGAMG));
+  if (PetscDefined(USE_COMPLEX)) PetscCall(PCGAMGSetNSmooths(amg, 0));
+  PetscCall(PCSetFromOptions(amg));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ConfigureAMG(PC pc)
 {
   PC          amg = ((PC_AMGF *)pc->data)->amg;
@@ -102,10 +112,7 @@ static PetscErrorCode ConfigureAMG(PC pc)
   PetscCall(PCGetType(amg, &type));
   if (type) PetscCall(PCSetFromOptions(amg));
   else if (PetscDefined(HAVE_HYPRE)) PetscCall(ConfigureBoomerAMG(pc, amg));
-  else {
-    PetscCall(PCSetType(amg, PCGAMG));
-    PetscCall(PCSetFromOptions(amg));
-  }
+  else PetscCall(ConfigureGAMG(amg));
   PetscFunctionReturn(0);
 }
 

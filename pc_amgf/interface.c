@@ -226,7 +226,6 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
   `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
 
   Takes precedence over an object composed on the operator, a file and detection. Replaces an `IS` set by `PCAMGFSetFilterIS()`.
-  Not available with complex scalars.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
 @*/

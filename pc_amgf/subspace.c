@@ -175,7 +175,6 @@ static PetscErrorCode UpdateFromInterpolation(PC pc, Mat P, PetscBool *same)
   AMGFStamp     stamp;
 
   PetscFunctionBegin;
-  PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "A filter interpolation is not supported with complex scalars: name the unknowns with an IS");
   PetscCall(MatGetLocalSize(P, &m, NULL));
   PetscCall(MatGetLocalSize(pc->pmat, &n, NULL));
   PetscCall(MatGetSize(P, &M, NULL));
