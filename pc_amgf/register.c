@@ -3,7 +3,9 @@
 
 static PetscBool initialized = PETSC_FALSE;
 
+#if !defined(PETSC_USE_COMPLEX)
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
+#endif
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
 
 /*@C
@@ -17,6 +19,8 @@ PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
   Called when the shared library is loaded with `-dll_append`. A program linked with the library calls it once
   after `PetscInitialize()`; further calls do nothing.
 
+  Where PETSc's scalars are complex, the library holds `PCAMGF` alone.
+
 .seealso: `PCAMGF`, `TAOIPFILTER`, `PetscAMGFFinalizePackage()`
 @*/
 PetscErrorCode PetscAMGFInitializePackage(void)
@@ -25,7 +29,9 @@ PetscErrorCode PetscAMGFInitializePackage(void)
   if (initialized) PetscFunctionReturn(0);
   initialized = PETSC_TRUE;
   PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
+#if !defined(PETSC_USE_COMPLEX)
   PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
+#endif
   PetscCall(PCAMGFLogRegister_Private());
   PetscCall(PetscRegisterFinalize(PetscAMGFFinalizePackage));
   PetscFunctionReturn(0);
