@@ -77,6 +77,8 @@ typedef struct {
   AMGFLag lag;
 } PC_AMGF;
 
+/* library.c */
+PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
 /* log.c */
 PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
 PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
