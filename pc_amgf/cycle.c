@@ -6,7 +6,7 @@
 #include "amgfimpl.h"
 
 /* VecConjugate() refuses vectors that are locked for reading, real ones too */
-static PetscErrorCode ConjugateInPlace(Vec x)
+static PetscErrorCode CycleConjugate(Vec x)
 {
   PetscFunctionBegin;
   if (PetscDefined(USE_COMPLEX)) PetscCall(VecConjugate(x));
@@ -14,7 +14,7 @@ static PetscErrorCode ConjugateInPlace(Vec x)
 }
 
 /* z = B r, or B^H r */
-static PetscErrorCode ApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   PetscBool hypre;
@@ -28,17 +28,17 @@ static PetscErrorCode ApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
     if (hypre) adjoint = PETSC_FALSE;
   }
   if (adjoint) {
-    PetscCall(ConjugateInPlace(r));
+    PetscCall(CycleConjugate(r));
     PetscCall(PCApplyTranspose(amgf->amg, r, z));
-    PetscCall(ConjugateInPlace(r));
-    PetscCall(ConjugateInPlace(z));
+    PetscCall(CycleConjugate(r));
+    PetscCall(CycleConjugate(z));
   } else PetscCall(PCApply(amgf->amg, r, z));
   PetscCall(PetscLogEventEnd(PC_AMGF_AMGApply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }
 
 /* rc = P^H r */
-static PetscErrorCode Restrict(PC_AMGF *amgf, Vec r, Vec rc)
+static PetscErrorCode CycleRestrict(PC_AMGF *amgf, Vec r, Vec rc)
 {
   PetscFunctionBegin;
   if (amgf->sub.P) PetscCall(MatMultHermitianTranspose(amgf->sub.P, r, rc));
@@ -47,7 +47,7 @@ static PetscErrorCode Restrict(PC_AMGF *amgf, Vec r, Vec rc)
 }
 
 /* z = z + P ec */
-static PetscErrorCode ProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
+static PetscErrorCode CycleProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
 {
   PetscFunctionBegin;
   if (amgf->sub.P) PetscCall(MatMultAdd(amgf->sub.P, ec, z, z));
@@ -56,7 +56,7 @@ static PetscErrorCode ProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
 }
 
 /* ec = A_w^-1 rc, or A_w^-H rc */
-static PetscErrorCode SolveFilter(PC pc, PetscBool adjoint)
+static PetscErrorCode CycleSolveFilter(PC pc, PetscBool adjoint)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
@@ -64,10 +64,10 @@ static PetscErrorCode SolveFilter(PC pc, PetscBool adjoint)
   amgf->counts.filter_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
   if (adjoint) {
-    PetscCall(ConjugateInPlace(amgf->rc));
+    PetscCall(CycleConjugate(amgf->rc));
     PetscCall(KSPSolveTranspose(amgf->filter, amgf->rc, amgf->ec));
-    PetscCall(ConjugateInPlace(amgf->rc));
-    PetscCall(ConjugateInPlace(amgf->ec));
+    PetscCall(CycleConjugate(amgf->rc));
+    PetscCall(CycleConjugate(amgf->ec));
   } else PetscCall(KSPSolve(amgf->filter, amgf->rc, amgf->ec));
   PetscCall(KSPCheckSolve(amgf->filter, pc, amgf->ec));
   PetscCall(PetscLogEventEnd(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
@@ -75,7 +75,7 @@ static PetscErrorCode SolveFilter(PC pc, PetscBool adjoint)
 }
 
 /* r = r - A P ec = r - R^H ec: no product with the whole A */
-static PetscErrorCode SubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
+static PetscErrorCode CycleSubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 {
   PetscFunctionBegin;
   PetscCall(MatMultHermitianTranspose(amgf->R, amgf->ec, work));
@@ -84,80 +84,80 @@ static PetscErrorCode SubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 }
 
 /* (I-BA)(I-QA)(I-BA) */
-static PetscErrorCode ApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
   const Mat A = pc->useAmat ? pc->mat : pc->pmat;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, adjoint, r, z));
+  PetscCall(CycleApplyAMG(pc, adjoint, r, z));
   PetscCall(MatMult(A, z, work));
   PetscCall(VecWAXPY(residual, -1.0, work, r));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, adjoint));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
-  if (A == pc->pmat) PetscCall(SubtractFiltered(amgf, work, residual));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
+  if (A == pc->pmat) PetscCall(CycleSubtractFiltered(amgf, work, residual));
   else { /* R belongs to the Pmat: mixing the two would lose the symmetry */
     PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
-  PetscCall(ApplyAMG(pc, adjoint, residual, work));
+  PetscCall(CycleApplyAMG(pc, adjoint, residual, work));
   PetscCall(VecAXPY(z, 1.0, work));
   PetscFunctionReturn(0);
 }
 
 /* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A y) = P^H r_1 - R y.
    P^H r_1 vanishes if A_w is solved exactly. */
-static PetscErrorCode ApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
   Vec      residual = amgf->w[0], work = amgf->w[1];
 
   PetscFunctionBegin;
   PetscCall(VecCopy(r, residual));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, adjoint));
-  PetscCall(SubtractFiltered(amgf, work, residual));
-  PetscCall(ApplyAMG(pc, adjoint, residual, z));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleSubtractFiltered(amgf, work, residual));
+  PetscCall(CycleApplyAMG(pc, adjoint, residual, z));
   PetscCall(MatMult(amgf->R, z, amgf->wc));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
   PetscCall(VecAXPY(amgf->rc, -1.0, amgf->wc));
-  PetscCall(SolveFilter(pc, adjoint));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
 /* B + Q */
-static PetscErrorCode ApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, adjoint, r, z));
-  PetscCall(Restrict(amgf, r, amgf->rc));
-  PetscCall(SolveFilter(pc, adjoint));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleApplyAMG(pc, adjoint, r, z));
+  PetscCall(CycleRestrict(amgf, r, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ApplyCycle(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  if (!amgf->active || !amgf->sub.n) PetscCall(ApplyAMG(pc, adjoint, r, z));
-  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(ApplyBFB(pc, adjoint, r, z));
-  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(ApplyFBF(pc, adjoint, r, z));
-  else PetscCall(ApplyAdditive(pc, adjoint, r, z));
+  if (!amgf->active || !amgf->sub.n) PetscCall(CycleApplyAMG(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(CycleApplyBFB(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(CycleApplyFBF(pc, adjoint, r, z));
+  else PetscCall(CycleApplyAdditive(pc, adjoint, r, z));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 {
   PetscFunctionBegin;
-  PetscCall(ApplyCycle(pc, PETSC_FALSE, r, z));
+  PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
   PetscFunctionReturn(0);
 }
 
@@ -172,7 +172,7 @@ PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
     PetscCall(VecCopy(r, conjugate));
     PetscCall(VecConjugate(conjugate));
   }
-  PetscCall(ApplyCycle(pc, PETSC_TRUE, conjugate, z));
-  PetscCall(ConjugateInPlace(z));
+  PetscCall(CycleApply(pc, PETSC_TRUE, conjugate, z));
+  PetscCall(CycleConjugate(z));
   PetscFunctionReturn(0);
 }

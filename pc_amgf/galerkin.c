@@ -2,7 +2,7 @@
 #include "amgfimpl.h"
 
 /* P selects unknowns: R is rows of A, A_w columns of R */
-static PetscErrorCode FillFromRows(PC pc, PetscBool reuse)
+static PetscErrorCode GalerkinFromRows(PC pc, PetscBool reuse)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
   IS       all;
@@ -18,7 +18,7 @@ static PetscErrorCode FillFromRows(PC pc, PetscBool reuse)
 }
 
 /* General P: with S the rows in which P is nonzero, P^H A = P_S^H A_S */
-static PetscErrorCode FillFromInterpolation(PC pc, PetscBool reuse)
+static PetscErrorCode GalerkinFromInterpolation(PC pc, PetscBool reuse)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
   const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -62,8 +62,8 @@ PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
   reuse          = (PetscBool)(same && amgf->Aw && AMGFStampSamePattern(&now, &amgf->galerkin));
   amgf->galerkin = now;
   if (!reuse) PetscCall(PCAMGFResetGalerkin_Private(amgf));
-  if (amgf->sub.P) PetscCall(FillFromInterpolation(pc, reuse));
-  else PetscCall(FillFromRows(pc, reuse));
+  if (amgf->sub.P) PetscCall(GalerkinFromInterpolation(pc, reuse));
+  else PetscCall(GalerkinFromRows(pc, reuse));
   /* the factorization may drop the pivoting; PETSc takes MAT_SPD for symmetric, too, which a complex Hermitian matrix is not */
   PetscCall(MatSetOption(amgf->Aw, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE));
   if (!amgf->rc) {
