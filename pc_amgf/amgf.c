@@ -38,20 +38,21 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    PCAMGF - algebraic multigrid with a filter: a small subspace is solved exactly, the rest is left to the AMG
 
    Options Database Keys:
-+  -pc_amgf_cycle <fbf>           - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
-.  -pc_amgf_filter_file <file>    - binary file with the `IS` of filtered unknowns
-.  -pc_amgf_detect <ratio>        - filter the unknowns whose diagonal entry exceeds this ratio times the median of the positive diagonal entries
-.  -pc_amgf_amg_lag <n or auto>   - rebuild the AMG at every n-th changed operator, -1: never, `auto`: when the cost grows; see `PCAMGFSetAMGLag()`
-.  -pc_amgf_amg_lag_ratio <1.5>   - growth that calls for a rebuild
-.  -amgf_amg_pc_type <hypre>      - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
--  -amgf_filter_pc_type <cholesky> - the solver of the filtered system, with all of its options under the prefix `amgf_filter_`
++  -pc_amgf_cycle <fbf>             - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
+.  -pc_amgf_filter_file <file>      - binary file with the `IS` of filtered unknowns; by default none
+.  -pc_amgf_detect <0>              - filter the unknowns whose diagonal entry exceeds this many times the median of the positive diagonal entries; 0: off
+.  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed operator; -1: never; 0 or `auto`: when the cost grows; the cycle `bfb` has the default 1
+.  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
+.  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
+.  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the prefix `amgf_filter_`
+-  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
 
    Level: intermediate
 
    Notes:
-   For symmetric positive definite A (n x n) that multigrid handles well but for a subspace of small dimension n_c, the range of P: contact or penalty rows,
+   For symmetric, or complex Hermitian, positive definite A (n x n) that multigrid handles well but for a subspace of small dimension n_c, the range of P: contact or penalty rows,
    interface conditions, inclusions of high contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by
-   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q.
+   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
 
    If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff part, the condition number of `bfb` is at most
    2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1. `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
@@ -60,8 +61,9 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    set-up; `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B.
 
    The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a row, no aggressive level, one sweep of
-   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`. The default filter solver is
-   `KSPPREONLY` with Cholesky by MUMPS, or by PETSc if MUMPS is missing. What the user sets wins.
+   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its
+   restriction does not conjugate, and a smoothed interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with Cholesky, with
+   complex scalars LU, by MUMPS; if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What the user sets wins.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
 
