@@ -10,17 +10,20 @@ include share/toolchain.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
-plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c tao_ipfilter/*.c))
+plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c $(if $(PETSC_COMPLEX),,tao_ipfilter/*.c)))
 library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c))
-programs        := $(patsubst apps/%.c,bin/%,$(wildcard apps/*.c))
+programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard apps/*.c)))
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all demo check stress install clean help dependencies FORCE
+.PHONY: all complex demo check stress install clean help dependencies FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(PLUGIN) $(LIBRARY) $(programs)
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs)
+
+complex: $(PLUGIN)
+	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
 
 build/%.o: %.c makefile share/toolchain.mk
 	@mkdir -p $(@D)
@@ -73,9 +76,9 @@ install: all
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options share/amgf/gmsh)
 	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
 	install -m 755 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib
-	install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib
+	$(if $(PETSC_COMPLEX),,install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib)
 	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
-	install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact
+	$(if $(PETSC_COMPLEX),,install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact)
 	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*.*),install -m 644 $(wildcard share/$(kind)/*.*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
 

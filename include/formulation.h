@@ -4,6 +4,10 @@
 
 #include <petscsys.h>
 
+#if defined(PETSC_USE_COMPLEX)
+  #error "contact needs a PETSc with real scalars: displacements, gaps and pressures are real numbers"
+#endif
+
 /* Trilinear hexahedra, all of them */
 typedef enum {
   ELEMENT_FULL, /* full integration; locks as Poisson's ratio nears 1/2 */

@@ -1,6 +1,8 @@
 /*
    Public interface of the petscamgf plugin: PCAMGF and TAOIPFILTER.
 
+   With complex scalars, the plugin is PCAMGF alone.
+
    Every call dispatches by name (PetscTryMethod/PetscUseMethod), so a program may also do without this header:
    -pc_type amgf, -tao_type ipfilter, and an IS or Mat composed on the Pmat under "amgf_filter".
 */

@@ -1,86 +1,5 @@
-/* The preconditioner type: life cycle, options, set-up, view */
+/* The preconditioner type: its page, and its life from creation to destruction */
 #include "amgfimpl.h"
-
-static PetscErrorCode ReportFailure(PC pc, PC inner)
-{
-  PCFailedReason reason;
-
-  PetscFunctionBegin;
-  PetscCall(PCGetFailedReason(inner, &reason));
-  if (reason) PetscCall(PCSetFailedReason(pc, reason));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SetUpFilter(PC pc)
-{
-  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
-  PetscBool same;
-  PC        inner;
-
-  PetscFunctionBegin;
-  if (!amgf->active) PetscFunctionReturn(0);
-  PetscCall(PetscLogEventBegin(PC_AMGF_FltSetUp, pc, 0, 0, 0));
-  PetscCall(PCAMGFUpdateSubspace_Private(pc, &same));
-  if (amgf->sub.n) {
-    PetscCall(PCAMGFUpdateGalerkin_Private(pc, same));
-    PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
-    /* a factored matrix of another size cannot be replaced in place */
-    if (!same) PetscCall(KSPReset(amgf->filter));
-    PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
-    PetscCall(KSPSetUp(amgf->filter));
-    PetscCall(KSPGetPC(amgf->filter, &inner));
-    PetscCall(ReportFailure(pc, inner));
-    amgf->counts.filter_setups++;
-  } else {
-    PetscCall(PCAMGFResetGalerkin_Private(amgf));
-    PetscCall(KSPReset(amgf->filter));
-  }
-  PetscCall(PetscLogEventEnd(PC_AMGF_FltSetUp, pc, 0, 0, 0));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SetUpAMG(PC pc)
-{
-  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
-  PetscBool rebuild;
-
-  PetscFunctionBegin;
-  PetscCall(PCAMGFLagDecide_Private(pc, &rebuild));
-  if (rebuild) {
-    PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
-    if (pc->dm) PetscCall(PCSetDM(amgf->amg, pc->dm));
-    PetscCall(PCSetErrorIfFailure(amgf->amg, pc->erroriffailure));
-    PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
-    PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
-    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
-    PetscCall(PCSetUp(amgf->amg));
-    /* PCApply() must not rebuild it behind our back when the operator changes in place */
-    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
-    PetscCall(PetscLogEventEnd(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
-    PetscCall(PCAMGFLagRebuilt_Private(pc));
-    amgf->counts.amg_setups++;
-  }
-  PetscCall(ReportFailure(pc, amgf->amg));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode PCSetUp_AMGF(PC pc)
-{
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
-  PetscInt M, N;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetSize(pc->pmat, &M, &N));
-  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
-  PetscCall(PCSetFailedReason(pc, PC_NOERROR));
-  PetscCall(PCAMGFConfigureInner_Private(pc));
-  PetscCall(SetUpFilter(pc));
-  PetscCall(SetUpAMG(pc));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(amgf->w); i++) {
-    if (!amgf->w[i]) PetscCall(MatCreateVecs(pc->pmat, &amgf->w[i], NULL));
-  }
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode PCReset_AMGF(PC pc)
 {
@@ -115,125 +34,25 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* A number or "auto" */
-static PetscErrorCode LagFromString(PC pc, const char string[])
-{
-  PetscBool automatic;
-  PetscInt  lag = AMGF_LAG_AUTO;
-
-  PetscFunctionBegin;
-  PetscCall(PetscStrcasecmp(string, "auto", &automatic));
-  if (!automatic) {
-    char *end;
-
-    lag = (PetscInt)strtol(string, &end, 10);
-    PetscCheck(end != string && !*end, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG, "-pc_amgf_amg_lag takes a whole number or auto, not \"%s\"", string);
-  }
-  PetscCall(PCAMGFSetAMGLag(pc, lag));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
-{
-  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
-  PCAMGFCycle cycle;
-  PetscReal   detect = amgf->detect;
-  char        file[PETSC_MAX_PATH_LEN], lag[32];
-  PetscBool   flg;
-
-  PetscFunctionBegin;
-  PetscOptionsHeadBegin(PetscOptionsObject, "AMG with filter options");
-  PetscCall(PetscOptionsEnum("-pc_amgf_cycle", "Order of AMG (b) and filter (f)", "PCAMGFSetCycle", PCAMGFCycles, (PetscEnum)amgf->cycle, (PetscEnum *)&cycle, &flg));
-  if (flg) PetscCall(PCAMGFSetCycle(pc, cycle));
-  PetscCall(PetscOptionsString("-pc_amgf_filter_file", "Binary file with the IS of filtered unknowns", "PCAMGFSetFilterIS", amgf->file ? amgf->file : "", file, sizeof(file), &flg));
-  if (flg) {
-    PetscCall(PetscFree(amgf->file));
-    PetscCall(ISDestroy(&amgf->file_is));
-    if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
-  }
-  PetscCall(PetscOptionsReal("-pc_amgf_detect", "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect, NULL));
-  PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
-  amgf->detect = detect;
-  PetscCall(PetscOptionsString("-pc_amgf_amg_lag", "Rebuild the AMG every so many changed operators; -1: never; 0 or auto: when the cost grows", "PCAMGFSetAMGLag", amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
-  if (flg) PetscCall(LagFromString(pc, lag));
-  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild", "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
-  PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
-  PetscOptionsHeadEnd();
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)
-{
-  const PetscInt every = PCAMGFLagEvery_Private(amgf), age = amgf->lag.age;
-
-  PetscFunctionBegin;
-  if (every > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG rebuilt every %" PetscInt_FMT " changed operators; age: %" PetscInt_FMT "\n", every, age));
-  else if (every == AMGF_LAG_NEVER) PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; age: %" PetscInt_FMT " changed operators\n", age));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", (double)amgf->lag.ratio, age));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
-{
-  static const char *const sources[] = {"none given", "set by call", "composed on the operator", "from a file", "detected"};
-  PC_AMGF                 *amgf      = (PC_AMGF *)pc->data;
-
-  PetscFunctionBegin;
-  if (!pc->setupcalled) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: not yet set up\n"));
-    PetscFunctionReturn(0);
-  }
-  if (!amgf->active) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: switched off, the AMG alone; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source], amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
-  if (amgf->sub.source == AMGF_SOURCE_FILE) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
-  if (amgf->sub.source == AMGF_SOURCE_DETECT) PetscCall(PetscViewerASCIIPrintf(viewer, "  detection: diagonal entries above %g times the median\n", (double)amgf->detect));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
-{
-  PC_AMGF            *amgf   = (PC_AMGF *)pc->data;
-  const PCAMGFCounts *counts = &amgf->counts;
-  PetscBool           ascii;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
-  if (!ascii) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  cycle: %s\n", PCAMGFCycles[amgf->cycle]));
-  PetscCall(ViewFilter(pc, viewer));
-  PetscCall(ViewLag(amgf, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  so far: %" PetscInt_FMT " AMG set-ups, %" PetscInt_FMT " AMG applications, %" PetscInt_FMT " filter set-ups, %" PetscInt_FMT " filter solves\n", counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG:\n"));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(PCView(amgf->amg, viewer));
-  PetscCall(PetscViewerASCIIPopTab(viewer));
-  if (amgf->active && amgf->sub.n) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  filter solver:\n"));
-    PetscCall(PetscViewerASCIIPushTab(viewer));
-    PetscCall(KSPView(amgf->filter, viewer));
-    PetscCall(PetscViewerASCIIPopTab(viewer));
-  }
-  PetscFunctionReturn(0);
-}
-
 /*MC
    PCAMGF - algebraic multigrid with a filter: a small subspace is solved exactly, the rest is left to the AMG
 
    Options Database Keys:
-+  -pc_amgf_cycle <fbf>           - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
-.  -pc_amgf_filter_file <file>    - binary file with the `IS` of filtered unknowns
-.  -pc_amgf_detect <ratio>        - filter the unknowns whose diagonal entry exceeds this ratio times the median of the positive diagonal entries
-.  -pc_amgf_amg_lag <n or auto>   - rebuild the AMG at every n-th changed operator, -1: never, `auto`: when the cost grows; see `PCAMGFSetAMGLag()`
-.  -pc_amgf_amg_lag_ratio <1.5>   - growth that calls for a rebuild
-.  -amgf_amg_pc_type <hypre>      - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
--  -amgf_filter_pc_type <cholesky> - the solver of the filtered system, with all of its options under the prefix `amgf_filter_`
++  -pc_amgf_cycle <fbf>             - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
+.  -pc_amgf_filter_file <file>      - binary file with the `IS` of filtered unknowns; by default none
+.  -pc_amgf_detect <0>              - filter the unknowns whose diagonal entry exceeds this many times the median of the positive diagonal entries; 0: off
+.  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed operator; -1: never; 0 or `auto`: when the cost grows; the cycle `bfb` has the default 1
+.  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
+.  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
+.  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the prefix `amgf_filter_`
+-  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
 
    Level: intermediate
 
    Notes:
-   For symmetric positive definite A (n x n) that multigrid handles well but for a subspace of small dimension n_c, the range of P: contact or penalty rows,
+   For symmetric, or complex Hermitian, positive definite A (n x n) that multigrid handles well but for a subspace of small dimension n_c, the range of P: contact or penalty rows,
    interface conditions, inclusions of high contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by
-   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q.
+   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
 
    If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff part, the condition number of `bfb` is at most
    2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1. `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
@@ -242,8 +61,9 @@ static PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
    set-up; `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B.
 
    The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a row, no aggressive level, one sweep of
-   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`. The default filter solver is
-   `KSPPREONLY` with Cholesky by MUMPS, or by PETSc if MUMPS is missing. What the user sets wins.
+   l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its
+   restriction does not conjugate, and a smoothed interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with Cholesky, with
+   complex scalars LU, by MUMPS; if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What the user sets wins.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
 

@@ -6,8 +6,6 @@
 #include <petsc/private/pcimpl.h>
 #include <petscamgf.h>
 
-PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
-
 /* Who named the subspace; in order of precedence after NONE */
 typedef enum {
   AMGF_SOURCE_NONE,
@@ -71,44 +69,58 @@ typedef struct {
   AMGFStamp    galerkin; /* operator R and Aw were filled from */
   Mat          rowsA;    /* rows of A where P is nonzero; with a general P only */
   Mat          rowsP;    /* the same rows of P */
-  Mat          R;        /* P^T A, thin: n_c x n */
-  Mat          Aw;       /* P^T A P */
+  Mat          R;        /* P^H A, thin: n_c x n */
+  Mat          Aw;       /* P^H A P */
   Vec          rc, ec, wc; /* n_c */
-  Vec          w[2];     /* n */
+  Vec          w[PetscDefined(USE_COMPLEX) ? 3 : 2]; /* n */
 
   AMGFLag lag;
 } PC_AMGF;
 
-/* subspace.c */
-PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
-PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
-/* detect.c */
-PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
-/* galerkin.c */
-PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
-PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
-/* rows.c */
-PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
-/* inner.c */
-PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
-/* lag.c */
-PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
-PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
-PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
-PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
-PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
-PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
-/* cycle.c */
-PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
-PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
-/* interface.c */
-PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC);
-PETSC_INTERN PetscErrorCode PCAMGFRemoveFunctions_Private(PC);
+/* The files of this folder, each after those it builds on, and what they define for others */
+
+/* log.c */
+PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
 /* stamp.c */
 PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
-
+/* detect.c */
+PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
+/* subspace.c */
+PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
+PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
+/* rows.c */
+PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
+/* galerkin.c */
+PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
+PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
+/* inner.c */
+PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
+/* lag.c */
+PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
+PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
+PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
+PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
+/* setup.c */
+PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
+/* cycle.c */
+PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
+/* api.c, beside the public functions */
+PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFRemoveFunctions_Private(PC);
+/* opts.c */
+PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
+/* view.c */
+PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
+/* amgf.c */
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
+/* library.c */
+PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
+/* register.c: the two public functions with which the plugin begins and ends */
 
 #endif

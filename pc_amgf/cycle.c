@@ -1,11 +1,20 @@
 /*
-   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^T A (thin); A_w = R P; Q = P A_w^-1 P^T.
-   Each cycle is symmetric: its transpose is the same cycle with B^T and Q^T.
+   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^H A (thin); A_w = R P; Q = P A_w^-1 P^H.
+   A is Hermitian, so the adjoint of each cycle is the same cycle with B^H and Q^H, and its transpose is M^T r = conj(M^H conj(r)).
+   With real scalars, conjugation does nothing.
 */
 #include "amgfimpl.h"
 
-/* z = B r */
-static PetscErrorCode ApplyAMG(PC pc, PetscBool transpose, Vec r, Vec z)
+/* VecConjugate() refuses vectors that are locked for reading, real ones too */
+static PetscErrorCode CycleConjugate(Vec x)
+{
+  PetscFunctionBegin;
+  if (PetscDefined(USE_COMPLEX)) PetscCall(VecConjugate(x));
+  PetscFunctionReturn(0);
+}
+
+/* z = B r, or B^H r */
+static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   PetscBool hypre;
@@ -13,28 +22,32 @@ static PetscErrorCode ApplyAMG(PC pc, PetscBool transpose, Vec r, Vec z)
   PetscFunctionBegin;
   amgf->counts.amg_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_AMGApply, pc, r, z, 0));
-  if (transpose) {
+  if (adjoint) {
     /* hypre's transposed cycle relaxes by Jacobi only and leaves out every other smoother; PCAMGF asks for a symmetric B anyway */
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
-    if (hypre) transpose = PETSC_FALSE;
+    if (hypre) adjoint = PETSC_FALSE;
   }
-  if (transpose) PetscCall(PCApplyTranspose(amgf->amg, r, z));
-  else PetscCall(PCApply(amgf->amg, r, z));
+  if (adjoint) {
+    PetscCall(CycleConjugate(r));
+    PetscCall(PCApplyTranspose(amgf->amg, r, z));
+    PetscCall(CycleConjugate(r));
+    PetscCall(CycleConjugate(z));
+  } else PetscCall(PCApply(amgf->amg, r, z));
   PetscCall(PetscLogEventEnd(PC_AMGF_AMGApply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }
 
-/* rc = P^T r */
-static PetscErrorCode Restrict(PC_AMGF *amgf, Vec r, Vec rc)
+/* rc = P^H r */
+static PetscErrorCode CycleRestrict(PC_AMGF *amgf, Vec r, Vec rc)
 {
   PetscFunctionBegin;
-  if (amgf->sub.P) PetscCall(MatMultTranspose(amgf->sub.P, r, rc));
+  if (amgf->sub.P) PetscCall(MatMultHermitianTranspose(amgf->sub.P, r, rc));
   else PetscCall(VecISCopy(r, amgf->sub.rows, SCATTER_REVERSE, rc));
   PetscFunctionReturn(0);
 }
 
 /* z = z + P ec */
-static PetscErrorCode ProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
+static PetscErrorCode CycleProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
 {
   PetscFunctionBegin;
   if (amgf->sub.P) PetscCall(MatMultAdd(amgf->sub.P, ec, z, z));
@@ -42,23 +55,27 @@ static PetscErrorCode ProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* ec = A_w^-1 rc */
-static PetscErrorCode SolveFilter(PC pc, PetscBool transpose)
+/* ec = A_w^-1 rc, or A_w^-H rc */
+static PetscErrorCode CycleSolveFilter(PC pc, PetscBool adjoint)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
   amgf->counts.filter_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
-  if (transpose) PetscCall(KSPSolveTranspose(amgf->filter, amgf->rc, amgf->ec));
-  else PetscCall(KSPSolve(amgf->filter, amgf->rc, amgf->ec));
+  if (adjoint) {
+    PetscCall(CycleConjugate(amgf->rc));
+    PetscCall(KSPSolveTranspose(amgf->filter, amgf->rc, amgf->ec));
+    PetscCall(CycleConjugate(amgf->rc));
+    PetscCall(CycleConjugate(amgf->ec));
+  } else PetscCall(KSPSolve(amgf->filter, amgf->rc, amgf->ec));
   PetscCall(KSPCheckSolve(amgf->filter, pc, amgf->ec));
   PetscCall(PetscLogEventEnd(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
   PetscFunctionReturn(0);
 }
 
 /* r = r - A P ec = r - R^H ec: no product with the whole A */
-static PetscErrorCode SubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
+static PetscErrorCode CycleSubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 {
   PetscFunctionBegin;
   PetscCall(MatMultHermitianTranspose(amgf->R, amgf->ec, work));
@@ -67,86 +84,95 @@ static PetscErrorCode SubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 }
 
 /* (I-BA)(I-QA)(I-BA) */
-static PetscErrorCode ApplyBFB(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
   const Mat A = pc->useAmat ? pc->mat : pc->pmat;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, transpose, r, z));
+  PetscCall(CycleApplyAMG(pc, adjoint, r, z));
   PetscCall(MatMult(A, z, work));
   PetscCall(VecWAXPY(residual, -1.0, work, r));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
-  if (A == pc->pmat) PetscCall(SubtractFiltered(amgf, work, residual));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
+  if (A == pc->pmat) PetscCall(CycleSubtractFiltered(amgf, work, residual));
   else { /* R belongs to the Pmat: mixing the two would lose the symmetry */
     PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
-  PetscCall(ApplyAMG(pc, transpose, residual, work));
+  PetscCall(CycleApplyAMG(pc, adjoint, residual, work));
   PetscCall(VecAXPY(z, 1.0, work));
   PetscFunctionReturn(0);
 }
 
-/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^T (r_1 - A y) = P^T r_1 - R y.
-   P^T r_1 vanishes if A_w is solved exactly. */
-static PetscErrorCode ApplyFBF(PC pc, PetscBool transpose, Vec r, Vec z)
+/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A y) = P^H r_1 - R y.
+   P^H r_1 vanishes if A_w is solved exactly. */
+static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
   Vec      residual = amgf->w[0], work = amgf->w[1];
 
   PetscFunctionBegin;
   PetscCall(VecCopy(r, residual));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
-  PetscCall(SubtractFiltered(amgf, work, residual));
-  PetscCall(ApplyAMG(pc, transpose, residual, z));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleSubtractFiltered(amgf, work, residual));
+  PetscCall(CycleApplyAMG(pc, adjoint, residual, z));
   PetscCall(MatMult(amgf->R, z, amgf->wc));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
-  PetscCall(Restrict(amgf, residual, amgf->rc));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleRestrict(amgf, residual, amgf->rc));
   PetscCall(VecAXPY(amgf->rc, -1.0, amgf->wc));
-  PetscCall(SolveFilter(pc, transpose));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
 /* B + Q */
-static PetscErrorCode ApplyAdditive(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode CycleApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  PetscCall(ApplyAMG(pc, transpose, r, z));
-  PetscCall(Restrict(amgf, r, amgf->rc));
-  PetscCall(SolveFilter(pc, transpose));
-  PetscCall(ProlongAdd(amgf, amgf->ec, z));
+  PetscCall(CycleApplyAMG(pc, adjoint, r, z));
+  PetscCall(CycleRestrict(amgf, r, amgf->rc));
+  PetscCall(CycleSolveFilter(pc, adjoint));
+  PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ApplyCycle(PC pc, PetscBool transpose, Vec r, Vec z)
+static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
-  if (!amgf->active || !amgf->sub.n) PetscCall(ApplyAMG(pc, transpose, r, z));
-  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(ApplyBFB(pc, transpose, r, z));
-  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(ApplyFBF(pc, transpose, r, z));
-  else PetscCall(ApplyAdditive(pc, transpose, r, z));
+  if (!amgf->active || !amgf->sub.n) PetscCall(CycleApplyAMG(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_BFB) PetscCall(CycleApplyBFB(pc, adjoint, r, z));
+  else if (amgf->cycle == PC_AMGF_FBF) PetscCall(CycleApplyFBF(pc, adjoint, r, z));
+  else PetscCall(CycleApplyAdditive(pc, adjoint, r, z));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 {
   PetscFunctionBegin;
-  PetscCall(ApplyCycle(pc, PETSC_FALSE, r, z));
+  PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
 {
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  Vec      conjugate = r; /* r itself must not be written to */
+
   PetscFunctionBegin;
-  PetscCall(ApplyCycle(pc, PETSC_TRUE, r, z));
+  if (PetscDefined(USE_COMPLEX)) {
+    conjugate = amgf->w[2];
+    PetscCall(VecCopy(r, conjugate));
+    PetscCall(VecConjugate(conjugate));
+  }
+  PetscCall(CycleApply(pc, PETSC_TRUE, conjugate, z));
+  PetscCall(CycleConjugate(z));
   PetscFunctionReturn(0);
 }

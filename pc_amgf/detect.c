@@ -4,7 +4,7 @@
 /*
   Median of the positive diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every partition gives the same value.
 */
-static PetscErrorCode MedianOfPositive(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
+static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
 {
   PetscReal range[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}; /* -log min, log max */
   PetscInt  count    = 0;
@@ -50,7 +50,7 @@ PetscErrorCode PCAMGFDetectRows_Private(Mat A, PetscReal ratio, IS *rows)
   PetscCall(VecGetLocalSize(diagonal, &n));
   PetscCall(VecGetOwnershipRange(diagonal, &start, NULL));
   PetscCall(VecGetArrayRead(diagonal, &d));
-  PetscCall(MedianOfPositive(comm, n, d, &median));
+  PetscCall(DetectMedian(comm, n, d, &median));
   PetscCall(PetscMalloc1(n, &idx));
   for (PetscInt i = 0; i < n; i++) {
     if (PetscRealPart(d[i]) > ratio * median) idx[k++] = start + i;

@@ -1,8 +1,8 @@
-/* The thin matrix R = P^T A and the filtered matrix A_w = P^T A P */
+/* The thin matrix R = P^H A and the filtered matrix A_w = P^H A P; with real scalars P^H is P^T */
 #include "amgfimpl.h"
 
 /* P selects unknowns: R is rows of A, A_w columns of R */
-static PetscErrorCode FillFromRows(PC pc, PetscBool reuse)
+static PetscErrorCode GalerkinFromRows(PC pc, PetscBool reuse)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
   IS       all;
@@ -17,8 +17,8 @@ static PetscErrorCode FillFromRows(PC pc, PetscBool reuse)
   PetscFunctionReturn(0);
 }
 
-/* General P: with S the rows in which P is nonzero, P^T A = P_S^T A_S */
-static PetscErrorCode FillFromInterpolation(PC pc, PetscBool reuse)
+/* General P: with S the rows in which P is nonzero, P^H A = P_S^H A_S */
+static PetscErrorCode GalerkinFromInterpolation(PC pc, PetscBool reuse)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
   const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -26,6 +26,7 @@ static PetscErrorCode FillFromInterpolation(PC pc, PetscBool reuse)
   PetscFunctionBegin;
   PetscCall(MatGetThinRows_AMGF(pc->pmat, amgf->sub.rows, reuse, &amgf->rowsA));
   PetscCall(MatCreateSubMatrix(amgf->sub.P, amgf->sub.rows, NULL, call, &amgf->rowsP));
+  PetscCall(MatConjugate(amgf->rowsP));
   PetscCall(MatTransposeMatMult(amgf->rowsP, amgf->rowsA, call, PETSC_DEFAULT, &amgf->R));
   PetscCall(MatMatMult(amgf->R, amgf->sub.P, call, PETSC_DEFAULT, &amgf->Aw));
   PetscFunctionReturn(0);
@@ -61,10 +62,10 @@ PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
   reuse          = (PetscBool)(same && amgf->Aw && AMGFStampSamePattern(&now, &amgf->galerkin));
   amgf->galerkin = now;
   if (!reuse) PetscCall(PCAMGFResetGalerkin_Private(amgf));
-  if (amgf->sub.P) PetscCall(FillFromInterpolation(pc, reuse));
-  else PetscCall(FillFromRows(pc, reuse));
-  /* the factorization may drop the pivoting */
-  PetscCall(MatSetOption(amgf->Aw, MAT_SPD, PETSC_TRUE));
+  if (amgf->sub.P) PetscCall(GalerkinFromInterpolation(pc, reuse));
+  else PetscCall(GalerkinFromRows(pc, reuse));
+  /* the factorization may drop the pivoting; PETSc takes MAT_SPD for symmetric, too, which a complex Hermitian matrix is not */
+  PetscCall(MatSetOption(amgf->Aw, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE));
   if (!amgf->rc) {
     PetscCall(MatCreateVecs(amgf->Aw, &amgf->ec, &amgf->rc));
     PetscCall(VecDuplicate(amgf->rc, &amgf->wc));

@@ -4,10 +4,10 @@
 
 typedef struct {
   const char *name, *value;
-} Option;
+} InnerOption;
 
 /* "-name" with the object's prefix */
-static PetscErrorCode FullName(PetscObject obj, const char name[], char full[], size_t len)
+static PetscErrorCode InnerOptionName(PetscObject obj, const char name[], char full[], size_t len)
 {
   const char *prefix;
 
@@ -18,7 +18,7 @@ static PetscErrorCode FullName(PetscObject obj, const char name[], char full[], 
 }
 
 /* Puts an option into the data base unless the user has; *set says whether */
-static PetscErrorCode SetDefault(PetscObject obj, const Option *option, PetscBool *set)
+static PetscErrorCode InnerSetDefault(PetscObject obj, const InnerOption *option, PetscBool *set)
 {
   PetscOptions options;
   char         full[PETSC_MAX_OPTION_NAME];
@@ -26,7 +26,7 @@ static PetscErrorCode SetDefault(PetscObject obj, const Option *option, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(PetscObjectGetOptions(obj, &options));
-  PetscCall(FullName(obj, option->name, full, sizeof(full)));
+  PetscCall(InnerOptionName(obj, option->name, full, sizeof(full)));
   PetscCall(PetscOptionsHasName(options, NULL, full, &given));
   *set = given ? PETSC_FALSE : PETSC_TRUE;
   if (*set) PetscCall(PetscOptionsSetValue(options, full, option->value));
@@ -34,21 +34,21 @@ static PetscErrorCode SetDefault(PetscObject obj, const Option *option, PetscBoo
 }
 
 /* PCHYPRE has no calls for most parameters, so its defaults pass through the options data base and are taken out again */
-static PetscErrorCode SetFromOptionsWithDefaults(PC pc, PetscInt n, const Option defaults[])
+static PetscErrorCode InnerSetFromOptions(PC pc, PetscInt n, const InnerOption defaults[])
 {
   PetscBool   *set;
   PetscOptions options;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &set));
-  for (PetscInt i = 0; i < n; i++) PetscCall(SetDefault((PetscObject)pc, &defaults[i], &set[i]));
+  for (PetscInt i = 0; i < n; i++) PetscCall(InnerSetDefault((PetscObject)pc, &defaults[i], &set[i]));
   PetscCall(PCSetFromOptions(pc));
   PetscCall(PetscObjectGetOptions((PetscObject)pc, &options));
   for (PetscInt i = 0; i < n; i++) {
     char full[PETSC_MAX_OPTION_NAME];
 
     if (!set[i]) continue;
-    PetscCall(FullName((PetscObject)pc, defaults[i].name, full, sizeof(full)));
+    PetscCall(InnerOptionName((PetscObject)pc, defaults[i].name, full, sizeof(full)));
     PetscCall(PetscOptionsClearValue(options, full));
   }
   PetscCall(PetscFree(set));
@@ -60,12 +60,12 @@ static PetscErrorCode SetFromOptionsWithDefaults(PC pc, PetscInt n, const Option
   three-dimensional problems. Vector problems are coarsened function by function (the unknown approach), which PCHYPRE does by itself
   for a block size > 1 as long as nodal coarsening is off; a larger strength threshold suits three displacements.
 */
-static PetscErrorCode ConfigureBoomerAMG(PC pc, PC amg)
+static PetscErrorCode InnerConfigureBoomerAMG(PC pc, PC amg)
 {
   PetscInt     bs, n = 5;
   PetscBool    all;
   PetscOptions options;
-  Option       defaults[] = {
+  InnerOption  defaults[] = {
     {"-pc_hypre_boomeramg_coarsen_type",     "HMIS"                    },
     {"-pc_hypre_boomeramg_interp_type",      "ext+i"                   },
     {"-pc_hypre_boomeramg_P_max",            "4"                       },
@@ -81,15 +81,25 @@ static PetscErrorCode ConfigureBoomerAMG(PC pc, PC amg)
   if (bs == 3) defaults[4].value = "0.7";
   /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overruled */
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
-  PetscCall(FullName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
+  PetscCall(InnerOptionName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
   PetscCall(PetscOptionsHasName(options, NULL, full, &all));
   if (!all) n = PETSC_STATIC_ARRAY_LENGTH(defaults);
   PetscCall(PCSetType(amg, PCHYPRE));
-  PetscCall(SetFromOptionsWithDefaults(amg, n, defaults));
+  PetscCall(InnerSetFromOptions(amg, n, defaults));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ConfigureAMG(PC pc)
+/* PCGAMG restricts with P^T: of a complex operator that makes a Hermitian B for as long as P is real, which it is unless it is smoothed */
+static PetscErrorCode InnerConfigureGAMG(PC amg)
+{
+  PetscFunctionBegin;
+  PetscCall(PCSetType(amg, PCGAMG));
+  if (PetscDefined(USE_COMPLEX)) PetscCall(PCGAMGSetNSmooths(amg, 0));
+  PetscCall(PCSetFromOptions(amg));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode InnerConfigureAMG(PC pc)
 {
   PC          amg = ((PC_AMGF *)pc->data)->amg;
   const char *prefix;
@@ -101,16 +111,13 @@ static PetscErrorCode ConfigureAMG(PC pc)
   PetscCall(PCAppendOptionsPrefix(amg, "amgf_amg_"));
   PetscCall(PCGetType(amg, &type));
   if (type) PetscCall(PCSetFromOptions(amg));
-  else if (PetscDefined(HAVE_HYPRE)) PetscCall(ConfigureBoomerAMG(pc, amg));
-  else {
-    PetscCall(PCSetType(amg, PCGAMG));
-    PetscCall(PCSetFromOptions(amg));
-  }
+  else if (PetscDefined(HAVE_HYPRE)) PetscCall(InnerConfigureBoomerAMG(pc, amg));
+  else PetscCall(InnerConfigureGAMG(amg));
   PetscFunctionReturn(0);
 }
 
 /* Cholesky: MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every rank. PETSc has no Hermitian Cholesky by MUMPS, so complex numbers take LU. */
-static PetscErrorCode SetDirectSolver(PC inner)
+static PetscErrorCode InnerSetDirectSolver(PC inner)
 {
   const MatFactorType factor = PetscDefined(USE_COMPLEX) ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY;
   const PCType        type   = PetscDefined(USE_COMPLEX) ? PCLU : PCCHOLESKY;
@@ -132,7 +139,7 @@ static PetscErrorCode SetDirectSolver(PC inner)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ConfigureFilter(PC pc)
+static PetscErrorCode InnerConfigureFilter(PC pc)
 {
   KSP         filter = ((PC_AMGF *)pc->data)->filter;
   PC          inner;
@@ -148,7 +155,7 @@ static PetscErrorCode ConfigureFilter(PC pc)
   if (!ksptype) PetscCall(KSPSetType(filter, KSPPREONLY));
   PetscCall(KSPGetPC(filter, &inner));
   PetscCall(PCGetType(inner, &pctype));
-  if (!pctype) PetscCall(SetDirectSolver(inner));
+  if (!pctype) PetscCall(InnerSetDirectSolver(inner));
   PetscCall(KSPSetFromOptions(filter));
   PetscFunctionReturn(0);
 }
@@ -162,8 +169,8 @@ PetscErrorCode PCAMGFConfigureInner_Private(PC pc)
 
   PetscFunctionBegin;
   if (amgf->configured) PetscFunctionReturn(0);
-  PetscCall(ConfigureAMG(pc));
-  PetscCall(ConfigureFilter(pc));
+  PetscCall(InnerConfigureAMG(pc));
+  PetscCall(InnerConfigureFilter(pc));
   amgf->configured = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,7 @@
 #include "amgfimpl.h"
 
 /* Iterations a solve may take beyond the allowed growth before it counts: they are whole numbers, and small ones jump */
-#define SLACK 2
+#define LAG_FREE_ITERATIONS 2
 
 /* bfb needs A < 2 B^-1, which an old B does not promise; the other cycles are positive definite with any B */
 PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
@@ -12,7 +12,7 @@ PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
 }
 
 /* Largest ratio, on this rank, by which a diagonal entry outside the active subspace has grown or shrunk since the AMG was built */
-static PetscErrorCode DiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
+static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
 {
   PetscInt           n, start, nrows = 0, k = 0;
   const PetscInt    *rows = NULL;
@@ -43,7 +43,7 @@ static PetscErrorCode DiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drif
 }
 
 /* Too many iterations at the last solve, or the operator has changed where only the AMG looks after it */
-static PetscErrorCode DecideAutomatically(PC pc, PetscBool *rebuild)
+static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   Vec       diagonal;
@@ -54,7 +54,7 @@ static PetscErrorCode DecideAutomatically(PC pc, PetscBool *rebuild)
   if (amgf->lag.diagonal) {
     PetscCall(VecDuplicate(amgf->lag.diagonal, &diagonal));
     PetscCall(MatGetDiagonal(pc->pmat, diagonal));
-    PetscCall(DiagonalDrift(amgf, diagonal, &drift));
+    PetscCall(LagDiagonalDrift(amgf, diagonal, &drift));
     PetscCall(VecDestroy(&diagonal));
     if (drift > amgf->lag.ratio) *rebuild = PETSC_TRUE;
   } else *rebuild = PETSC_TRUE; /* automatic only since the AMG was built: nothing to compare with */
@@ -83,13 +83,13 @@ PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
     lag->age++;
     if (every > 0) *rebuild = (PetscBool)(lag->age >= every);
     else if (every == AMGF_LAG_NEVER) *rebuild = PETSC_FALSE;
-    else PetscCall(DecideAutomatically(pc, rebuild));
+    else PetscCall(LagDecideAutomatically(pc, rebuild));
   }
   PetscFunctionReturn(0);
 }
 
 /* The solve later ones are compared with; its = 0: none yet, digits = 0: unknown */
-static void SetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
+static void LagSetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   lag->its    = its;
   lag->digits = digits;
@@ -107,7 +107,7 @@ PetscErrorCode PCAMGFLagRebuilt_Private(PC pc)
   lag->built   = PETSC_TRUE;
   lag->age     = 0;
   lag->overdue = PETSC_FALSE;
-  SetReference(lag, 0, 0.0);
+  LagSetReference(lag, 0, 0.0);
   if (PCAMGFLagEvery_Private(amgf) == AMGF_LAG_AUTO) {
     if (!lag->diagonal) PetscCall(MatCreateVecs(pc->pmat, &lag->diagonal, NULL));
     PetscCall(MatGetDiagonal(pc->pmat, lag->diagonal));
@@ -121,7 +121,7 @@ PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
   PetscCall(VecDestroy(&lag->diagonal));
   lag->built   = PETSC_FALSE;
   lag->overdue = PETSC_FALSE;
-  SetReference(lag, 0, 0.0);
+  LagSetReference(lag, 0, 0.0);
   lag->age     = 0;
   PetscFunctionReturn(0);
 }
@@ -145,7 +145,7 @@ PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
 }
 
 /* Digits by which the solve that just ended reduced its residual; 0 if unknown */
-static PetscErrorCode GetDigits(KSP ksp, PetscInt first, PetscReal *digits)
+static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 {
   const PetscReal *history;
   PetscInt         n;
@@ -165,14 +165,14 @@ static PetscErrorCode GetDigits(KSP ksp, PetscInt first, PetscReal *digits)
    iterations per digit of residual reduction; plain iterations where the residual is unknown. The first digits come cheaply: a reference
    of a few digits is replaced by the first solve of many, unless that one is out of all proportion.
 */
-static PetscBool TooMany(AMGFLag *lag, PetscInt its, PetscReal digits)
+static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   const PetscBool perdigit = (PetscBool)(lag->digits > 0.0 && digits > 0.0);
   const PetscReal allowed  = lag->ratio * lag->its * (perdigit ? digits / lag->digits : 1.0);
 
-  if (its <= allowed + SLACK) return PETSC_FALSE;
-  if (perdigit && digits > 2.0 * lag->digits && its <= lag->ratio * allowed + SLACK) {
-    SetReference(lag, its, digits);
+  if (its <= allowed + LAG_FREE_ITERATIONS) return PETSC_FALSE;
+  if (perdigit && digits > 2.0 * lag->digits && its <= lag->ratio * allowed + LAG_FREE_ITERATIONS) {
+    LagSetReference(lag, its, digits);
     return PETSC_FALSE;
   }
   return PETSC_TRUE;
@@ -191,10 +191,10 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   if (PCAMGFLagEvery_Private((PC_AMGF *)pc->data) != AMGF_LAG_AUTO) PetscFunctionReturn(0);
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
-  PetscCall(GetDigits(ksp, lag->history, &digits));
+  PetscCall(LagGetDigits(ksp, lag->history, &digits));
   /* an AMG of the very operator may be to blame, too: one that is not definite; the next operator may be. Not for a failed subspace. */
   if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0 || reason != KSP_DIVERGED_PC_FAILED);
-  else if (its > 0 && lag->its == 0) SetReference(lag, its, digits);
-  else if (its > 0 && lag->age > 0) lag->overdue = TooMany(lag, its, digits);
+  else if (its > 0 && lag->its == 0) LagSetReference(lag, its, digits);
+  else if (its > 0 && lag->age > 0) lag->overdue = LagTooManyIterations(lag, its, digits);
   PetscFunctionReturn(0);
 }

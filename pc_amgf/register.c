@@ -1,11 +1,11 @@
 /* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
 #include "amgfimpl.h"
 
-PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
-
 static PetscBool initialized = PETSC_FALSE;
 
+#if !defined(PETSC_USE_COMPLEX)
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
+#endif
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
 
 /*@C
@@ -19,19 +19,24 @@ PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
   Called when the shared library is loaded with `-dll_append`. A program linked with the library calls it once
   after `PetscInitialize()`; further calls do nothing.
 
+  It is an error if the PETSc that runs differs in release, or in the size of `PetscInt`, `PetscReal` or `PetscScalar`, from the one that the library was
+  compiled with.
+
+  Where PETSc's scalars are complex, the library holds `PCAMGF` alone.
+
 .seealso: `PCAMGF`, `TAOIPFILTER`, `PetscAMGFFinalizePackage()`
 @*/
 PetscErrorCode PetscAMGFInitializePackage(void)
 {
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(0);
+  PetscCall(PCAMGFCheckLibrary_Private());
   initialized = PETSC_TRUE;
   PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
+#if !defined(PETSC_USE_COMPLEX)
   PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
-  PetscCall(PetscLogEventRegister("PCAMGFAMGSetUp", PC_CLASSID, &PC_AMGF_AMGSetUp));
-  PetscCall(PetscLogEventRegister("PCAMGFAMGApply", PC_CLASSID, &PC_AMGF_AMGApply));
-  PetscCall(PetscLogEventRegister("PCAMGFFltSetUp", PC_CLASSID, &PC_AMGF_FltSetUp));
-  PetscCall(PetscLogEventRegister("PCAMGFFltApply", PC_CLASSID, &PC_AMGF_FltApply));
+#endif
+  PetscCall(PCAMGFLogRegister_Private());
   PetscCall(PetscRegisterFinalize(PetscAMGFFinalizePackage));
   PetscFunctionReturn(0);
 }

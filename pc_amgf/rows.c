@@ -3,7 +3,7 @@
 #include <petsc/private/hashmapi.h>
 
 /* Rows stored in full: AIJ, BAIJ */
-static PetscErrorCode InsertRows_Full(Mat A, PetscInt n, const PetscInt rows[], Mat R)
+static PetscErrorCode RowsInsertFull(Mat A, PetscInt n, const PetscInt rows[], Mat R)
 {
   PetscInt first;
 
@@ -22,7 +22,7 @@ static PetscErrorCode InsertRows_Full(Mat A, PetscInt n, const PetscInt rows[], 
 }
 
 /* Position in R of every wanted row of A, on all ranks */
-static PetscErrorCode CreateRowMap(IS rows, PetscHMapI *map)
+static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
 {
   IS              all;
   PetscInt        n;
@@ -41,13 +41,13 @@ static PetscErrorCode CreateRowMap(IS rows, PetscHMapI *map)
 
 /* Only the upper triangle is stored, SBAIJ: what is left of the diagonal in a wanted row is a column of that number in rows above it,
    so every row is visited. Entry (i,j), i <= j, is (k(i), j) and, mirrored, (k(j), i). */
-static PetscErrorCode InsertRows_UpperTriangle(Mat A, IS rows, Mat R)
+static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
 {
   PetscHMapI map;
   PetscInt   start, end;
 
   PetscFunctionBegin;
-  PetscCall(CreateRowMap(rows, &map));
+  PetscCall(RowsCreateMap(rows, &map));
   PetscCall(MatGetOwnershipRange(A, &start, &end));
   PetscCall(MatGetRowUpperTriangular(A));
   for (PetscInt i = start; i < end; i++) {
@@ -71,7 +71,7 @@ static PetscErrorCode InsertRows_UpperTriangle(Mat A, IS rows, Mat R)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode InsertRows(Mat A, IS rows, Mat R)
+static PetscErrorCode RowsInsert(Mat A, IS rows, Mat R)
 {
   PetscBool upper;
 
@@ -79,14 +79,14 @@ static PetscErrorCode InsertRows(Mat A, IS rows, Mat R)
   PetscCall(PetscObjectTypeCompareAny((PetscObject)A, &upper, MATSEQSBAIJ, MATMPISBAIJ, MATSBAIJ, ""));
   if (upper) {
     PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "SBAIJ matrices are not supported with complex scalars: use AIJ or BAIJ");
-    PetscCall(InsertRows_UpperTriangle(A, rows, R));
+    PetscCall(RowsInsertUpperTriangle(A, rows, R));
   } else {
     PetscInt        n;
     const PetscInt *idx;
 
     PetscCall(ISGetLocalSize(rows, &n));
     PetscCall(ISGetIndices(rows, &idx));
-    PetscCall(InsertRows_Full(A, n, idx, R));
+    PetscCall(RowsInsertFull(A, n, idx, R));
     PetscCall(ISRestoreIndices(rows, &idx));
   }
   PetscCall(MatAssemblyBegin(R, MAT_FINAL_ASSEMBLY));
@@ -95,7 +95,7 @@ static PetscErrorCode InsertRows(Mat A, IS rows, Mat R)
 }
 
 /* An AIJ matrix with room for exactly the rows' entries */
-static PetscErrorCode CreateThinMatrix(Mat A, IS rows, Mat *R)
+static PetscErrorCode RowsCreateMatrix(Mat A, IS rows, Mat *R)
 {
   MPI_Comm comm;
   Mat      pattern;
@@ -110,7 +110,7 @@ static PetscErrorCode CreateThinMatrix(Mat A, IS rows, Mat *R)
   PetscCall(MatSetSizes(pattern, m, n, PETSC_DETERMINE, N));
   PetscCall(MatSetType(pattern, MATPREALLOCATOR));
   PetscCall(MatSetUp(pattern));
-  PetscCall(InsertRows(A, rows, pattern));
+  PetscCall(RowsInsert(A, rows, pattern));
   PetscCall(MatCreate(comm, R));
   PetscCall(MatSetSizes(*R, m, n, PETSC_DETERMINE, N));
   PetscCall(MatSetType(*R, MATAIJ));
@@ -141,7 +141,7 @@ PetscErrorCode MatGetThinRows_AMGF(Mat A, IS rows, PetscBool reuse, Mat *R)
   PetscFunctionBegin;
   PetscCall(MatHasOperation(A, MATOP_GET_ROW, &has));
   PetscCheck(has, PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "PCAMGF needs an assembled operator (AIJ, BAIJ or SBAIJ), not one of type %s", ((PetscObject)A)->type_name);
-  if (!reuse) PetscCall(CreateThinMatrix(A, rows, R));
-  PetscCall(InsertRows(A, rows, *R));
+  if (!reuse) PetscCall(RowsCreateMatrix(A, rows, R));
+  PetscCall(RowsInsert(A, rows, *R));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /* Who names the subspace, and what it is on this rank */
 #include "amgfimpl.h"
 
-static PetscErrorCode LoadFilterFile(PC pc)
+static PetscErrorCode SubspaceLoadFile(PC pc)
 {
   PC_AMGF    *amgf = (PC_AMGF *)pc->data;
   MPI_Comm    comm;
@@ -24,7 +24,7 @@ static PetscErrorCode LoadFilterFile(PC pc)
 }
 
 /* The first source that is given wins. *is and *P are borrowed. */
-static PetscErrorCode FindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
+static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
 {
   PC_AMGF    *amgf = (PC_AMGF *)pc->data;
   PetscObject composed;
@@ -47,7 +47,7 @@ static PetscErrorCode FindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
     if (id == IS_CLASSID) *is = (IS)composed;
     else *P = (Mat)composed;
   } else if (amgf->file) {
-    PetscCall(LoadFilterFile(pc));
+    PetscCall(SubspaceLoadFile(pc));
     *source = AMGF_SOURCE_FILE;
     *is     = amgf->file_is;
   } else if (amgf->detect > 0.0) {
@@ -59,7 +59,7 @@ static PetscErrorCode FindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckRange(PC pc, PetscInt n, const PetscInt idx[])
+static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[])
 {
   PetscInt N, extreme[2] = {0, 0}; /* -smallest and largest row number, over all ranks */
 
@@ -76,7 +76,7 @@ static PetscErrorCode CheckRange(PC pc, PetscInt n, const PetscInt idx[])
 }
 
 /* The rows named on any rank, each on the rank that owns it, sorted, without repetition: a Vec collects the marks */
-static PetscErrorCode CreateOwnedRows(PC pc, IS is, IS *rows)
+static PetscErrorCode SubspaceOwnedRows(PC pc, IS is, IS *rows)
 {
   Vec                marks;
   PetscInt           n, nrows = 0, start, *owned;
@@ -86,7 +86,7 @@ static PetscErrorCode CreateOwnedRows(PC pc, IS is, IS *rows)
   PetscFunctionBegin;
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &idx));
-  PetscCall(CheckRange(pc, n, idx));
+  PetscCall(SubspaceCheckRange(pc, n, idx));
   PetscCall(MatCreateVecs(pc->pmat, &marks, NULL));
   for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(marks, idx[i], 1.0, INSERT_VALUES));
   PetscCall(VecAssemblyBegin(marks));
@@ -107,7 +107,7 @@ static PetscErrorCode CreateOwnedRows(PC pc, IS is, IS *rows)
 }
 
 /* The rows in which P is nonzero */
-static PetscErrorCode CreateNonzeroRows(Mat P, IS *rows)
+static PetscErrorCode SubspaceNonzeroRows(Mat P, IS *rows)
 {
   PetscInt start, end, k = 0, *owned;
 
@@ -135,13 +135,13 @@ PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *amgf)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode UpdateFromIS(PC pc, IS is, PetscBool *same)
+static PetscErrorCode SubspaceFromIS(PC pc, IS is, PetscBool *same)
 {
   AMGFSubspace *sub = &((PC_AMGF *)pc->data)->sub;
   IS            rows;
 
   PetscFunctionBegin;
-  PetscCall(CreateOwnedRows(pc, is, &rows));
+  PetscCall(SubspaceOwnedRows(pc, is, &rows));
   if (sub->rows && !sub->P) {
     PetscInt        m, n;
     const PetscInt *a, *b;
@@ -167,7 +167,7 @@ static PetscErrorCode UpdateFromIS(PC pc, IS is, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode UpdateFromInterpolation(PC pc, Mat P, PetscBool *same)
+static PetscErrorCode SubspaceFromInterpolation(PC pc, Mat P, PetscBool *same)
 {
   AMGFSubspace *sub = &((PC_AMGF *)pc->data)->sub;
   PetscInt      m, n, M, N;
@@ -175,7 +175,6 @@ static PetscErrorCode UpdateFromInterpolation(PC pc, Mat P, PetscBool *same)
   AMGFStamp     stamp;
 
   PetscFunctionBegin;
-  PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "A filter interpolation is not supported with complex scalars: name the unknowns with an IS");
   PetscCall(MatGetLocalSize(P, &m, NULL));
   PetscCall(MatGetLocalSize(pc->pmat, &n, NULL));
   PetscCall(MatGetSize(P, &M, NULL));
@@ -194,7 +193,7 @@ static PetscErrorCode UpdateFromInterpolation(PC pc, Mat P, PetscBool *same)
     PetscCall(PetscObjectReference((PetscObject)P));
     sub->P = P;
   } else PetscCall(MatConvert(P, MATAIJ, MAT_INITIAL_MATRIX, &sub->P));
-  PetscCall(CreateNonzeroRows(sub->P, &sub->rows));
+  PetscCall(SubspaceNonzeroRows(sub->P, &sub->rows));
   PetscCall(MatGetLocalSize(sub->P, NULL, &sub->nlocal));
   PetscCall(MatGetSize(sub->P, NULL, &sub->n));
   PetscFunctionReturn(0);
@@ -215,9 +214,9 @@ PetscErrorCode PCAMGFUpdateSubspace_Private(PC pc, PetscBool *same)
 
   PetscFunctionBegin;
   *same = PETSC_FALSE;
-  PetscCall(FindSource(pc, &source, &is, &P));
-  if (is) PetscCall(UpdateFromIS(pc, is, same));
-  else if (P) PetscCall(UpdateFromInterpolation(pc, P, same));
+  PetscCall(SubspaceFindSource(pc, &source, &is, &P));
+  if (is) PetscCall(SubspaceFromIS(pc, is, same));
+  else if (P) PetscCall(SubspaceFromInterpolation(pc, P, same));
   else PetscCall(PCAMGFResetSubspace_Private(amgf));
   amgf->sub.source = source;
   PetscFunctionReturn(0);

@@ -70,7 +70,8 @@ packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev
           python3 python3-numpy python3-matplotlib python3-h5py python3-yaml"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
-  packages="$packages libpetsc-real-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"
+  # the complex one is for a test, which is left out where it is missing; the real one stays the default
+  packages="$packages libpetsc-real-dev libpetsc-complex-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"
 fi
 # shellcheck disable=SC2086
 apt install --no-install-recommends -y $packages || { echo "apt-get could not install: $packages" | tr -s ' \n' ' ' >&2; exit 1; }

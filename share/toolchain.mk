@@ -5,12 +5,16 @@ ifneq ($(PETSC_DIR),)
   export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PKG_CONFIG_PATH)
 endif
 comma := ,
-pkg_config = $(shell pkg-config $(1) 2>/dev/null)
+# GNU make before 4.4 exports nothing to $(shell)
+pkg_config = $(shell PKG_CONFIG_PATH='$(PKG_CONFIG_PATH)' pkg-config $(1) 2>/dev/null)
 
 PETSC_PREFIX := $(or $(PETSC_DIR),$(call pkg_config,--variable=prefix PETSc))
 PETSC_CFLAGS := $(call pkg_config,--cflags PETSc)
 petsc_libdir := $(call pkg_config,--variable=libdir PETSc)
 PETSC_LIBS   := $(call pkg_config,--libs PETSc) $(if $(petsc_libdir),-Wl$(comma)-rpath$(comma)$(petsc_libdir))
+
+# Not empty where PETSc's scalars are complex
+PETSC_COMPLEX := $(shell grep -ls 'define PETSC_USE_COMPLEX' $(addsuffix /petscconf.h,$(patsubst -I%,%,$(filter -I%,$(PETSC_CFLAGS))) $(call pkg_config,--variable=includedir PETSc)) /dev/null)
 
 # petscviewerhdf5.h includes hdf5.h, which must be the one of PETSc's MPI
 mpi_name     := $(if $(findstring Open MPI,$(shell mpiexec --version 2>/dev/null)),openmpi,mpich)

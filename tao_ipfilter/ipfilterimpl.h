@@ -27,6 +27,10 @@
 #include "../pc_amgf/petsccompat.h"
 #include <petscamgf.h>
 
+#if defined(PETSC_USE_COMPLEX)
+  #error "ipfilter needs a PETSc with real scalars: inequalities order numbers"
+#endif
+
 typedef enum {
   IP_START_COLD,
   IP_START_PREDICT,

@@ -106,7 +106,7 @@ static PetscErrorCode FindDeepest(Contact contact, const ContactBoundary *bounda
     angle[2 * k]     = ContactBoundarySolidAngle(boundary, pair->mortar.body, deep[k].x);
     angle[2 * k + 1] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, deep[k].y);
   }
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, angle, 2 * n, MPIU_REAL, MPIU_SUM, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 2 * n, MPIU_REAL, MPIU_SUM, contact->comm));
   for (PetscInt k = 0; k < n; ++k) {
     if (PetscMax(angle[2 * k], angle[2 * k + 1]) > 0.9 * 4.0 * PETSC_PI && deep[k].depth > deepest->depth) *deepest = deep[k];
   }

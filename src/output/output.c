@@ -18,7 +18,7 @@ static PetscErrorCode OutputCount(Output output)
   output->nvertices   = N / 3;
   output->first       = start / 3;
   output->ncellslocal = cend - cstart;
-  PetscCallMPI(MPIU_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
+  PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);
 }
 

@@ -71,11 +71,11 @@ static PetscErrorCode MeasureBodies(DM dm, PetscInt nbodies, BodyMesh meshes[])
   for (PetscInt b = 0; b < nbodies; ++b) {
     PetscInt counts[2] = {meshes[b].ncells, meshes[b].nvertices};
 
-    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
     meshes[b].ncells    = counts[0];
     meshes[b].nvertices = counts[1];
-    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
-    PetscCall(MPIU_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
     CleanBounds(&meshes[b]);
   }
   PetscFunctionReturn(0);
@@ -124,8 +124,8 @@ static PetscErrorCode MeasureFace(DM dm, const char face[], PetscInt *nfacets, P
   }
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, nfacets, 1, MPIU_INT, MPI_SUM, comm));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, area, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nfacets, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 

@@ -64,7 +64,7 @@ static PetscErrorCode ReportActionReaction(Simulation sim, Vec q, StepReport *re
     sums[3] += PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
   }
   PetscCall(VecRestoreArrayRead(q, &a));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
   report->action_reaction = sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
   PetscFunctionReturn(0);
 }
@@ -94,7 +94,7 @@ static PetscErrorCode ReportContactForce(Simulation sim, Vec q, StepReport *repo
     }
   }
   PetscCall(VecRestoreArrayRead(q, &a));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, report->contact_force, 3, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, report->contact_force, 3, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }
 

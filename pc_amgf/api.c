@@ -140,7 +140,7 @@ PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 - cycle - `PC_AMGF_BFB`, `PC_AMGF_FBF` (default) or `PC_AMGF_ADDITIVE`
 
   Options Database Key:
-. -pc_amgf_cycle <bfb,fbf,additive> - the cycle
+. -pc_amgf_cycle <fbf> - `bfb`, `fbf` or `additive`
 
   Level: intermediate
 
@@ -190,13 +190,17 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 + pc - the preconditioner
 - is - global row numbers of the operator, or NULL to forget what was set
 
+  Options Database Keys:
++ -pc_amgf_filter_file <file> - binary file that `ISLoad()` reads the set from at the first `PCSetUp()`; by default none
+- -pc_amgf_detect <0>         - at every set-up, the unknowns whose diagonal entry exceeds this many times the median of the positive diagonal entries; 0: off
+
   Level: intermediate
 
   Notes:
   The set is the union over all ranks: entries may repeat, need no order, and may name rows owned by other ranks, so
   `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error of `PCSetUp()`.
 
-  Takes precedence over an object composed on the operator, a file and detection. Replaces a `Mat` set by `PCAMGFSetFilterInterpolation()`.
+  Takes precedence over an object composed on the operator, then a file, then detection. Replaces a `Mat` set by `PCAMGFSetFilterInterpolation()`.
 
   If the set of unknowns and the operator's nonzero pattern stay, the symbolic factorization is kept.
 
@@ -225,8 +229,7 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
   Notes:
   `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
 
-  Takes precedence over an object composed on the operator, a file and detection. Replaces an `IS` set by `PCAMGFSetFilterIS()`.
-  Not available with complex scalars.
+  Takes precedence over an object composed on the operator, then a file, then detection. Replaces an `IS` set by `PCAMGFSetFilterIS()`.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
 @*/
@@ -301,8 +304,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 - lag - n > 0: at every n-th changed operator; -1: never again; 0: automatically
 
   Options Database Keys:
-+ -pc_amgf_amg_lag <n or auto> - the lag; `auto` is 0
-- -pc_amgf_amg_lag_ratio <1.5> - growth that calls for a rebuild, with automatic lag
++ -pc_amgf_amg_lag <auto>      - the lag; `auto` is 0; the cycle `bfb` has the default 1
+- -pc_amgf_amg_lag_ratio <1.5> - growth that calls for a rebuild, with automatic lag; at least 1
 
   Level: intermediate
 
@@ -310,8 +313,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
   The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual reduction
-  (iterations, if the residual is not known) have grown by more than the ratio, or a diagonal entry of the operator outside the subspace has changed by more
-  than that, or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was
+  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry of the operator outside the subspace has
+  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was
   built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
@@ -360,6 +363,9 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
   Output Parameter:
 . amg - the inner preconditioner; do not destroy it
 
+  Options Database Key:
+. -amgf_amg_pc_type <hypre> - its type; `gamg` is the default where PETSc has no hypre
+
   Level: advanced
 
   Note:
@@ -387,10 +393,14 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
   Output Parameter:
 . ksp - the solver; do not destroy it
 
+  Options Database Keys:
++ -amgf_filter_ksp_type <preonly> - its type
+- -amgf_filter_pc_type <cholesky> - its preconditioner's; `lu` is the default with complex scalars
+
   Level: advanced
 
   Note:
-  A type set on it replaces the default, `KSPPREONLY` with Cholesky. It reads its options, with prefix `-amgf_filter_`, at the first `PCSetUp()`.
+  A type set on it replaces the default, `KSPPREONLY` with Cholesky, or LU with complex scalars. It reads its options, with prefix `-amgf_filter_`, at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetAMGPC()`
 @*/

@@ -1,0 +1,14 @@
+/* The log events of PCAMGF, on which every file that does work builds */
+#include "amgfimpl.h"
+
+PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+
+PetscErrorCode PCAMGFLogRegister_Private(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventRegister("PCAMGFAMGSetUp", PC_CLASSID, &PC_AMGF_AMGSetUp));
+  PetscCall(PetscLogEventRegister("PCAMGFAMGApply", PC_CLASSID, &PC_AMGF_AMGApply));
+  PetscCall(PetscLogEventRegister("PCAMGFFltSetUp", PC_CLASSID, &PC_AMGF_FltSetUp));
+  PetscCall(PetscLogEventRegister("PCAMGFFltApply", PC_CLASSID, &PC_AMGF_FltApply));
+  PetscFunctionReturn(0);
+}

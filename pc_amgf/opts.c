@@ -1,0 +1,49 @@
+/* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
+#include "amgfimpl.h"
+
+/* A number or "auto" */
+static PetscErrorCode LagFromString(PC pc, const char string[])
+{
+  PetscBool automatic;
+  PetscInt  lag = AMGF_LAG_AUTO;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcasecmp(string, "auto", &automatic));
+  if (!automatic) {
+    char *end;
+
+    lag = (PetscInt)strtol(string, &end, 10);
+    PetscCheck(end != string && !*end, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG, "-pc_amgf_amg_lag takes a whole number or auto, not \"%s\"", string);
+  }
+  PetscCall(PCAMGFSetAMGLag(pc, lag));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
+{
+  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
+  PCAMGFCycle cycle;
+  PetscReal   detect = amgf->detect;
+  char        file[PETSC_MAX_PATH_LEN], lag[32];
+  PetscBool   flg;
+
+  PetscFunctionBegin;
+  PetscOptionsHeadBegin(PetscOptionsObject, "AMG with filter options");
+  PetscCall(PetscOptionsEnum("-pc_amgf_cycle", "Order of AMG (b) and filter (f)", "PCAMGFSetCycle", PCAMGFCycles, (PetscEnum)amgf->cycle, (PetscEnum *)&cycle, &flg));
+  if (flg) PetscCall(PCAMGFSetCycle(pc, cycle));
+  PetscCall(PetscOptionsString("-pc_amgf_filter_file", "Binary file with the IS of filtered unknowns", "PCAMGFSetFilterIS", amgf->file ? amgf->file : "", file, sizeof(file), &flg));
+  if (flg) {
+    PetscCall(PetscFree(amgf->file));
+    PetscCall(ISDestroy(&amgf->file_is));
+    if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
+  }
+  PetscCall(PetscOptionsReal("-pc_amgf_detect", "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect, NULL));
+  PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
+  amgf->detect = detect;
+  PetscCall(PetscOptionsString("-pc_amgf_amg_lag", "Rebuild the AMG every so many changed operators; -1: never; 0 or auto: when the cost grows", "PCAMGFSetAMGLag", amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
+  if (flg) PetscCall(LagFromString(pc, lag));
+  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild", "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
+  PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
+  PetscOptionsHeadEnd();
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,83 @@
+/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG where it is due */
+#include "amgfimpl.h"
+
+static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
+{
+  PCFailedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(PCGetFailedReason(inner, &reason));
+  if (reason) PetscCall(PCSetFailedReason(pc, reason));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpFilter(PC pc)
+{
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PetscBool same;
+  PC        inner;
+
+  PetscFunctionBegin;
+  if (!amgf->active) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(PC_AMGF_FltSetUp, pc, 0, 0, 0));
+  PetscCall(PCAMGFUpdateSubspace_Private(pc, &same));
+  if (amgf->sub.n) {
+    PetscCall(PCAMGFUpdateGalerkin_Private(pc, same));
+    PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
+    /* a factored matrix of another size cannot be replaced in place */
+    if (!same) PetscCall(KSPReset(amgf->filter));
+    PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
+    PetscCall(KSPSetUp(amgf->filter));
+    PetscCall(KSPGetPC(amgf->filter, &inner));
+    PetscCall(SetUpCheckInner(pc, inner));
+    amgf->counts.filter_setups++;
+  } else {
+    PetscCall(PCAMGFResetGalerkin_Private(amgf));
+    PetscCall(KSPReset(amgf->filter));
+  }
+  PetscCall(PetscLogEventEnd(PC_AMGF_FltSetUp, pc, 0, 0, 0));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpAMG(PC pc)
+{
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PetscBool rebuild;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFLagDecide_Private(pc, &rebuild));
+  if (rebuild) {
+    PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
+    if (pc->dm) PetscCall(PCSetDM(amgf->amg, pc->dm));
+    PetscCall(PCSetErrorIfFailure(amgf->amg, pc->erroriffailure));
+    PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
+    PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
+    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
+    PetscCall(PCSetUp(amgf->amg));
+    /* PCApply() must not rebuild it behind our back when the operator changes in place */
+    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
+    PetscCall(PetscLogEventEnd(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
+    PetscCall(PCAMGFLagRebuilt_Private(pc));
+    amgf->counts.amg_setups++;
+  }
+  PetscCall(SetUpCheckInner(pc, amgf->amg));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCSetUp_AMGF(PC pc)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PetscInt M, N;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(pc->pmat, &M, &N));
+  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
+  PetscCall(PCSetFailedReason(pc, PC_NOERROR));
+  PetscCall(PCAMGFConfigureInner_Private(pc));
+  PetscCall(SetUpFilter(pc));
+  PetscCall(SetUpAMG(pc));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(amgf->w); i++) {
+    if (!amgf->w[i]) PetscCall(MatCreateVecs(pc->pmat, &amgf->w[i], NULL));
+  }
+  PetscFunctionReturn(0);
+}
