@@ -82,6 +82,11 @@ typedef struct {
   char           end[160];  /* why the last mesh is the last */
 } Accuracy;
 
+/* [s], the largest over the ranks; what is not in a phase is in other */
+typedef struct {
+  PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
+} RunTimes;
+
 typedef struct {
   const char *problem;
   PetscMPIInt ranks;
@@ -96,9 +101,7 @@ typedef struct {
   const Accuracy *accuracy; /* what -accuracy chose and attained; NULL: not asked for */
   PetscInt    neffects;
   RunEffect  *effects;
-  struct {
-    PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other; /* [s], max over ranks */
-  } time;
+  RunTimes    time;
   struct { /* one contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
     PetscInt       iterations;
     PetscReal      condition; /* beta, condition number of the preconditioned matrix from CG's Lanczos process */

@@ -1,7 +1,6 @@
 /* What a load step and a run report: forces, work of the preconditioner, time of the phases, memory. */
 #include "stepimpl.h"
 #include <math.h>
-#include <petsctime.h>
 #include <sys/resource.h>
 
 /* The last solve's end is the load step's */
@@ -197,53 +196,6 @@ PetscErrorCode ReportForces(const StepProblem *p, Vec u, const ContactSolution *
   PetscFunctionReturn(0);
 }
 
-/* Time since PETSc's start of the events that make up a run; all 0 where PETSc does not log */
-PetscErrorCode ReportEventTimes(PetscLogDouble times[STEP_NEVENTS])
-{
-  static const char *const events[STEP_NEVENTS] = {"SimMesh", "SimAssembly", "SimContact", "PCAMGFAMGSetUp", "PCAMGFAMGApply", "PCAMGFFltSetUp", "PCAMGFFltApply", "ElastError"};
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < STEP_NEVENTS; ++i) {
-    PetscLogEvent      event;
-    PetscEventPerfInfo info;
-
-    times[i] = 0.0;
-    PetscCall(PetscLogEventGetId(events[i], &event));
-    if (event < 0) continue;
-    PetscCall(PetscLogEventGetPerfInfo(0, event, &info));
-    times[i] = info.time;
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Times are the largest over the ranks; "other" is what remains of the total */
-PetscErrorCode ReportTimes(Simulation sim, RunReport *report)
-{
-  PetscLogDouble t[STEP_NEVENTS + 2], sum = 0.0, now;
-
-  PetscFunctionBegin;
-  PetscCall(ReportEventTimes(t));
-  for (PetscInt i = 0; i < STEP_NEVENTS; ++i) {
-    t[i] -= sim->events[i];
-    sum += t[i];
-  }
-  PetscCall(PetscTime(&now));
-  t[STEP_NEVENTS]     = now - sim->start;
-  t[STEP_NEVENTS + 1] = PetscMax(0.0, t[STEP_NEVENTS] - sum);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, STEP_NEVENTS + 2, MPI_DOUBLE, MPI_MAX, sim->comm));
-  report->time.mesh           = t[0];
-  report->time.assembly       = t[1];
-  report->time.contact        = t[2];
-  report->time.amg_setup      = t[3];
-  report->time.amg_apply      = t[4];
-  report->time.filter_setup   = t[5];
-  report->time.filter_apply   = t[6];
-  report->time.error_estimate = t[7];
-  report->time.total          = t[STEP_NEVENTS];
-  report->time.other          = t[STEP_NEVENTS + 1];
-  PetscFunctionReturn(0);
-}
-
 /* The resident set now, summed over ranks */
 PetscErrorCode ReportResident(MPI_Comm comm, PetscLogDouble *bytes)
 {
@@ -302,7 +254,7 @@ static PetscErrorCode ReportMemory(MPI_Comm comm, PetscLogDouble *bytes)
 PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(ReportTimes(sim, &sim->report));
+  PetscCall(StepEventsGetTimes(sim->comm, &sim->start, &sim->report.time));
   for (PetscInt b = 0; b < sim->report.nbodies; ++b) PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
   PetscCall(EffectsSetTimes(sim, &sim->report));
   PetscCall(ReportMemory(sim->comm, &sim->report.peak_memory_bytes));

@@ -1,25 +1,6 @@
 /* The life of a simulation: from the scene to the parts, then one load step after another. */
 #include "stepimpl.h"
 #include <math.h>
-#include <petsctime.h>
-
-PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
-
-static PetscErrorCode SimulationRegisterEvents(void)
-{
-  static PetscBool registered = PETSC_FALSE;
-  PetscClassId     classid;
-
-  PetscFunctionBegin;
-  if (registered) PetscFunctionReturn(0);
-  registered = PETSC_TRUE;
-  PetscCall(PetscClassIdRegister("Simulation", &classid));
-  PetscCall(PetscLogEventRegister("SimMesh", classid, &SIM_Mesh));
-  PetscCall(PetscLogEventRegister("SimAssembly", classid, &SIM_Assembly));
-  PetscCall(PetscLogEventRegister("SimContact", classid, &SIM_Contact));
-  PetscCall(PetscLogEventRegister("SimSolve", classid, &SIM_Solve));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode SimulationCreateElasticity(Simulation sim)
 {
@@ -141,14 +122,13 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   Simulation s;
 
   PetscFunctionBegin;
-  PetscCall(SimulationRegisterEvents());
+  PetscCall(StepEventsRegister());
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscNew(&s));
   s->comm  = comm;
   s->scene = scene;
   PetscCall(SimulationSetFromOptions(s));
-  PetscCall(PetscTime(&s->start));
-  PetscCall(ReportEventTimes(s->events));
+  PetscCall(StepEventsRead(&s->start));
   PetscCall(ReportResident(comm, &s->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreate(comm, scene->nbodies, scene->bodies, scene->refine, &s->dm));

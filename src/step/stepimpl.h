@@ -39,8 +39,6 @@ typedef struct {
   PetscReal largest_increment; /* of any component in any step so far [length] */
 } LoadPath;
 
-#define STEP_NEVENTS 8
-
 struct _n_Simulation {
   MPI_Comm             comm;
   Scene                scene;
@@ -66,7 +64,7 @@ struct _n_Simulation {
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
-  PetscLogDouble       start, events[STEP_NEVENTS]; /* when it began, and the times of PETSc's events then */
+  RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
 
 /*
@@ -96,6 +94,9 @@ typedef struct {
 } ContactSolution;
 
 PETSC_INTERN PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
+PETSC_INTERN PetscErrorCode StepEventsRegister(void);
+PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
+PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);
 
 PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, Prescribed *);
 PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
@@ -159,7 +160,6 @@ PETSC_INTERN PetscErrorCode ReportForces(const StepProblem *, Vec u, const Conta
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
-PETSC_INTERN PetscErrorCode ReportEventTimes(PetscLogDouble[STEP_NEVENTS]);
 PETSC_INTERN PetscErrorCode ReportResident(MPI_Comm, PetscLogDouble *bytes);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
