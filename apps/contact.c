@@ -83,22 +83,6 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppWriteState(Output output, PetscReal time, const StepState *state)
-{
-  OutputState out = {.step         = state->report->step,
-                     .time         = time,
-                     .displacement = state->displacement,
-                     .stress       = state->stress,
-                     .nrows        = state->nrows,
-                     .row_vertex   = state->row_vertex,
-                     .pressure     = state->pressure,
-                     .gap          = state->gap};
-
-  PetscFunctionBeginUser;
-  PetscCall(OutputWrite(output, &out));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simulation sim, Output *output)
 {
   const char **names;
@@ -145,7 +129,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
     if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));
     *converged = state.report->converged;
-    if (output && *converged) PetscCall(AppWriteState(output, scene->ramps[0].factor[step], &state));
+    if (output && *converged) PetscCall(OutputWrite(output, &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
   if (*converged) PetscCall(AccuracyAssess(accuracy, &report, scene, again));

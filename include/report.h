@@ -1,8 +1,8 @@
-/* What a run reports about itself: filled by src/step, written by src/output. */
+/* What a run leaves, its state and what it reports about itself: filled by src/step, written by src/output. */
 #ifndef REPORT_H
 #define REPORT_H
 
-#include <petscsys.h>
+#include <petscamgf.h>
 
 typedef struct {
   PetscInt    step;
@@ -17,14 +17,7 @@ typedef struct {
   PetscInt    contact_updates;        /* linearizations of the gap in the last solve */
   PetscInt    regularizations;        /* Newton systems whose matrix was not positive definite */
   PetscInt    systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
-  struct { /* linear solves that took more than the Krylov method by itself */
-    PetscInt  refinements;    /* continued from the attained iterate */
-    PetscInt  amg_rebuilds;   /* with an AMG that was rebuilt for it */
-    PetscInt  filters;        /* with a filter that was switched on or enlarged for it */
-    PetscInt  direct;         /* by MUMPS on the whole matrix */
-    PetscInt  failures;       /* not solved at all */
-    PetscReal backward_error; /* largest of all that were used */
-  } linear;
+  TaoIPFilterFallbacks linear;        /* linear solves that took more than the Krylov method by itself */
   PetscReal   energy;                 /* elastic, from the elements [force length] */
   PetscReal   potential;              /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
   PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
@@ -45,6 +38,17 @@ typedef struct {
   PetscBool   converged;
   const char *reason;
 } StepReport;
+
+/* The state at the end of a load step; borrowed, valid until the next one */
+typedef struct {
+  const StepReport *report;
+  Vec               displacement; /* global, 3 a vertex [length] */
+  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
+  PetscInt          nrows;        /* contact rows of this rank */
+  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
+  const PetscReal  *pressure;     /* contact pressure a row [force/length^2] */
+  const PetscReal  *gap;          /* linearized gap a row [length] */
+} StepState;
 
 /* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */
 typedef struct {

@@ -11,17 +11,6 @@
 
 typedef struct _n_Simulation *Simulation;
 
-/* What a caller may look at after a load step; borrowed, valid until the next one */
-typedef struct {
-  const StepReport *report;
-  Vec               displacement; /* global [length] */
-  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
-  PetscInt          nrows;        /* contact rows of this rank */
-  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
-  const PetscReal  *pressure;     /* [force/length^2] */
-  const PetscReal  *gap;          /* linearized gap [length] */
-} StepState;
-
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);

@@ -155,7 +155,7 @@ static PetscErrorCode WriteStress(Output output, const PetscReal stress[], Petsc
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteContact(Output output, const OutputState *state, PetscViewer viewer)
+static PetscErrorCode WriteContact(Output output, const StepState *state, PetscViewer viewer)
 {
   PetscSection global;
   Vec          pressure, gap;
@@ -186,30 +186,31 @@ static PetscErrorCode WriteContact(Output output, const OutputState *state, Pets
 }
 
 typedef struct {
-  Output             output;
-  const OutputState *state;
+  Output           output;
+  const StepState *state;
 } StateOf;
 
 static PetscErrorCode WriteState(PetscViewer viewer, void *ctx)
 {
-  Output             output = ((StateOf *)ctx)->output;
-  const OutputState *state  = ((StateOf *)ctx)->state;
+  Output           output = ((StateOf *)ctx)->output;
+  const StepState *state  = ((StateOf *)ctx)->state;
+  const PetscReal  time   = state->report->load;
 
   PetscFunctionBegin;
   PetscCall(WriteDisplacement(output, state->displacement, viewer));
   PetscCall(WriteStress(output, state->stress, viewer));
   PetscCall(WriteContact(output, state, viewer));
-  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &state->time));
+  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &time));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OutputWriteFields(Output output, const OutputState *state)
+PetscErrorCode OutputWriteFields(Output output, const StepState *state)
 {
   char    file[PETSC_MAX_PATH_LEN];
   StateOf what = {output, state};
 
   PetscFunctionBegin;
-  PetscCall(OutputGetStepFile(output, state->step, file, sizeof(file)));
+  PetscCall(OutputGetStepFile(output, state->report->step, file, sizeof(file)));
   PetscCall(FileWriteHDF5(output->comm, file, WriteState, &what));
   PetscFunctionReturn(0);
 }

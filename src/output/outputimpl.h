@@ -34,7 +34,7 @@ PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErro
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
-PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const OutputState *);
+PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
 PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
 
 #endif

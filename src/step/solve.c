@@ -149,6 +149,16 @@ static PetscErrorCode SolveStart(StepProblem *p, PetscBool resume, Tao tao, Vec 
   PetscFunctionReturn(0);
 }
 
+static void SolveAddFallbacks(const TaoIPFilterFallbacks *solve, TaoIPFilterFallbacks *sum)
+{
+  sum->refinements += solve->refinements;
+  sum->amg_rebuilds += solve->amg_rebuilds;
+  sum->filters += solve->filters;
+  sum->direct += solve->direct;
+  sum->failures += solve->failures;
+  sum->backward_error = PetscMax(sum->backward_error, solve->backward_error);
+}
+
 /* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero, but for its own residual */
 static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
 {
@@ -167,12 +177,7 @@ static PetscErrorCode SolveReportIPFilter(Tao tao, StepReport *report)
   PetscCall(TaoIPFilterGetRegularizations(tao, &indefinite, NULL, NULL));
   report->regularizations += indefinite;
   PetscCall(TaoIPFilterGetFallbacks(tao, &fallbacks));
-  report->linear.refinements += fallbacks.refinements;
-  report->linear.amg_rebuilds += fallbacks.amg_rebuilds;
-  report->linear.filters += fallbacks.filters;
-  report->linear.direct += fallbacks.direct;
-  report->linear.failures += fallbacks.failures;
-  report->linear.backward_error = PetscMax(report->linear.backward_error, fallbacks.backward_error);
+  SolveAddFallbacks(&fallbacks, &report->linear);
   PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
   PetscCall(TaoGetKSP(tao, &ksp));
   if (ksp) PetscCall(ReportPreconditioner(ksp, &none, report));
