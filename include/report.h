@@ -30,8 +30,8 @@ typedef struct {
   PetscReal   complementarity;        /* max s z [force/length] */
   PetscReal   algebraic_error;        /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
-  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy */
-  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: no estimate was made */
+  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
+  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: none was made */
   PetscReal   contact_force[3];       /* on the nonmortar side [force] */
   PetscReal   reaction[3];            /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
   PetscLogDouble solve_time;          /* optimizer alone, its linear solves included [s] */
@@ -55,7 +55,7 @@ typedef struct {
   const char    *name;
   PetscBool      on;
   char           why[160];
-  PetscLogDouble time; /* [s]; negative: part of another phase, not measured apart */
+  PetscLogDouble time; /* [s]; NaN: part of another phase, not measured apart */
 } RunEffect;
 
 /* What a mesh attained. Values are those of all load steps in turn */
@@ -63,9 +63,8 @@ typedef struct {
   PetscInt       refine, dofs;
   PetscReal     *energy;    /* [force length] */
   PetscReal     *force;     /* norm of the contact force [force] */
-  PetscBool      coarser;   /* there was a coarser mesh before */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
-  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps */
+  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
   PetscReal      algebraic; /* of the solver, relative, in energy */
   PetscLogDouble time;      /* [s] */
@@ -86,6 +85,19 @@ typedef struct {
   char           end[160];  /* why the last mesh is the last */
 } Accuracy;
 
+/* One contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
+typedef struct {
+  PetscInt       iterations;
+  PetscReal      condition;  /* beta, condition number of the preconditioned matrix from CG's Lanczos process */
+  PetscReal      bound;      /* sqrt(2 (beta+3)/beta) iterations: PCG iterations amgf may need (l1 smoother) */
+  PetscLogDouble solve_time; /* AMG set-up and PCG [s] */
+} RunContactFree;
+
+/* Resident set when the phase ended, summed over ranks [bytes]; what is left to the peak is the solvers' */
+typedef struct {
+  PetscLogDouble start, mesh, assembly;
+} RunMemory;
+
 /* [s], the largest over the ranks; what is not in a phase is in other */
 typedef struct {
   PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
@@ -93,8 +105,7 @@ typedef struct {
 
 typedef struct {
   const char *problem;
-  PetscMPIInt ranks;
-  PetscInt    dofs, refine;
+  PetscInt    ranks, dofs, refine;
   PetscBool   converged;
   const char *reason;
   PetscInt    nsteps;
@@ -106,16 +117,9 @@ typedef struct {
   PetscInt    neffects;
   RunEffect  *effects;
   RunTimes    time;
-  struct { /* one contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
-    PetscInt       iterations;
-    PetscReal      condition; /* beta, condition number of the preconditioned matrix from CG's Lanczos process */
-    PetscReal      bound;     /* sqrt(2 (beta+3)/beta) iterations: PCG iterations amgf may need (l1 smoother) */
-    PetscLogDouble solve_time; /* AMG set-up and PCG [s] */
-  } contact_free;
+  RunContactFree contact_free;
   PetscLogDouble peak_memory_bytes; /* sum over ranks of the resident set's high-water mark */
-  struct { /* resident set when the phase ended, summed over ranks [bytes]; what is left to the peak is the solvers' */
-    PetscLogDouble start, mesh, assembly;
-  } memory;
+  RunMemory      memory;
 } RunReport;
 
 #endif

@@ -1,5 +1,6 @@
 /* As accurate as asked and no more: which tolerances, and which mesh. */
 #include <accuracy.h>
+#include <math.h>
 
 #define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_UPDATES 20
@@ -128,8 +129,8 @@ static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt
 {
   PetscReal ratio;
 
-  now->error   = now->recovery;
-  now->coarser = (PetscBool)(before != NULL);
+  now->error  = now->recovery;
+  now->change = NAN;
   if (!before) return;
   now->change = PetscMax(LargestChange(nsteps, now->energy, before->energy), LargestChange(nsteps, now->force, before->force));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;

@@ -72,11 +72,13 @@ static PetscErrorCode SimulationSetFromOptions(Simulation sim)
 
 static PetscErrorCode SimulationCreateReport(Simulation sim)
 {
-  RunReport *report = &sim->report;
-  Scene      scene  = sim->scene;
+  RunReport  *report = &sim->report;
+  Scene       scene  = sim->scene;
+  PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(sim->comm, &report->ranks));
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  report->ranks = size;
   PetscCall(VecGetSize(sim->path.u, &report->dofs));
   report->problem   = scene->name;
   report->refine    = scene->refine;
@@ -224,7 +226,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 
   PetscFunctionBegin;
   report->step       = step + 1;
-  report->gap_min    = report->gap_true = NAN;
+  report->gap_min    = report->gap_true = report->error_estimate = NAN;
   report->load       = sim->scene->ramps[0].factor[step];
   sim->report.nsteps = step + 1;
   while (again && sim->path.time < end) {
