@@ -68,18 +68,29 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* One line a Newton step, and one where a load step changes its plan, unless the user has decided */
+/* One line a Newton step, unless the user has decided; the plugin's monitor is switched on by its option and by nothing else */
 static PetscErrorCode AppShowProgress(void)
 {
-  static const char *const monitors[] = {"-tao_ipfilter_monitor", "-load_monitor"};
+  PetscBool given;
 
   PetscFunctionBeginUser;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(monitors); ++i) {
-    PetscBool set;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_ipfilter_monitor", &given));
+  if (!given) PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_monitor", NULL));
+  PetscFunctionReturn(0);
+}
 
-    PetscCall(PetscOptionsHasName(NULL, NULL, monitors[i], &set));
-    if (!set) PetscCall(PetscOptionsSetValue(NULL, monitors[i], NULL));
-  }
+static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, Simulation *sim)
+{
+  StepTolerances tolerances;
+
+  PetscFunctionBeginUser;
+  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, sim));
+  PetscCall(SimulationGetTolerances(*sim, &tolerances));
+  PetscCall(AccuracyPlan(accuracy, scene, &tolerances));
+  PetscCall(SimulationSetTolerances(*sim, &tolerances));
+  PetscCall(SimulationSetMonitor(*sim, (PetscBool)!app->quiet));
+  PetscCall(SimulationSetFromOptions(*sim));
+  PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);
 }
 
@@ -113,16 +124,16 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, PetscBool *converged, PetscBool *again)
 {
-  Simulation sim;
-  Output     output;
-  StepState  state;
-  RunReport  report;
+  Simulation     sim;
+  Output         output;
+  StepState      state;
+  StepTolerances tolerances;
+  RunReport      report;
 
   PetscFunctionBeginUser;
   *converged = PETSC_TRUE;
   *again     = PETSC_FALSE;
-  PetscCall(AccuracyPlan(accuracy, scene));
-  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
@@ -132,7 +143,8 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
     if (output && *converged) PetscCall(OutputWrite(output, &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
-  if (*converged) PetscCall(AccuracyAssess(accuracy, &report, scene, again));
+  PetscCall(SimulationGetTolerances(sim, &tolerances));
+  if (*converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
   if (accuracy->nlevels) report.accuracy = accuracy;
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));

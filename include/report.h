@@ -75,7 +75,7 @@ typedef struct {
   PetscReal      share;  /* of it that the solver may leave */
   PetscInt       most_dofs;
   PetscBool      contact;   /* the scene has contact pairs */
-  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without */
+  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without; after a run the one that it had */
   PetscBool      given;     /* by the user: it stays */
   PetscReal      update_tolerance; /* of the gap, relative to the largest displacement */
   PetscInt       updates;   /* linearizations of the gap a load step may take */

@@ -11,7 +11,20 @@
 
 typedef struct _n_Simulation *Simulation;
 
+/* What the solvers of a run are asked for; what an option says wins */
+typedef struct {
+  PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
+  PetscReal linear;     /* relative residual of PCG where neither contact nor finite strain calls for TAO */
+  PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
+} StepTolerances;
+
+/* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
+PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
+PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *);
+PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
+PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
+PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);

@@ -90,6 +90,7 @@ PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
 /* rows.c */
 PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 /* inner.c */
+PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
 /* lag.c */
 PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);

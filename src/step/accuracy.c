@@ -50,19 +50,6 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscFunctionReturn(0);
 }
 
-/* *given: the user has, and that stays */
-static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBool *given)
-{
-  char text[32];
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, given));
-  if (*given) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%g", (double)value));
-  PetscCall(PetscOptionsSetValue(NULL, name, text));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    AccuracyPlan - Chooses the tolerances of the next run
 
@@ -72,30 +59,33 @@ static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBo
 +  acc   - what is asked for
 -  scene - the scene; its contact_updates is raised, unless -contact_updates was given
 
+   Input/Output Parameter:
+.  tolerances - those of the run; they stay where no accuracy is asked for
+
    Level: developer
 
    Notes:
    The gap is linearized until it is true, so that load steps of any size end in the same state. The optimizer's tolerance
-   starts at half of share x target and is tightened where that left too much. Tolerances are set as PETSc options (-accuracy_view
-   shows them); those that the user has given stay.
+   starts at half of share x target and is tightened where that left too much. An option of the user's wins over a tolerance, as
+   over any other of a simulation; `AccuracyAssess()` learns of it after the run.
 
-.seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`
+.seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
-PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene)
+PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *tolerances)
 {
-  const char *const solver = scene->npairs ? "-tao_ipfilter_tol" : "-elasticity_ksp_rtol";
-  PetscBool         set;
+  PetscBool given;
 
   PetscFunctionBegin;
   if (acc->target == 0.0) PetscFunctionReturn(0);
-  if (acc->nlevels && !acc->given) PetscCall(PetscOptionsClearValue(NULL, solver));
-  PetscCall(SetUnlessGiven(solver, acc->tolerance, &acc->given));
   acc->contact = (PetscBool)(scene->npairs > 0);
-  if (acc->nlevels || !acc->contact) PetscFunctionReturn(0);
-  PetscCall(SetUnlessGiven("-contact_update_tol", acc->update_tolerance, &set));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-contact_updates", &set));
-  if (!set) scene->contact_updates = PetscMax(scene->contact_updates, ACCURACY_UPDATES);
-  acc->updates = scene->contact_updates;
+  if (!acc->contact) tolerances->linear = acc->tolerance;
+  else {
+    tolerances->optimizer  = acc->tolerance;
+    tolerances->gap_change = acc->update_tolerance;
+    PetscCall(PetscOptionsHasName(NULL, NULL, "-contact_updates", &given));
+    if (!given) scene->contact_updates = PetscMax(scene->contact_updates, ACCURACY_UPDATES);
+    acc->updates = scene->contact_updates;
+  }
   PetscFunctionReturn(0);
 }
 
@@ -184,6 +174,16 @@ static PetscErrorCode DecideOnMesh(Accuracy *acc, PetscBool *refine)
   PetscFunctionReturn(0);
 }
 
+/* What an option of the user's has made of the plan */
+static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
+{
+  const PetscReal solver = acc->contact ? used->optimizer : used->linear;
+
+  acc->given            = (PetscBool)(solver != acc->tolerance);
+  acc->tolerance        = solver;
+  acc->update_tolerance = used->gap_change;
+}
+
 /* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
 static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
@@ -210,9 +210,10 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
    Collective
 
    Input Parameters:
-+  acc    - what is asked for
-.  report - the run's
--  scene  - the scene; its refinement becomes that of the next run
++  acc        - what is asked for
+.  tolerances - those that the run had
+.  report     - the run's
+-  scene      - the scene; its refinement becomes that of the next run
 
    Output Parameter:
 .  again - whether the scene is to be run again
@@ -226,17 +227,19 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
    factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much, so that all the coarser meshes together
    cost a seventh of the last.
 
-   Where the solver left more than its share, its tolerance is tightened; on the finest mesh the run is repeated with it.
+   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
+   repeated with it.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/
-PetscErrorCode AccuracyAssess(Accuracy *acc, const RunReport *report, Scene scene, PetscBool *again)
+PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene, PetscBool *again)
 {
   PetscBool refine, tighten;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (acc->target == 0.0) PetscFunctionReturn(0);
+  AccuracyAdopt(acc, tolerances);
   PetscCall(RecordLevel(acc, report));
   PetscCall(DecideOnMesh(acc, &refine));
   PetscCall(DecideOnTolerance(acc, &tighten));

@@ -37,7 +37,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true = (PetscBool)(report->gap_change <= sim->update_tol * size);
+  *is_true = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
   PetscFunctionReturn(0);
 }
 

@@ -51,25 +51,6 @@ static PetscErrorCode SimulationCreateContact(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationSetFromOptions(Simulation sim)
-{
-  PetscFunctionBegin;
-  sim->warm       = PETSC_TRUE;
-  sim->estimate   = PETSC_TRUE;
-  sim->maxcuts    = 5;
-  sim->update_tol = 1e-6;
-  PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
-  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
-  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
-  PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
-  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
-  PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->update_tol, &sim->update_tol, NULL));
-  PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
-  PetscOptionsEnd();
-  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode SimulationCreateReport(Simulation sim)
 {
   RunReport  *report = &sim->report;
@@ -93,8 +74,7 @@ static PetscErrorCode SimulationCreateReport(Simulation sim)
 }
 
 /*@C
-   SimulationCreate - Builds what a scene calls for: mesh, elastic bodies and their tangent, dead loads, and the contact
-   pairs if it names any.
+   SimulationCreate - Prepares to simulate a scene
 
    Collective
 
@@ -103,7 +83,98 @@ static PetscErrorCode SimulationCreateReport(Simulation sim)
 -  scene - the scene; must outlive the simulation
 
    Output Parameter:
-.  sim - the simulation, at time 0 with zero displacement
+.  sim - the simulation
+
+   Level: beginner
+
+.seealso: `SimulationSetTolerances()`, `SimulationSetMonitor()`, `SimulationSetFromOptions()`, `SimulationSetUp()`, `SimulationDestroy()`, `SceneLoad()`
+@*/
+PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
+{
+  PetscFunctionBegin;
+  PetscCall(StepEventsRegister());
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscNew(sim));
+  (*sim)->comm       = comm;
+  (*sim)->scene      = scene;
+  (*sim)->warm       = PETSC_TRUE;
+  (*sim)->estimate   = PETSC_TRUE;
+  (*sim)->maxcuts    = 5;
+  (*sim)->tolerances = (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6};
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetTolerances - What the solvers of a simulation are asked for, unless options say otherwise
+
+   Logically Collective
+
+   Input Parameters:
++  sim        - the simulation, before SimulationSetFromOptions()
+-  tolerances - the tolerances
+
+   Level: intermediate
+
+   Note:
+   `-tao_gatol` and `-tao_ipfilter_tol` win over that of the optimizer, `-elasticity_ksp_rtol` over the linear solver's,
+   `-contact_update_tol` over that of the gap.
+
+.seealso: `SimulationGetTolerances()`, `AccuracyPlan()`
+@*/
+PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tolerances)
+{
+  PetscFunctionBegin;
+  sim->tolerances = *tolerances;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetTolerances - What the solvers of a simulation are asked for
+
+   Not Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  tolerances - the tolerances; after a load step those that its solvers had, options included
+
+   Level: intermediate
+
+.seealso: `SimulationSetTolerances()`
+@*/
+PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerances)
+{
+  PetscFunctionBegin;
+  *tolerances = sim->tolerances;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetMonitor - Whether to say why a load step is cut, and how the gap changes when it is linearized again
+
+   Logically Collective
+
+   Input Parameters:
++  sim     - the simulation, before SimulationSetFromOptions()
+-  monitor - the answer, unless the option -load_monitor says otherwise
+
+   Level: intermediate
+@*/
+PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
+{
+  PetscFunctionBegin;
+  sim->monitor = monitor;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetFromOptions - Takes what the options say
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, before SimulationSetUp()
 
    Options Database Keys:
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one; default true
@@ -117,35 +188,56 @@ static PetscErrorCode SimulationCreateReport(Simulation sim)
 
    Level: beginner
 
-.seealso: `SimulationStep()`, `SimulationDestroy()`, `SceneLoad()`
+.seealso: `SimulationCreate()`, `SimulationSetUp()`
 @*/
-PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
+PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
-  Simulation s;
+  PetscFunctionBegin;
+  PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
+  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
+  PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
+  PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
+  PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
+  PetscOptionsEnd();
+  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the contact pairs if it
+   names any; at time 0 with zero displacement
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Level: beginner
+
+.seealso: `SimulationCreate()`, `SimulationStep()`
+@*/
+PetscErrorCode SimulationSetUp(Simulation sim)
+{
+  Scene scene = sim->scene;
 
   PetscFunctionBegin;
-  PetscCall(StepEventsRegister());
-  PetscCall(PetscAMGFInitializePackage());
-  PetscCall(PetscNew(&s));
-  s->comm  = comm;
-  s->scene = scene;
-  PetscCall(SimulationSetFromOptions(s));
-  PetscCall(StepEventsRead(&s->start));
-  PetscCall(ReportResident(comm, &s->report.memory.start));
+  PetscCall(StepEventsRead(&sim->start));
+  PetscCall(ReportResident(sim->comm, &sim->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreate(comm, scene->nbodies, scene->bodies, scene->refine, &s->dm));
-  PetscCall(MeshCheckScene(s->dm, scene));
+  PetscCall(MeshCreate(sim->comm, scene->nbodies, scene->bodies, scene->refine, &sim->dm));
+  PetscCall(MeshCheckScene(sim->dm, scene));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(ReportResident(comm, &s->report.memory.mesh));
-  PetscCall(DMCreateGlobalVector(s->dm, &s->path.u));
-  PetscCall(VecSet(s->path.u, 0.0));
-  PetscCall(VecDuplicate(s->path.u, &s->path.previous_u));
-  PetscCall(VecSet(s->path.previous_u, 0.0));
-  PetscCall(SimulationCreateElasticity(s));
-  PetscCall(ReportResident(comm, &s->report.memory.assembly));
-  PetscCall(SimulationCreateContact(s));
-  PetscCall(SimulationCreateReport(s));
-  *sim = s;
+  PetscCall(ReportResident(sim->comm, &sim->report.memory.mesh));
+  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));
+  PetscCall(VecSet(sim->path.u, 0.0));
+  PetscCall(VecDuplicate(sim->path.u, &sim->path.previous_u));
+  PetscCall(VecSet(sim->path.previous_u, 0.0));
+  PetscCall(SimulationCreateElasticity(sim));
+  PetscCall(ReportResident(sim->comm, &sim->report.memory.assembly));
+  PetscCall(SimulationCreateContact(sim));
+  PetscCall(SimulationCreateReport(sim));
   PetscFunctionReturn(0);
 }
 

@@ -11,10 +11,11 @@ static PetscErrorCode SimulationGetKSP(Simulation sim, KSP *ksp)
     PetscCall(KSPCreate(sim->comm, &sim->ksp));
     PetscCall(KSPSetOptionsPrefix(sim->ksp, "elasticity_"));
     PetscCall(KSPSetType(sim->ksp, KSPCG));
-    PetscCall(KSPSetTolerances(sim->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    PetscCall(KSPSetTolerances(sim->ksp, sim->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
     PetscCall(KSPGetPC(sim->ksp, &pc));
     PetscCall(PCSetType(pc, PCAMGF));
     PetscCall(KSPSetFromOptions(sim->ksp));
+    PetscCall(KSPGetTolerances(sim->ksp, &sim->tolerances.linear, NULL, NULL, NULL));
     PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));
     PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
   }
@@ -93,7 +94,9 @@ static PetscErrorCode StepCreateTao(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoIPFilterSetSlackMass(*tao, sim->linearization->mass));
   }
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
+  PetscCall(TaoSetTolerances(*tao, sim->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));

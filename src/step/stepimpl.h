@@ -62,7 +62,7 @@ struct _n_Simulation {
   PetscInt             maxcuts;    /* of one load step */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
-  PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
+  StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
   RunReport            report;
   RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
