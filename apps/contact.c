@@ -29,25 +29,65 @@ typedef struct {
   PetscBool write, summarize, free, effects, accuracy, check, quiet;
 } AppOptions;
 
-/* A collective error unwinds on every rank and is said once; an error of one rank alone must end the others */
-static PetscErrorCode OneSentence(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+/* What is known of an error by the time it reaches main() */
+typedef struct {
+  MPI_Comm  meeting;   /* where the ranks that erred wait for each other */
+  PetscBool traceback; /* PETSc's own is asked for */
+  PetscBool silent;    /* another rank says it */
+  PetscBool alone;     /* no other rank can know of it */
+  char      sentence[512];
+} AppError;
+
+/* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one rank alone must end the others */
+static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
 {
+  AppError   *error = (AppError *)ctx;
+  const char *text  = message;
   PetscMPIInt rank, size, world;
 
-  (void)line, (void)function, (void)file, (void)ctx;
-  if (type != PETSC_ERROR_INITIAL) return n;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  MPI_Comm_size(PETSC_COMM_WORLD, &world);
-  if (rank == 0) {
-    const char *text = NULL;
-
+  if (type == PETSC_ERROR_INITIAL) {
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    MPI_Comm_size(PETSC_COMM_WORLD, &world);
+    error->silent = (PetscBool)(rank > 0);
+    error->alone  = (PetscBool)(size < world);
     if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
-    fprintf(stderr, "contact: error: %s\n", text ? text : message);
+    (void)PetscStrncpy(error->sentence, text ? text : "unknown", sizeof(error->sentence));
+    if (!error->silent && !error->traceback) fprintf(stderr, "contact: error: %s\n", error->sentence);
     fflush(stderr);
+    if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, (int)n);
   }
-  if (size < world) MPI_Abort(PETSC_COMM_WORLD, (int)n);
-  return n;
+  return error->traceback && !error->silent ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL) : n;
+}
+
+/*
+   The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone the others wait for it in
+   the midst of their work, for ever if it does not end them. PETSc's traceback takes the same ten seconds for it.
+
+   Objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit closing a file that it could
+   not write.
+*/
+static void AppLeave(const AppError *error)
+{
+  const double start = MPI_Wtime(), patience = error->alone ? 0.0 : 10.0; /* [s] */
+  MPI_Request  request;
+  PetscMPIInt  rank;
+  int          all = 0;
+
+  MPI_Ibarrier(error->meeting, &request);
+  do {
+    MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+    if (!all) (void)PetscSleep(0.01);
+  } while (!all && MPI_Wtime() - start < patience);
+  if (!all) {
+    MPI_Comm_rank(error->meeting, &rank);
+    fprintf(stderr, "contact: error on rank %d alone: %s\n", rank, error->sentence);
+    fflush(NULL);
+    MPI_Abort(PETSC_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+  fflush(NULL);
+  _Exit(1);
 }
 
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
@@ -181,15 +221,14 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
+static PetscErrorCode AppRun(int argc, char **argv, AppError *error, PetscBool *converged)
 {
   AppOptions app;
   Scene      scene;
-  PetscBool  traceback = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &traceback, NULL));
-  if (!traceback) PetscCall(PetscPushErrorHandler(OneSentence, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
+  PetscCall(PetscPushErrorHandler(AppHandleError, error));
   PetscCall(AppGetOptions(argc, argv, &app));
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
@@ -201,7 +240,7 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
-  if (!traceback) PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
 
@@ -219,22 +258,17 @@ static void AppLimitHeap(void)
 int main(int argc, char **argv)
 {
   PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
-  PetscMPIInt    size;
+  AppError       error     = {.traceback = PETSC_FALSE};
   PetscErrorCode ierr;
 
   AppLimitHeap();
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return (int)ierr;
+  MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
-  if (!ierr) ierr = AppRun(argc, argv, &converged);
-  /* After an error objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit
-     closing a file that it could not write */
-  if (ierr) {
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
-    if (size > 1) MPI_Finalize();
-    fflush(NULL);
-    _Exit(1);
-  }
+  if (!ierr) ierr = AppRun(argc, argv, &error, &converged);
+  if (ierr) AppLeave(&error);
+  MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
     written = PETSC_FALSE;
