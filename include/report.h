@@ -73,7 +73,7 @@ typedef struct {
 typedef struct {
   PetscReal      target; /* relative error in energy and contact force; 0: accuracy is not asked for */
   PetscReal      share;  /* of it that the solver may leave */
-  PetscInt       most_dofs;
+  PetscInt       max_dofs;  /* of a mesh */
   PetscBool      contact;   /* the scene has contact pairs */
   PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without; after a run the one that it had */
   PetscBool      given;     /* by the user: it stays */

@@ -28,7 +28,7 @@
 @*/
 PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
 {
-  PetscReal most = 1e6;
+  PetscReal max_dofs = 1e6;
   PetscBool set, estimate = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -37,15 +37,15 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
   PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
   PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", most, &most, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
   PetscOptionsEnd();
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
   PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
-  PetscCheck(most > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)most);
+  PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
   PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
-  acc->most_dofs = (PetscInt)PetscMin(most, (PetscReal)PETSC_MAX_INT);
-  acc->tolerance = ACCURACY_MARGIN * acc->share * acc->target;
+  acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
+  acc->tolerance        = ACCURACY_MARGIN * acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
   PetscFunctionReturn(0);
 }
@@ -90,7 +90,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
 }
 
 /* The largest difference of the load steps, relative to the largest value */
-static PetscReal LargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
+static PetscReal AccuracyLargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
 {
   PetscReal difference = 0.0, size = 0.0;
 
@@ -102,7 +102,7 @@ static PetscReal LargestChange(PetscInt n, const PetscReal now[], const PetscRea
 }
 
 /* The last run on a coarser mesh than the last run's, NULL if there is none */
-static const AccuracyLevel *Coarser(const Accuracy *acc)
+static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
 
@@ -115,20 +115,20 @@ static const AccuracyLevel *Coarser(const Accuracy *acc)
 /* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
    than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
    the recovered error stands */
-static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
+static void AccuracyAssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
 {
   PetscReal ratio;
 
   now->error  = now->recovery;
   now->change = NAN;
   if (!before) return;
-  now->change = PetscMax(LargestChange(nsteps, now->energy, before->energy), LargestChange(nsteps, now->force, before->force));
+  now->change = PetscMax(AccuracyLargestChange(nsteps, now->energy, before->energy), AccuracyLargestChange(nsteps, now->force, before->force));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
   ratio       = PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
 }
 
-static PetscErrorCode RecordLevel(Accuracy *acc, const RunReport *report)
+static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report)
 {
   AccuracyLevel *level;
   PetscReal      largest = 0.0;
@@ -156,21 +156,21 @@ static PetscErrorCode RecordLevel(Accuracy *acc, const RunReport *report)
     level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
     level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
   }
-  AssessMesh(level, Coarser(acc), report->nsteps);
+  AccuracyAssessMesh(level, AccuracyCoarser(acc), report->nsteps);
   PetscFunctionReturn(0);
 }
 
 /* Refined once more, unless the error is within a factor 2 of the target or the unknowns do not allow it */
-static PetscErrorCode DecideOnMesh(Accuracy *acc, PetscBool *refine)
+static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];
   const PetscReal      next = 8.0 * (PetscReal)now->dofs;
 
   PetscFunctionBegin;
   acc->reached = (PetscBool)(now->error <= 2.0 * acc->target);
-  *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->most_dofs);
+  *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->max_dofs);
   if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
-  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->most_dofs));
+  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 
@@ -185,7 +185,7 @@ static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
 }
 
 /* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
-static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
+static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
   const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
   const PetscReal      allowed = acc->share * acc->target;
@@ -240,9 +240,9 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
   *again = PETSC_FALSE;
   if (acc->target == 0.0) PetscFunctionReturn(0);
   AccuracyAdopt(acc, tolerances);
-  PetscCall(RecordLevel(acc, report));
-  PetscCall(DecideOnMesh(acc, &refine));
-  PetscCall(DecideOnTolerance(acc, &tighten));
+  PetscCall(AccuracyRecord(acc, report));
+  PetscCall(AccuracyDecideOnMesh(acc, &refine));
+  PetscCall(AccuracyDecideOnTolerance(acc, &tighten));
   if (refine) ++scene->refine;
   *again = (PetscBool)(refine || tighten);
   PetscFunctionReturn(0);

@@ -1,7 +1,7 @@
 /* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
 #include "stepimpl.h"
 
-static const PetscReal negligible = 1e-3; /* of the largest pressure */
+static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 
 PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
 {
@@ -55,7 +55,7 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   }
   PetscCall(VecRestoreArrayWrite(slack, &s));
   PetscCall(VecRestoreArrayWrite(pressure, &z));
-  PetscCall(MPIU_Allreduce(&found, any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)pressure)));
+  PetscCallMPI(MPI_Allreduce(&found, any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)pressure)));
   PetscFunctionReturn(0);
 }
 
@@ -64,7 +64,7 @@ static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm
   PetscFunctionBegin;
   *largest = 0.0;
   for (PetscInt k = 0; k < m->npairs * (m->vend - m->vstart); ++k) *largest = PetscMax(*largest, m->pressure[k]);
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscFunctionReturn(0);
 }
 
@@ -85,10 +85,10 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
     const PetscInt  k   = ContactMemoryIndex(m, lin, i);
     const PetscReal gap = PetscRealPart(g[i]);
 
-    worst = PetscMax(worst, m->pressure[k] > negligible * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+    worst = PetscMax(worst, m->pressure[k] > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
-  PetscCall(MPIU_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscFunctionReturn(0);
 }
 
@@ -103,10 +103,10 @@ PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearizatio
   *nlost = 0;
   PetscCall(ContactMemoryLargest(m, comm, &largest));
   PetscCall(PetscMalloc1(n, lost));
-  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible * largest);
+  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible_pressure * largest);
   for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactMemoryIndex(m, lin, i)] = PETSC_FALSE;
   for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -122,7 +122,7 @@ PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool los
     if (lost[ContactMemoryIndex(m, lin, i)]) *least = PetscMin(*least, PetscRealPart(g[i]));
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, least, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)lin->g)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)lin->g)));
   PetscFunctionReturn(0);
 }
 

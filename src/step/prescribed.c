@@ -48,7 +48,7 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
     p->values[unique++] = p->values[k];
   }
   p->n = unique;
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
   PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT, "displacements: two faces prescribe values that differ by %g on the vertices they share", (double)worst[0]);
   PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT, "displacements: two faces prescribe the same value by different ramps on the vertices they share");
   PetscFunctionReturn(0);
@@ -120,8 +120,8 @@ PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
     any = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayRead(v, &a));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, driven, 6, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
-  PetscCall(MPIU_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, driven, 6, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)v)));
   PetscCall(PetscArraycpy(sum, any ? driven : driven + 3, 3));
   PetscFunctionReturn(0);
 }

@@ -1,77 +1,5 @@
-/* The life of a simulation: from the scene to the parts, then one load step after another. */
+/* The life of a simulation, and what its caller may set and ask. */
 #include "stepimpl.h"
-#include <math.h>
-
-static PetscErrorCode SimulationCreateElasticity(Simulation sim)
-{
-  Scene        scene = sim->scene;
-  Material    *materials;
-  ElementType *elements;
-  PetscBool    linear;
-  IS           rows;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    materials[b] = scene->bodies[b].material;
-    elements[b]  = scene->bodies[b].element;
-  }
-  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, elements, &sim->elasticity));
-  PetscCall(PetscFree2(materials, elements));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
-  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP, "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model quadratic");
-  PetscCall(PrescribedCreate(sim->dm, scene, &sim->prescribed));
-  PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
-  PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
-  PetscCall(StiffnessSetType(sim));
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
-  if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
-  PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SimulationCreateContact(Simulation sim)
-{
-  Scene        scene = sim->scene;
-  ContactPair *pairs;
-
-  PetscFunctionBegin;
-  if (!scene->npairs) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(scene->npairs, &pairs));
-  for (PetscInt p = 0; p < scene->npairs; ++p) pairs[p] = (ContactPair){scene->pairs[p].mortar, scene->pairs[p].nonmortar, scene->pairs[p].gap, scene->pairs[p].distance};
-  PetscCall(ContactCreate(sim->dm, scene->npairs, pairs, &sim->contact));
-  PetscCall(PetscFree(pairs));
-  PetscCall(ContactSetFromOptions(sim->contact));
-  PetscCall(ContactMemoryCreate(sim->dm, scene->npairs, &sim->memory));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SimulationCreateReport(Simulation sim)
-{
-  RunReport  *report = &sim->report;
-  Scene       scene  = sim->scene;
-  PetscMPIInt size;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
-  report->ranks = size;
-  PetscCall(VecGetSize(sim->path.u, &report->dofs));
-  report->problem   = scene->name;
-  report->refine    = scene->refine;
-  report->converged = PETSC_TRUE;
-  report->reason    = "all load steps converged";
-  report->nbodies   = scene->nbodies;
-  PetscCall(PetscCalloc1(scene->nsteps, &report->steps));
-  PetscCall(PetscMalloc2(scene->nbodies, &report->bodies, scene->nbodies, &report->assemblies));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b] = scene->bodies[b].name;
-  PetscCall(EffectsCreate(sim, report));
-  PetscFunctionReturn(0);
-}
 
 /*@C
    SimulationCreate - Prepares to simulate a scene
@@ -206,42 +134,6 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 }
 
 /*@C
-   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the contact pairs if it
-   names any; at time 0 with zero displacement
-
-   Collective
-
-   Input Parameter:
-.  sim - the simulation
-
-   Level: beginner
-
-.seealso: `SimulationCreate()`, `SimulationStep()`
-@*/
-PetscErrorCode SimulationSetUp(Simulation sim)
-{
-  Scene scene = sim->scene;
-
-  PetscFunctionBegin;
-  PetscCall(StepEventsRead(&sim->start));
-  PetscCall(ReportResident(sim->comm, &sim->report.memory.start));
-  PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreate(sim->comm, scene->nbodies, scene->bodies, scene->refine, &sim->dm));
-  PetscCall(MeshCheckScene(sim->dm, scene));
-  PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(ReportResident(sim->comm, &sim->report.memory.mesh));
-  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));
-  PetscCall(VecSet(sim->path.u, 0.0));
-  PetscCall(VecDuplicate(sim->path.u, &sim->path.previous_u));
-  PetscCall(VecSet(sim->path.previous_u, 0.0));
-  PetscCall(SimulationCreateElasticity(sim));
-  PetscCall(ReportResident(sim->comm, &sim->report.memory.assembly));
-  PetscCall(SimulationCreateContact(sim));
-  PetscCall(SimulationCreateReport(sim));
-  PetscFunctionReturn(0);
-}
-
-/*@C
    SimulationGetDM - The mesh of all bodies, borrowed.
 
    Not Collective
@@ -255,92 +147,31 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *report, StepState *state)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(sim->stress));
-  PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
-  state->report       = report;
-  state->displacement = sim->path.u;
-  state->stress       = sim->stress;
-  state->nrows        = sim->linearization ? sim->linearization->nlocal : 0;
-  state->row_vertex   = sim->linearization ? sim->linearization->vertex : NULL;
-  state->pressure     = sim->pressure;
-  state->gap          = sim->gap;
-  PetscFunctionReturn(0);
-}
-
-/* Half of what was tried; false when the step has been cut often enough */
-static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
-{
-  const PetscBool nothing = (PetscBool)(sim->quadratic && !sim->contact); /* a linear system does not get easier */
-
-  PetscFunctionBegin;
-  *again = (PetscBool)(!nothing && !sim->interrupted && report->cuts < sim->maxcuts);
-  if (!*again) PetscFunctionReturn(0);
-  ++report->cuts;
-  *increment *= 0.5;
-  if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step, (double)(sim->path.time + *increment), report->reason));
-  PetscFunctionReturn(0);
-}
-
 /*@C
-   SimulationStep - Solves the next load step.
+   SimulationGetReport - The report of the run so far: one entry a load step, time of the phases, memory.
 
    Collective
 
-   Input Parameters:
-+  sim  - the simulation
--  step - number of the step, from 0; steps are taken in order
+   Input Parameter:
+.  sim - the simulation
 
    Output Parameter:
-.  state - what the step left, borrowed until the next step. Look at state->report->converged: where it is false the
-           displacement is that of the last converged solve
+.  report - a view; its arrays and strings are borrowed and end with the simulation
 
-   Level: beginner
+   Level: intermediate
 
-   Notes:
-   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at what
-   was found as the scene's contact_updates allow, until it is true. Linear bodies, and the scene's `model quadratic`, make the
-   step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG solve
-   (options prefix -elasticity_) and neither search nor optimizer.
-
-   A step that fails is halved, tried again from the last good state, and doubled after each success.
-
-.seealso: `SimulationCreate()`, `SimulationGetReport()`, `TAOIPFILTER`
+   Note:
+   Phase times come from PETSc's events, so PetscLogDefaultBegin() (or -log_view) must have been called before the
+   simulation was created; otherwise only the total is known.
 @*/
-PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
+PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
-  StepReport     *report    = &sim->report.steps[step];
-  const PetscReal end       = (PetscReal)(step + 1);
-  PetscReal       increment = end - sim->path.time;
-  PetscBool       again     = PETSC_TRUE, stop;
-
   PetscFunctionBegin;
-  report->step       = step + 1;
-  report->gap_min    = report->gap_true = report->error_estimate = NAN;
-  report->load       = sim->scene->ramps[0].factor[step];
-  sim->report.nsteps = step + 1;
-  while (again && sim->path.time < end) {
-    const PetscReal left = end - sim->path.time;
-
-    PetscCall(InterruptTest(sim, &stop));
-    if (stop) {
-      PetscCall(InterruptReport(sim, report));
-      break;
-    }
-    if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
-    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
-    if (report->converged) {
-      ++report->substeps;
-      increment *= 2.0;
-    } else PetscCall(SimulationCut(sim, report, &increment, &again));
-  }
-  if (!report->converged) {
-    sim->report.converged = PETSC_FALSE;
-    sim->report.reason    = report->reason;
-  } else if (report->gap_untrue) sim->report.reason = report->reason;
-  PetscCall(SimulationGetState(sim, report, state));
+  PetscCall(StepEventsGetTimes(sim->comm, &sim->start, &sim->report.time));
+  for (PetscInt b = 0; b < sim->report.nbodies; ++b) PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
+  PetscCall(EffectsSetTimes(sim, &sim->report));
+  PetscCall(ResidentGetPeak(sim->comm, &sim->report.peak_memory_bytes));
+  *report = sim->report;
   PetscFunctionReturn(0);
 }
 
