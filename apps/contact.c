@@ -26,7 +26,7 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, summarize, free, effects, accuracy, check, quiet;
+  PetscBool write, summarize, contact_free, effects, accuracy, check, quiet;
 } AppOptions;
 
 /* What is known of an error by the time it reaches main() */
@@ -97,7 +97,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
-  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->free, &app->free, NULL));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free, &app->contact_free, NULL));
   PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
   PetscCall(PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
   PetscCall(PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
@@ -175,7 +175,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   *again     = PETSC_FALSE;
   PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
-  if (app->free) PetscCall(SimulationContactFree(sim));
+  if (app->contact_free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
     if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));

@@ -1,6 +1,6 @@
 /*
    Load stepping: brings elasticity and contact together. Each load step minimizes the elastic energy subject to the
-   linearized gap, by TAO where the scene names a contact pair, by one PCG solve where it does not.
+   linearized gap: by TAO, or by one PCG solve where the energy is quadratic and there is neither contact nor a bound.
 */
 #ifndef STEP_H
 #define STEP_H
@@ -14,7 +14,7 @@ typedef struct _n_Simulation *Simulation;
 /* What the solvers of a run are asked for; what an option says wins */
 typedef struct {
   PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
-  PetscReal linear;     /* relative residual of PCG where neither contact nor finite strain calls for TAO */
+  PetscReal linear;     /* relative residual of PCG where a load step needs no TAO */
   PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
 } StepTolerances;
 

@@ -1,8 +1,21 @@
+/*
+   The map of src/output: its files in the order in which they build on one another, each with what it offers to those below it. The
+   fields of bodies and surfaces go to HDF5 (output.c), the report of a run to JSON and to the terminal (json.c, view.c).
+*/
 #ifndef OUTPUTIMPL_H
 #define OUTPUTIMPL_H
 
 #include <output.h>
 #include <petscviewerhdf5.h>
+
+/*
+   file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
+   names the file.
+*/
+/* Every rank writes into the open viewer */
+PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
+/* On the first rank fill() writes the stream; the others wait for the outcome */
+PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 
 /* A step that has been written */
 typedef struct {
@@ -21,6 +34,21 @@ struct _n_Output {
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };
+
+/* names.c */
+PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
+PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
+
+/* fields.c */
+PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
+PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
+
+/* xdmf.c */
+PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
+
+/* output.c, on top of these, has no more than what output.h offers */
+
+/* schema.c */
 
 /* How a member of a report is stored */
 typedef enum {
@@ -98,23 +126,11 @@ PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);
 PETSC_INTERN PetscInt    SchemaCount(const ReportField *, const void *record);
 
+/* table.c */
 PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const ReportRecord *, PetscInt line, PetscViewer);
 PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const ReportRecord *, PetscInt n, const void *records, PetscViewer);
 PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record, char text[], size_t length);
 
-/*
-   A file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
-   names the file.
-*/
-/* Every rank writes into the open viewer */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
-/* On the first rank fill() writes the stream; the others wait for the outcome */
-PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
-
-PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
-PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
-PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
-PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
-PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
+/* json.c, accuracy.c, view.c have no more than what output.h offers */
 
 #endif
