@@ -22,7 +22,10 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures) continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  ", report->steps[s].step));
     for (const ReportField *field = SchemaFallbacks.fields; field->name; ++field) {
-      PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text))));
+      const char *said = TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text));
+
+      if (!said) continue;
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", said));
       before = ", ";
     }
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
