@@ -26,28 +26,68 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, summarize, free, effects, accuracy, check, quiet;
+  PetscBool write, summarize, contact_free, effects, accuracy, check, quiet;
 } AppOptions;
 
-/* A collective error unwinds on every rank and is said once; an error of one rank alone must end the others */
-static PetscErrorCode OneSentence(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+/* What is known of an error by the time it reaches main() */
+typedef struct {
+  MPI_Comm  meeting;   /* where the ranks that erred wait for each other */
+  PetscBool traceback; /* PETSc's own is asked for */
+  PetscBool silent;    /* another rank says it */
+  PetscBool alone;     /* no other rank can know of it */
+  char      sentence[512];
+} AppError;
+
+/* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one rank alone must end the others */
+static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
 {
+  AppError   *error = (AppError *)ctx;
+  const char *text  = message;
   PetscMPIInt rank, size, world;
 
-  (void)line, (void)function, (void)file, (void)ctx;
-  if (type != PETSC_ERROR_INITIAL) return n;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  MPI_Comm_size(PETSC_COMM_WORLD, &world);
-  if (rank == 0) {
-    const char *text = NULL;
-
+  if (type == PETSC_ERROR_INITIAL) {
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    MPI_Comm_size(PETSC_COMM_WORLD, &world);
+    error->silent = (PetscBool)(rank > 0);
+    error->alone  = (PetscBool)(size < world);
     if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
-    fprintf(stderr, "contact: error: %s\n", text ? text : message);
+    (void)PetscStrncpy(error->sentence, text ? text : "unknown", sizeof(error->sentence));
+    if (!error->silent && !error->traceback) fprintf(stderr, "contact: error: %s\n", error->sentence);
     fflush(stderr);
+    if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, (int)n);
   }
-  if (size < world) MPI_Abort(PETSC_COMM_WORLD, (int)n);
-  return n;
+  return error->traceback && !error->silent ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL) : n;
+}
+
+/*
+   The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone the others wait for it in
+   the midst of their work, for ever if it does not end them. PETSc's traceback takes the same ten seconds for it.
+
+   Objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit closing a file that it could
+   not write.
+*/
+static void AppLeave(const AppError *error)
+{
+  const double start = MPI_Wtime(), patience = error->alone ? 0.0 : 10.0; /* [s] */
+  MPI_Request  request;
+  PetscMPIInt  rank;
+  int          all = 0;
+
+  MPI_Ibarrier(error->meeting, &request);
+  do {
+    MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+    if (!all) (void)PetscSleep(0.01);
+  } while (!all && MPI_Wtime() - start < patience);
+  if (!all) {
+    MPI_Comm_rank(error->meeting, &rank);
+    fprintf(stderr, "contact: error on rank %d alone: %s\n", rank, error->sentence);
+    fflush(NULL);
+    MPI_Abort(PETSC_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+  fflush(NULL);
+  _Exit(1);
 }
 
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
@@ -57,7 +97,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
-  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->free, &app->free, NULL));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free, &app->contact_free, NULL));
   PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
   PetscCall(PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
   PetscCall(PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
@@ -68,34 +108,29 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* One line a Newton step, and one where a load step changes its plan, unless the user has decided */
+/* One line a Newton step, unless the user has decided; the plugin's monitor is switched on by its option and by nothing else */
 static PetscErrorCode AppShowProgress(void)
 {
-  static const char *const monitors[] = {"-tao_ipfilter_monitor", "-load_monitor"};
+  PetscBool given;
 
   PetscFunctionBeginUser;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(monitors); ++i) {
-    PetscBool set;
-
-    PetscCall(PetscOptionsHasName(NULL, NULL, monitors[i], &set));
-    if (!set) PetscCall(PetscOptionsSetValue(NULL, monitors[i], NULL));
-  }
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_ipfilter_monitor", &given));
+  if (!given) PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_monitor", NULL));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppWriteState(Output output, PetscReal time, const StepState *state)
+static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, Simulation *sim)
 {
-  OutputState out = {.step         = state->report->step,
-                     .time         = time,
-                     .displacement = state->displacement,
-                     .stress       = state->stress,
-                     .nrows        = state->nrows,
-                     .row_vertex   = state->row_vertex,
-                     .pressure     = state->pressure,
-                     .gap          = state->gap};
+  StepTolerances tolerances;
 
   PetscFunctionBeginUser;
-  PetscCall(OutputWrite(output, &out));
+  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, sim));
+  PetscCall(SimulationGetTolerances(*sim, &tolerances));
+  PetscCall(AccuracyPlan(accuracy, scene, &tolerances));
+  PetscCall(SimulationSetTolerances(*sim, &tolerances));
+  PetscCall(SimulationSetMonitor(*sim, (PetscBool)!app->quiet));
+  PetscCall(SimulationSetFromOptions(*sim));
+  PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);
 }
 
@@ -129,26 +164,27 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, PetscBool *converged, PetscBool *again)
 {
-  Simulation sim;
-  Output     output;
-  StepState  state;
-  RunReport  report;
+  Simulation     sim;
+  Output         output;
+  StepState      state;
+  StepTolerances tolerances;
+  RunReport      report;
 
   PetscFunctionBeginUser;
   *converged = PETSC_TRUE;
   *again     = PETSC_FALSE;
-  PetscCall(AccuracyPlan(accuracy, scene));
-  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
-  if (app->free) PetscCall(SimulationContactFree(sim));
+  if (app->contact_free) PetscCall(SimulationContactFree(sim));
   for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
     if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));
     *converged = state.report->converged;
-    if (output && *converged) PetscCall(AppWriteState(output, scene->ramps[0].factor[step], &state));
+    if (output && *converged) PetscCall(OutputWrite(output, &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
-  if (*converged) PetscCall(AccuracyAssess(accuracy, &report, scene, again));
+  PetscCall(SimulationGetTolerances(sim, &tolerances));
+  if (*converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
   if (accuracy->nlevels) report.accuracy = accuracy;
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));
@@ -185,15 +221,14 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
+static PetscErrorCode AppRun(int argc, char **argv, AppError *error, PetscBool *converged)
 {
   AppOptions app;
   Scene      scene;
-  PetscBool  traceback = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &traceback, NULL));
-  if (!traceback) PetscCall(PetscPushErrorHandler(OneSentence, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
+  PetscCall(PetscPushErrorHandler(AppHandleError, error));
   PetscCall(AppGetOptions(argc, argv, &app));
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
@@ -205,7 +240,7 @@ static PetscErrorCode AppRun(int argc, char **argv, PetscBool *converged)
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
-  if (!traceback) PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
 
@@ -223,22 +258,17 @@ static void AppLimitHeap(void)
 int main(int argc, char **argv)
 {
   PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
-  PetscMPIInt    size;
+  AppError       error     = {.traceback = PETSC_FALSE};
   PetscErrorCode ierr;
 
   AppLimitHeap();
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return (int)ierr;
+  MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
-  if (!ierr) ierr = AppRun(argc, argv, &converged);
-  /* After an error objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit
-     closing a file that it could not write */
-  if (ierr) {
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
-    if (size > 1) MPI_Finalize();
-    fflush(NULL);
-    _Exit(1);
-  }
+  if (!ierr) ierr = AppRun(argc, argv, &error, &converged);
+  if (ierr) AppLeave(&error);
+  MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
     written = PETSC_FALSE;

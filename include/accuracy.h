@@ -5,14 +5,13 @@
 #ifndef ACCURACY_H
 #define ACCURACY_H
 
-#include <report.h>
-#include <scene.h>
+#include <step.h>
 
 PETSC_EXTERN PetscErrorCode AccuracySetFromOptions(MPI_Comm, Accuracy *);
-/* Tolerances for the next run, as PETSc options; those that the user has given stay */
-PETSC_EXTERN PetscErrorCode AccuracyPlan(Accuracy *, Scene);
-/* Records a run; where its mesh is too coarse, scene->refine is the next one's and *again is true */
-PETSC_EXTERN PetscErrorCode AccuracyAssess(Accuracy *, const RunReport *, Scene, PetscBool *again);
+/* Tolerances for the next run, in place of those that are there */
+PETSC_EXTERN PetscErrorCode AccuracyPlan(Accuracy *, Scene, StepTolerances *);
+/* Records a run and the tolerances that it had; where its mesh is too coarse, scene->refine is the next one's and *again is true */
+PETSC_EXTERN PetscErrorCode AccuracyAssess(Accuracy *, const StepTolerances *, const RunReport *, Scene, PetscBool *again);
 PETSC_EXTERN PetscErrorCode AccuracyDestroy(Accuracy *);
 
 #endif

@@ -1,8 +1,8 @@
-/* What a run reports about itself: filled by src/step, written by src/output. */
+/* What a run leaves, its state and what it reports about itself: filled by src/step, written by src/output. */
 #ifndef REPORT_H
 #define REPORT_H
 
-#include <petscsys.h>
+#include <petscamgf.h>
 
 typedef struct {
   PetscInt    step;
@@ -17,14 +17,7 @@ typedef struct {
   PetscInt    contact_updates;        /* linearizations of the gap in the last solve */
   PetscInt    regularizations;        /* Newton systems whose matrix was not positive definite */
   PetscInt    systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
-  struct { /* linear solves that took more than the Krylov method by itself */
-    PetscInt  refinements;    /* continued from the attained iterate */
-    PetscInt  amg_rebuilds;   /* with an AMG that was rebuilt for it */
-    PetscInt  filters;        /* with a filter that was switched on or enlarged for it */
-    PetscInt  direct;         /* by MUMPS on the whole matrix */
-    PetscInt  failures;       /* not solved at all */
-    PetscReal backward_error; /* largest of all that were used */
-  } linear;
+  TaoIPFilterFallbacks linear;        /* linear solves that took more than the Krylov method by itself */
   PetscReal   energy;                 /* elastic, from the elements [force length] */
   PetscReal   potential;              /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
   PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
@@ -37,8 +30,8 @@ typedef struct {
   PetscReal   complementarity;        /* max s z [force/length] */
   PetscReal   algebraic_error;        /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
-  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy */
-  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: no estimate was made */
+  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
+  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: none was made */
   PetscReal   contact_force[3];       /* on the nonmortar side [force] */
   PetscReal   reaction[3];            /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
   PetscLogDouble solve_time;          /* optimizer alone, its linear solves included [s] */
@@ -46,12 +39,23 @@ typedef struct {
   const char *reason;
 } StepReport;
 
+/* The state at the end of a load step; borrowed, valid until the next one */
+typedef struct {
+  const StepReport *report;
+  Vec               displacement; /* global, 3 a vertex [length] */
+  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
+  PetscInt          nrows;        /* contact rows of this rank */
+  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
+  const PetscReal  *pressure;     /* contact pressure a row [force/length^2] */
+  const PetscReal  *gap;          /* linearized gap a row [length] */
+} StepState;
+
 /* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */
 typedef struct {
   const char    *name;
   PetscBool      on;
   char           why[160];
-  PetscLogDouble time; /* [s]; negative: part of another phase, not measured apart */
+  PetscLogDouble time; /* [s]; NaN: part of another phase, not measured apart */
 } RunEffect;
 
 /* What a mesh attained. Values are those of all load steps in turn */
@@ -59,9 +63,8 @@ typedef struct {
   PetscInt       refine, dofs;
   PetscReal     *energy;    /* [force length] */
   PetscReal     *force;     /* norm of the contact force [force] */
-  PetscBool      coarser;   /* there was a coarser mesh before */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
-  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps */
+  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
   PetscReal      algebraic; /* of the solver, relative, in energy */
   PetscLogDouble time;      /* [s] */
@@ -70,9 +73,9 @@ typedef struct {
 typedef struct {
   PetscReal      target; /* relative error in energy and contact force; 0: accuracy is not asked for */
   PetscReal      share;  /* of it that the solver may leave */
-  PetscInt       most_dofs;
+  PetscInt       max_dofs;  /* of a mesh */
   PetscBool      contact;   /* the scene has contact pairs */
-  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without */
+  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without; after a run the one that it had */
   PetscBool      given;     /* by the user: it stays */
   PetscReal      update_tolerance; /* of the gap, relative to the largest displacement */
   PetscInt       updates;   /* linearizations of the gap a load step may take */
@@ -82,10 +85,27 @@ typedef struct {
   char           end[160];  /* why the last mesh is the last */
 } Accuracy;
 
+/* One contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
+typedef struct {
+  PetscInt       iterations;
+  PetscReal      condition;  /* beta, condition number of the preconditioned matrix from CG's Lanczos process */
+  PetscReal      bound;      /* sqrt(2 (beta+3)/beta) iterations: PCG iterations amgf may need (l1 smoother) */
+  PetscLogDouble solve_time; /* AMG set-up and PCG [s] */
+} RunContactFree;
+
+/* Resident set when the phase ended, summed over ranks [bytes]; what is left to the peak is the solvers' */
+typedef struct {
+  PetscLogDouble start, mesh, assembly;
+} RunMemory;
+
+/* [s], the largest over the ranks; what is not in a phase is in other */
+typedef struct {
+  PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
+} RunTimes;
+
 typedef struct {
   const char *problem;
-  PetscMPIInt ranks;
-  PetscInt    dofs, refine;
+  PetscInt    ranks, dofs, refine;
   PetscBool   converged;
   const char *reason;
   PetscInt    nsteps;
@@ -96,19 +116,10 @@ typedef struct {
   const Accuracy *accuracy; /* what -accuracy chose and attained; NULL: not asked for */
   PetscInt    neffects;
   RunEffect  *effects;
-  struct {
-    PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other; /* [s], max over ranks */
-  } time;
-  struct { /* one contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
-    PetscInt       iterations;
-    PetscReal      condition; /* beta, condition number of the preconditioned matrix from CG's Lanczos process */
-    PetscReal      bound;     /* sqrt(2 (beta+3)/beta) iterations: PCG iterations amgf may need (l1 smoother) */
-    PetscLogDouble solve_time; /* AMG set-up and PCG [s] */
-  } contact_free;
+  RunTimes    time;
+  RunContactFree contact_free;
   PetscLogDouble peak_memory_bytes; /* sum over ranks of the resident set's high-water mark */
-  struct { /* resident set when the phase ended, summed over ranks [bytes]; what is left to the peak is the solvers' */
-    PetscLogDouble start, mesh, assembly;
-  } memory;
+  RunMemory      memory;
 } RunReport;
 
 #endif

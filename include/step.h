@@ -1,6 +1,6 @@
 /*
    Load stepping: brings elasticity and contact together. Each load step minimizes the elastic energy subject to the
-   linearized gap, by TAO where the scene names a contact pair, by one PCG solve where it does not.
+   linearized gap: by TAO, or by one PCG solve where the energy is quadratic and there is neither contact nor a bound.
 */
 #ifndef STEP_H
 #define STEP_H
@@ -11,18 +11,20 @@
 
 typedef struct _n_Simulation *Simulation;
 
-/* What a caller may look at after a load step; borrowed, valid until the next one */
+/* What the solvers of a run are asked for; what an option says wins */
 typedef struct {
-  const StepReport *report;
-  Vec               displacement; /* global [length] */
-  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
-  PetscInt          nrows;        /* contact rows of this rank */
-  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
-  const PetscReal  *pressure;     /* [force/length^2] */
-  const PetscReal  *gap;          /* linearized gap [length] */
-} StepState;
+  PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
+  PetscReal linear;     /* relative residual of PCG where a load step needs no TAO */
+  PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
+} StepTolerances;
 
+/* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
+PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
+PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *);
+PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
+PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
+PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);

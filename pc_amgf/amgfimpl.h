@@ -97,6 +97,7 @@ PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
 PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
 /* inner.c */
+PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
 /* lag.c */
 PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);

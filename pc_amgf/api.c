@@ -85,6 +85,7 @@ static PetscErrorCode PCAMGFGetAMGAge_AMGF(PC pc, PetscInt *age)
 static PetscErrorCode PCAMGFGetAMGPC_AMGF(PC pc, PC *amg)
 {
   PetscFunctionBegin;
+  PetscCall(PCAMGFPrefixInner_Private(pc));
   *amg = ((PC_AMGF *)pc->data)->amg;
   PetscFunctionReturn(0);
 }
@@ -92,6 +93,7 @@ static PetscErrorCode PCAMGFGetAMGPC_AMGF(PC pc, PC *amg)
 static PetscErrorCode PCAMGFGetFilterKSP_AMGF(PC pc, KSP *ksp)
 {
   PetscFunctionBegin;
+  PetscCall(PCAMGFPrefixInner_Private(pc));
   *ksp = ((PC_AMGF *)pc->data)->filter;
   PetscFunctionReturn(0);
 }

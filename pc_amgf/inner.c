@@ -101,14 +101,10 @@ static PetscErrorCode InnerConfigureGAMG(PC amg)
 
 static PetscErrorCode InnerConfigureAMG(PC pc)
 {
-  PC          amg = ((PC_AMGF *)pc->data)->amg;
-  const char *prefix;
-  PCType      type;
+  PC     amg = ((PC_AMGF *)pc->data)->amg;
+  PCType type;
 
   PetscFunctionBegin;
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(PCSetOptionsPrefix(amg, prefix));
-  PetscCall(PCAppendOptionsPrefix(amg, "amgf_amg_"));
   PetscCall(PCGetType(amg, &type));
   if (type) PetscCall(PCSetFromOptions(amg));
   else if (PetscDefined(HAVE_HYPRE)) PetscCall(InnerConfigureBoomerAMG(pc, amg));
@@ -143,20 +139,33 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
 {
   KSP         filter = ((PC_AMGF *)pc->data)->filter;
   PC          inner;
-  const char *prefix;
   KSPType     ksptype;
   PCType      pctype;
 
   PetscFunctionBegin;
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(KSPSetOptionsPrefix(filter, prefix));
-  PetscCall(KSPAppendOptionsPrefix(filter, "amgf_filter_"));
   PetscCall(KSPGetType(filter, &ksptype));
   if (!ksptype) PetscCall(KSPSetType(filter, KSPPREONLY));
   PetscCall(KSPGetPC(filter, &inner));
   PetscCall(PCGetType(inner, &pctype));
   if (!pctype) PetscCall(InnerSetDirectSolver(inner));
   PetscCall(KSPSetFromOptions(filter));
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFPrefixInner_Private - gives the inner solvers their prefixes behind that of the preconditioner, which may change until the set-up
+*/
+PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
+{
+  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
+  const char *prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(PCSetOptionsPrefix(amgf->amg, prefix));
+  PetscCall(PCAppendOptionsPrefix(amgf->amg, "amgf_amg_"));
+  PetscCall(KSPSetOptionsPrefix(amgf->filter, prefix));
+  PetscCall(KSPAppendOptionsPrefix(amgf->filter, "amgf_filter_"));
   PetscFunctionReturn(0);
 }
 
@@ -169,6 +178,7 @@ PetscErrorCode PCAMGFConfigureInner_Private(PC pc)
 
   PetscFunctionBegin;
   if (amgf->configured) PetscFunctionReturn(0);
+  PetscCall(PCAMGFPrefixInner_Private(pc));
   PetscCall(InnerConfigureAMG(pc));
   PetscCall(InnerConfigureFilter(pc));
   amgf->configured = PETSC_TRUE;

@@ -36,8 +36,9 @@ say("the solver's error estimate bounds the difference in energy", difference <=
 
 tight = load("cylinder_tight")
 say("a smaller share is kept", tight["accuracy"]["reached"] and tight["steps"][-1]["algebraic_error"] <= 1e-6, tight["steps"][-1]["algebraic_error"])
-given = load("cylinder_given")["accuracy"]
+given, gatol = (load(name)["accuracy"] for name in ("cylinder_given", "cylinder_gatol"))
 say("a tolerance that was given stays, and what it costs is said", not given["reached"] and "the solver leaves" in given["end"], given["end"])
+say("by either name, and it is the one that is told", given["tolerance"] == gatol["tolerance"] == 1e-2 and gatol["levels"][-1]["algebraic"] > 1e-6, (given, gatol))
 small = load("cylinder_small")["accuracy"]
 say("a target out of reach is said", not small["reached"] and "-accuracy_max_dofs" in small["end"] and small["levels"][-1]["dofs"] <= 20000, small["end"])
 

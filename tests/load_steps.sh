@@ -27,3 +27,7 @@ done
 "$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 && cp good_0001.h5 before.h5
 "$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 -tao_max_it 2 2> err
 echo "failed step: exit $?, $(grep -c 'contact: load step 1 failed: iteration limit 2 reached' err) sentence, old file intact: $(cmp -s good_0001.h5 before.h5 && echo yes || echo no)"
+# -summary through a link: what it leads to stays until there is a new one
+echo kept > target.json && ln -sf target.json link.json
+"$contact" bar.yaml -quiet -summary link.json -accuracy 2 2> err
+echo "failed run, summary through a link: exit $?, old file $(cat target.json)"

@@ -72,7 +72,7 @@ static PetscErrorCode SetStress(DM dm, PetscReal stress[])
 }
 
 /* Rows at the owned vertices of the upper body's lower face; at those with y = 0 a second row */
-static PetscErrorCode SetContact(DM dm, OutputState *state, PetscInt rows[], PetscReal pressure[], PetscReal gap[])
+static PetscErrorCode SetContact(DM dm, StepState *state, PetscInt rows[], PetscReal pressure[], PetscReal gap[])
 {
   IS              is;
   PetscSection    global;
@@ -118,10 +118,11 @@ static PetscErrorCode FillDisk(void)
 
 static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
 {
-  Vec         u;
-  PetscInt    cstart, cend, vstart, vend, *rows;
-  PetscReal  *stress, *pressure, *gap;
-  OutputState state;
+  Vec        u;
+  PetscInt   cstart, cend, vstart, vend, *rows;
+  PetscReal *stress, *pressure, *gap;
+  StepReport report = {.step = 0};
+  StepState  state  = {.report = &report};
 
   PetscFunctionBeginUser;
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
@@ -132,11 +133,11 @@ static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
   PetscCall(SetContact(dm, &state, rows, pressure, gap));
   for (PetscInt step = 1; step <= 2; ++step) {
     if (full && step == 2) PetscCall(FillDisk());
-    state.step         = step;
-    state.time         = 0.5 * (PetscReal)step;
+    report.step        = step;
+    report.load        = 0.5 * (PetscReal)step;
     state.displacement = u;
     state.stress       = stress;
-    PetscCall(SetDisplacement(dm, state.time, u));
+    PetscCall(SetDisplacement(dm, report.load, u));
     PetscCall(OutputWrite(output, &state));
   }
   PetscCall(PetscFree4(stress, rows, pressure, gap));

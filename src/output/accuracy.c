@@ -30,14 +30,8 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nAccuracy %g asked for, of which the solver may leave %g\n", (double)acc->target, (double)(acc->share * acc->target)));
   if (acc->contact) PetscCall(PetscViewerASCIIPrintf(viewer, "  optimizer's tolerance %g, at most %" PetscInt_FMT " linearizations of the gap, until it changes by less than %g\n", (double)acc->tolerance, acc->updates, (double)acc->update_tolerance));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%8s %10s %10s %10s %12s %12s %10s\n", "refine", "unknowns", "recovery", "change", "mesh error", "solver error", "time [s]"));
-  for (PetscInt l = 0; l < acc->nlevels; ++l) {
-    const AccuracyLevel *level = &acc->levels[l];
-    char                 change[16];
-
-    PetscCall(PetscSNPrintf(change, sizeof(change), level->coarser ? "%.2e" : "-", (double)level->change));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%8" PetscInt_FMT " %10" PetscInt_FMT " %10.2e %10s %12.2e %12.2e %10.3f\n", level->refine, level->dofs, (double)level->recovery, change, (double)level->error, (double)level->algebraic, level->time));
-  }
+  PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));
+  PetscCall(TableViewRows(report, TABLE_LEVELS, &SchemaLevels, acc->nlevels, acc->levels, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %s\n", acc->end));
   PetscFunctionReturn(0);
 }

@@ -3,7 +3,7 @@
 #include <mesh.h>
 #include <math.h>
 
-static PetscErrorCode FieldCreate(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
+static PetscErrorCode FieldsCreateVec(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
 {
   PetscFunctionBegin;
   PetscCall(VecCreate(output->comm, field));
@@ -14,7 +14,7 @@ static PetscErrorCode FieldCreate(Output output, const char name[], PetscInt n, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldWrite(Vec *field, PetscViewer viewer)
+static PetscErrorCode FieldsWriteVec(Vec *field, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(VecView(*field, viewer));
@@ -23,7 +23,7 @@ static PetscErrorCode FieldWrite(Vec *field, PetscViewer viewer)
 }
 
 /* Number of a local vertex among all, whoever owns it */
-static PetscErrorCode GlobalVertex(PetscSection global, PetscInt point, PetscInt *number)
+static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, PetscInt *number)
 {
   PetscInt offset;
 
@@ -33,7 +33,7 @@ static PetscErrorCode GlobalVertex(PetscSection global, PetscInt point, PetscInt
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteVertices(Output output, PetscViewer viewer)
+static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
 {
   PetscSection       global, csection;
   Vec                coordinates, field;
@@ -46,7 +46,7 @@ static PetscErrorCode WriteVertices(Output output, PetscViewer viewer)
   PetscCall(DMGetCoordinateSection(output->dm, &csection));
   PetscCall(DMGetCoordinatesLocal(output->dm, &coordinates));
   PetscCall(DMPlexGetDepthStratum(output->dm, 0, &vstart, &vend));
-  PetscCall(FieldCreate(output, "vertices", output->nowned, 3, &field));
+  PetscCall(FieldsCreateVec(output, "vertices", output->nowned, 3, &field));
   PetscCall(VecGetArrayRead(coordinates, &x));
   PetscCall(VecGetArray(field, &values));
   for (PetscInt v = vstart; v < vend; ++v) {
@@ -54,18 +54,18 @@ static PetscErrorCode WriteVertices(Output output, PetscViewer viewer)
 
     PetscCall(PetscSectionGetOffset(global, v, &offset));
     if (offset < 0) continue;
-    PetscCall(GlobalVertex(global, v, &number));
+    PetscCall(FieldsGetVertex(global, v, &number));
     PetscCall(PetscSectionGetOffset(csection, v, &from));
     for (PetscInt d = 0; d < 3; ++d) values[3 * (number - output->first) + d] = x[from + d];
   }
   PetscCall(VecRestoreArray(field, &values));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCall(FieldWrite(&field, viewer));
+  PetscCall(FieldsWriteVec(&field, viewer));
   PetscFunctionReturn(0);
 }
 
 /* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices */
-static PetscErrorCode WriteIndices(Output output, const char name[], PetscInt components, PetscInt *indices, PetscViewer viewer)
+static PetscErrorCode FieldsWriteIndices(Output output, const char name[], PetscInt components, PetscInt *indices, PetscViewer viewer)
 {
   IS          is;
   PetscLayout layout;
@@ -80,7 +80,7 @@ static PetscErrorCode WriteIndices(Output output, const char name[], PetscInt co
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteCells(Output output, PetscViewer viewer)
+static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
 {
   static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6}; /* of the tensor order: around the bottom, around the top */
   PetscSection          global;
@@ -95,19 +95,19 @@ static PetscErrorCode WriteCells(Output output, PetscViewer viewer)
   PetscCall(PetscMalloc1(cend - cstart, &bodies));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscCall(MeshGetCellVertices(output->dm, c, vertices));
-    for (PetscInt i = 0; i < 8; ++i) PetscCall(GlobalVertex(global, vertices[vtk[i]], &cells[8 * (c - cstart) + i]));
+    for (PetscInt i = 0; i < 8; ++i) PetscCall(FieldsGetVertex(global, vertices[vtk[i]], &cells[8 * (c - cstart) + i]));
     PetscCall(DMLabelGetValue(label, c, &bodies[c - cstart]));
   }
-  PetscCall(WriteIndices(output, "cells", 8, cells, viewer));
-  PetscCall(WriteIndices(output, "body", 1, bodies, viewer));
+  PetscCall(FieldsWriteIndices(output, "cells", 8, cells, viewer));
+  PetscCall(FieldsWriteIndices(output, "body", 1, bodies, viewer));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteMesh(PetscViewer viewer, void *ctx)
+static PetscErrorCode FieldsWriteMesh(PetscViewer viewer, void *ctx)
 {
   PetscFunctionBegin;
-  PetscCall(WriteVertices((Output)ctx, viewer));
-  PetscCall(WriteCells((Output)ctx, viewer));
+  PetscCall(FieldsWriteVertices((Output)ctx, viewer));
+  PetscCall(FieldsWriteCells((Output)ctx, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -117,31 +117,31 @@ PetscErrorCode OutputWriteMesh(Output output)
 
   PetscFunctionBegin;
   PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, WriteMesh, output));
+  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteMesh, output));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteDisplacement(Output output, Vec displacement, PetscViewer viewer)
+static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, PetscViewer viewer)
 {
   Vec field;
 
   PetscFunctionBegin;
   /* A plain vector: those of a DMPlex are viewed in PETSc's own file layout */
-  PetscCall(FieldCreate(output, "displacement", output->nowned, 3, &field));
+  PetscCall(FieldsCreateVec(output, "displacement", output->nowned, 3, &field));
   PetscCall(VecCopy(displacement, field));
-  PetscCall(FieldWrite(&field, viewer));
+  PetscCall(FieldsWriteVec(&field, viewer));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteStress(Output output, const PetscReal stress[], PetscViewer viewer)
+static PetscErrorCode FieldsWriteStress(Output output, const PetscReal stress[], PetscViewer viewer)
 {
   static const PetscInt xdmf[6] = {0, 3, 5, 1, 4, 2}; /* xx xy xz yy yz zz of xx yy zz xy yz zx */
   Vec                   tensor, scalar;
   PetscScalar          *t, *s;
 
   PetscFunctionBegin;
-  PetscCall(FieldCreate(output, "stress", output->ncellslocal, 6, &tensor));
-  PetscCall(FieldCreate(output, "von_mises", output->ncellslocal, 1, &scalar));
+  PetscCall(FieldsCreateVec(output, "stress", output->ncellslocal, 6, &tensor));
+  PetscCall(FieldsCreateVec(output, "von_mises", output->ncellslocal, 1, &scalar));
   PetscCall(VecGetArray(tensor, &t));
   PetscCall(VecGetArray(scalar, &s));
   for (PetscInt c = 0; c < output->ncellslocal; ++c) {
@@ -150,12 +150,12 @@ static PetscErrorCode WriteStress(Output output, const PetscReal stress[], Petsc
   }
   PetscCall(VecRestoreArray(scalar, &s));
   PetscCall(VecRestoreArray(tensor, &t));
-  PetscCall(FieldWrite(&tensor, viewer));
-  PetscCall(FieldWrite(&scalar, viewer));
+  PetscCall(FieldsWriteVec(&tensor, viewer));
+  PetscCall(FieldsWriteVec(&scalar, viewer));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteContact(Output output, const OutputState *state, PetscViewer viewer)
+static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, PetscViewer viewer)
 {
   PetscSection global;
   Vec          pressure, gap;
@@ -163,8 +163,8 @@ static PetscErrorCode WriteContact(Output output, const OutputState *state, Pets
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
-  PetscCall(FieldCreate(output, "contact_pressure", output->nowned, 1, &pressure));
-  PetscCall(FieldCreate(output, "contact_gap", output->nowned, 1, &gap));
+  PetscCall(FieldsCreateVec(output, "contact_pressure", output->nowned, 1, &pressure));
+  PetscCall(FieldsCreateVec(output, "contact_gap", output->nowned, 1, &gap));
   PetscCall(VecSet(pressure, 0.0));
   PetscCall(VecGetArray(pressure, &p));
   PetscCall(VecGetArray(gap, &g));
@@ -172,7 +172,7 @@ static PetscErrorCode WriteContact(Output output, const OutputState *state, Pets
   for (PetscInt r = 0; r < state->nrows; ++r) {
     PetscInt v = 0;
 
-    PetscCall(GlobalVertex(global, state->row_vertex[r], &v));
+    PetscCall(FieldsGetVertex(global, state->row_vertex[r], &v));
     v -= output->first;
     PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact row %" PetscInt_FMT " is at a vertex of another rank", r);
     p[v] += state->pressure[r];
@@ -180,36 +180,37 @@ static PetscErrorCode WriteContact(Output output, const OutputState *state, Pets
   }
   PetscCall(VecRestoreArray(gap, &g));
   PetscCall(VecRestoreArray(pressure, &p));
-  PetscCall(FieldWrite(&pressure, viewer));
-  PetscCall(FieldWrite(&gap, viewer));
+  PetscCall(FieldsWriteVec(&pressure, viewer));
+  PetscCall(FieldsWriteVec(&gap, viewer));
   PetscFunctionReturn(0);
 }
 
 typedef struct {
-  Output             output;
-  const OutputState *state;
-} StateOf;
+  Output           output;
+  const StepState *state;
+} FieldsState;
 
-static PetscErrorCode WriteState(PetscViewer viewer, void *ctx)
+static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
 {
-  Output             output = ((StateOf *)ctx)->output;
-  const OutputState *state  = ((StateOf *)ctx)->state;
+  Output           output = ((FieldsState *)ctx)->output;
+  const StepState *state  = ((FieldsState *)ctx)->state;
+  const PetscReal  time   = state->report->load;
 
   PetscFunctionBegin;
-  PetscCall(WriteDisplacement(output, state->displacement, viewer));
-  PetscCall(WriteStress(output, state->stress, viewer));
-  PetscCall(WriteContact(output, state, viewer));
-  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &state->time));
+  PetscCall(FieldsWriteDisplacement(output, state->displacement, viewer));
+  PetscCall(FieldsWriteStress(output, state->stress, viewer));
+  PetscCall(FieldsWriteContact(output, state, viewer));
+  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &time));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OutputWriteFields(Output output, const OutputState *state)
+PetscErrorCode OutputWriteFields(Output output, const StepState *state)
 {
   char    file[PETSC_MAX_PATH_LEN];
-  StateOf what = {output, state};
+  FieldsState what = {output, state};
 
   PetscFunctionBegin;
-  PetscCall(OutputGetStepFile(output, state->step, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, WriteState, &what));
+  PetscCall(OutputGetStepFile(output, state->report->step, file, sizeof(file)));
+  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteState, &what));
   PetscFunctionReturn(0);
 }

@@ -6,13 +6,13 @@
 #include <sys/stat.h>
 
 /* The file that is written and then renamed: another one, but for links and devices, whose place no file may take */
-static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length, PetscBool *other)
+static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length, PetscBool *renamed)
 {
   struct stat status;
 
   PetscFunctionBegin;
-  *other = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(PetscSNPrintf(part, length, "%s%s", file, *other ? ".part" : ""));
+  *renamed = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(PetscSNPrintf(part, length, "%s%s", file, *renamed ? ".part" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -32,7 +32,7 @@ static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], int error)
 
    Input Parameters:
 +  comm - the communicator; its first rank writes
--  file - the file; it is not touched, a neighbour FILE.part is made and removed
+-  file - the file; it is not touched, a neighbour FILE.part is made and removed, unless it is a link or a device
 
    Level: intermediate
 
@@ -44,17 +44,17 @@ PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscBool   other;
+  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    FILE *stream = fopen(part, "wb");
+    FILE *stream = fopen(part, renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
 
     if (!stream) error = errno;
-    else if (fclose(stream) || (other && remove(part))) error = errno;
+    else if (fclose(stream) || (renamed && remove(part))) error = errno;
   }
   PetscCall(FileRaise(comm, file, error));
   PetscFunctionReturn(0);
@@ -64,44 +64,43 @@ static PetscErrorCode FileCommit(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscBool   other;
+  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && other && rename(part, file)) error = errno;
+  if (rank == 0 && renamed && rename(part, file)) error = errno;
   PetscCall(FileRaise(comm, file, error));
   PetscFunctionReturn(0);
 }
 
-static char complaint[256];
+#define FILE_COMPLAINT_LENGTH 256
 
-static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
 {
-  (void)comm, (void)line, (void)function, (void)file, (void)ctx;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(complaint, message, sizeof(complaint));
+  (void)comm, (void)line, (void)function, (void)file;
+  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy((char *)ctx, message, FILE_COMPLAINT_LENGTH);
   return n;
 }
 
 PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
 {
-  char           part[PETSC_MAX_PATH_LEN];
+  char           part[PETSC_MAX_PATH_LEN], complaint[FILE_COMPLAINT_LENGTH] = "";
   PetscViewer    viewer;
-  PetscBool      other;
+  PetscBool      renamed;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(OutputCheckWritable(comm, file));
-  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
-  complaint[0] = 0;
-  PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
+  PetscCall(PetscPushErrorHandler(FileKeepComplaint, complaint));
   ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
   PetscCall(PetscPopErrorHandler());
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
-  if (ierr && other) (void)remove(part);
+  if (ierr && renamed) (void)remove(part);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
   PetscCall(FileCommit(comm, file));
   PetscFunctionReturn(0);
@@ -111,11 +110,11 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscBool   other;
+  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &other));
+  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
     FILE *stream = fopen(part, "w");
@@ -126,7 +125,7 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
       PetscCall(fill(stream, ctx));
       if (fflush(stream) || ferror(stream)) error = errno ? errno : EIO;
       if (fclose(stream) && !error) error = errno;
-      if (error && other) (void)remove(part);
+      if (error && renamed) (void)remove(part);
     }
   }
   PetscCall(FileRaise(comm, file, error));

@@ -86,7 +86,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
 
 .seealso: `OutputCreate()`, `OutputDestroy()`
 @*/
-PetscErrorCode OutputWrite(Output output, const OutputState *state)
+PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
   PetscFunctionBegin;
   PetscCall(OutputWriteFields(output, state));
@@ -94,8 +94,8 @@ PetscErrorCode OutputWrite(Output output, const OutputState *state)
     output->maxsteps = 2 * output->maxsteps + 8;
     PetscCall(PetscRealloc(output->maxsteps * sizeof(*output->steps), &output->steps));
   }
-  output->steps[output->nsteps].step = state->step;
-  output->steps[output->nsteps].time = state->time;
+  output->steps[output->nsteps].step = state->report->step;
+  output->steps[output->nsteps].time = state->report->load;
   output->nsteps++;
   PetscCall(OutputWriteXDMF(output));
   PetscFunctionReturn(0);

@@ -1,8 +1,21 @@
+/*
+   The map of src/output: its files in the order in which they build on one another, each with what it offers to those below it. The
+   fields of bodies and surfaces go to HDF5 (output.c), the report of a run to JSON and to the terminal (json.c, view.c).
+*/
 #ifndef OUTPUTIMPL_H
 #define OUTPUTIMPL_H
 
 #include <output.h>
 #include <petscviewerhdf5.h>
+
+/*
+   file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
+   names the file.
+*/
+/* Every rank writes into the open viewer */
+PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
+/* On the first rank fill() writes the stream; the others wait for the outcome */
+PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 
 /* A step that has been written */
 typedef struct {
@@ -22,19 +35,102 @@ struct _n_Output {
   OutputStep *steps;
 };
 
-/*
-   A file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
-   names the file.
-*/
-/* Every rank writes into the open viewer */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
-/* On the first rank fill() writes the stream; the others wait for the outcome */
-PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
-
+/* names.c */
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
+
+/* fields.c */
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
-PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const OutputState *);
+PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
+
+/* xdmf.c */
 PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
+
+/* output.c, on top of these, has no more than what output.h offers */
+
+/* schema.c */
+
+/* How a member of a report is stored */
+typedef enum {
+  FIELD_INT,        /* PetscInt */
+  FIELD_REAL,       /* PetscReal */
+  FIELD_DOUBLE,     /* PetscLogDouble */
+  FIELD_BOOL,       /* PetscBool */
+  FIELD_TEXT,       /* const char * */
+  FIELD_CHARS,      /* char[] */
+  FIELD_VECTOR,     /* PetscReal[3] */
+  FIELD_INTS,       /* PetscInt *, counted */
+  FIELD_BODY_INTS,  /* PetscInt *, one a body */
+  FIELD_BODY_REALS, /* PetscReal *, one a body; NULL: not known */
+  FIELD_LIST,       /* an array of records, counted */
+  FIELD_RECORD,
+  FIELD_POINTER     /* to a record; NULL: there is none */
+} ReportType;
+
+/* The tables for people. TABLE_EVERY: all those of load steps; the fallbacks make a sentence, the phases a row each */
+typedef enum {
+  TABLE_NONE,
+  TABLE_EVERY,
+  TABLE_WORK,
+  TABLE_FORCES,
+  TABLE_TRUTH,
+  TABLE_FALLBACKS,
+  TABLE_ERRORS,
+  TABLE_LEVELS,
+  TABLE_PHASES,
+  TABLE_EFFECTS
+} ReportTable;
+
+/* What a column shows of its field */
+typedef enum {
+  SHOWN_VALUE,
+  SHOWN_SUM, /* of FIELD_INTS */
+  SHOWN_MEAN,
+  SHOWN_SQUARE,
+  SHOWN_PERCENT,
+  SHOWN_SHARE /* of the total time, in per cent */
+} ReportShown;
+
+typedef struct {
+  ReportTable table;
+  const char *head[2];   /* one above the other */
+  int         width;     /* in characters; negative: to the left; 0: as wide as what it says */
+  int         blanks;    /* before it, beyond the one that every column has */
+  const char *format;    /* of a double, NULL: that of its type; of a FIELD_BOOL the word that says it is true */
+  ReportShown shown;
+  PetscBool   with_unit; /* in the heading */
+  PetscBool   behind;    /* printed behind the other columns of its table */
+} ReportColumn;
+
+typedef struct _n_ReportRecord ReportRecord;
+
+typedef struct {
+  const char         *name; /* its key; NULL ends a list of fields */
+  const char         *unit; /* in the scene's own units of force and length, seconds, bytes; "": a number */
+  ReportType          type;
+  size_t              offset, count;
+  const ReportRecord *record;     /* of a list or a record */
+  const char         *absent;     /* what a table says for NaN, or for false; "": nothing at all; NULL: the number */
+  ReportColumn        columns[2]; /* in the tables; the summary has every field */
+} ReportField;
+
+struct _n_ReportRecord {
+  size_t             size;
+  PetscBool          one_line; /* of the summary */
+  const ReportField *fields;
+};
+
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
+PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
+PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
+PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);
+PETSC_INTERN PetscInt    SchemaCount(const ReportField *, const void *record);
+
+/* table.c */
+PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const ReportRecord *, PetscInt line, PetscViewer);
+PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const ReportRecord *, PetscInt n, const void *records, PetscViewer);
+PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record, char text[], size_t length);
+
+/* json.c, accuracy.c, view.c have no more than what output.h offers */
 
 #endif

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Files stand in one folder, so the XDMF file names them without */
-static const char *WithoutFolder(const char path[])
+static const char *XDMFFileName(const char path[])
 {
   const char *slash = strrchr(path, '/');
 
@@ -11,7 +11,7 @@ static const char *WithoutFolder(const char path[])
 }
 
 /* Text of an XML attribute or element */
-static void WriteEscaped(FILE *stream, const char text[])
+static void XDMFWriteEscaped(FILE *stream, const char text[])
 {
   for (const char *c = text; *c; ++c) {
     if (*c == '&') fputs("&amp;", stream);
@@ -22,34 +22,34 @@ static void WriteEscaped(FILE *stream, const char text[])
   }
 }
 
-static void WriteDataItem(FILE *stream, const char file[], const char dataset[], PetscBool integer, PetscInt n, PetscInt components)
+static void XDMFWriteDataItem(FILE *stream, const char file[], const char dataset[], PetscBool integer, PetscInt n, PetscInt components)
 {
   fprintf(stream, "          <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%" PetscInt_FMT, integer ? "Int" : "Float", integer ? (int)sizeof(PetscInt) : (int)sizeof(PetscReal), n);
   /* PETSc stores index sets with a second dimension, vectors of scalars without */
   if (integer || components > 1) fprintf(stream, " %" PetscInt_FMT, components);
   fputs("\">", stream);
-  WriteEscaped(stream, WithoutFolder(file));
+  XDMFWriteEscaped(stream, XDMFFileName(file));
   fprintf(stream, ":/%s</DataItem>\n", dataset);
 }
 
-static void WriteAttribute(FILE *stream, const char file[], const char name[], const char type[], const char center[], PetscBool integer, PetscInt n, PetscInt components)
+static void XDMFWriteAttribute(FILE *stream, const char file[], const char name[], const char type[], const char center[], PetscBool integer, PetscInt n, PetscInt components)
 {
   fprintf(stream, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", name, type, center);
-  WriteDataItem(stream, file, name, integer, n, components);
+  XDMFWriteDataItem(stream, file, name, integer, n, components);
   fputs("        </Attribute>\n", stream);
 }
 
-static void WriteMeshGrid(FILE *stream, Output output, const char file[])
+static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
 {
   fprintf(stream, "        <Topology TopologyType=\"Hexahedron\" NumberOfElements=\"%" PetscInt_FMT "\">\n", output->ncells);
-  WriteDataItem(stream, file, "cells", PETSC_TRUE, output->ncells, 8);
+  XDMFWriteDataItem(stream, file, "cells", PETSC_TRUE, output->ncells, 8);
   fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
-  WriteDataItem(stream, file, "vertices", PETSC_FALSE, output->nvertices, 3);
+  XDMFWriteDataItem(stream, file, "vertices", PETSC_FALSE, output->nvertices, 3);
   fputs("        </Geometry>\n", stream);
-  WriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
+  XDMFWriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
 }
 
-static PetscErrorCode WriteDocument(FILE *stream, const void *ctx)
+static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
 {
   Output output = (Output)ctx;
   char   mesh[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN];
@@ -59,19 +59,19 @@ static PetscErrorCode WriteDocument(FILE *stream, const void *ctx)
   fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n", stream);
   for (PetscInt b = 0; b < output->nbodies; ++b) {
     fprintf(stream, "    <Information Name=\"body %" PetscInt_FMT "\" Value=\"", b);
-    WriteEscaped(stream, output->bodynames[b]);
+    XDMFWriteEscaped(stream, output->bodynames[b]);
     fputs("\"/>\n", stream);
   }
   fputs("    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
   for (PetscInt s = 0; s < output->nsteps; ++s) {
     PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
     fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", output->steps[s].step, (double)output->steps[s].time);
-    WriteMeshGrid(stream, output, mesh);
-    WriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
-    WriteAttribute(stream, file, "contact_pressure", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
-    WriteAttribute(stream, file, "contact_gap", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
-    WriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
-    WriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    XDMFWriteMeshGrid(stream, output, mesh);
+    XDMFWriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
+    XDMFWriteAttribute(stream, file, "contact_pressure", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+    XDMFWriteAttribute(stream, file, "contact_gap", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+    XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
+    XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
     fputs("      </Grid>\n", stream);
   }
   fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream);
@@ -84,6 +84,6 @@ PetscErrorCode OutputWriteXDMF(Output output)
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(file, sizeof(file), "%s.xmf", output->base));
-  PetscCall(FileWriteText(output->comm, file, WriteDocument, output));
+  PetscCall(FileWriteText(output->comm, file, XDMFWriteDocument, output));
   PetscFunctionReturn(0);
 }

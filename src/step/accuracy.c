@@ -1,5 +1,6 @@
 /* As accurate as asked and no more: which tolerances, and which mesh. */
 #include <accuracy.h>
+#include <math.h>
 
 #define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_UPDATES 20
@@ -27,7 +28,7 @@
 @*/
 PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
 {
-  PetscReal most = 1e6;
+  PetscReal max_dofs = 1e6;
   PetscBool set, estimate = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -36,29 +37,16 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
   PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
   PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", most, &most, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
   PetscOptionsEnd();
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
   PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
-  PetscCheck(most > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)most);
+  PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
   PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
-  acc->most_dofs = (PetscInt)PetscMin(most, (PetscReal)PETSC_MAX_INT);
-  acc->tolerance = ACCURACY_MARGIN * acc->share * acc->target;
+  acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
+  acc->tolerance        = ACCURACY_MARGIN * acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
-  PetscFunctionReturn(0);
-}
-
-/* *given: the user has, and that stays */
-static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBool *given)
-{
-  char text[32];
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, given));
-  if (*given) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%g", (double)value));
-  PetscCall(PetscOptionsSetValue(NULL, name, text));
   PetscFunctionReturn(0);
 }
 
@@ -71,35 +59,38 @@ static PetscErrorCode SetUnlessGiven(const char name[], PetscReal value, PetscBo
 +  acc   - what is asked for
 -  scene - the scene; its contact_updates is raised, unless -contact_updates was given
 
+   Input/Output Parameter:
+.  tolerances - those of the run; they stay where no accuracy is asked for
+
    Level: developer
 
    Notes:
    The gap is linearized until it is true, so that load steps of any size end in the same state. The optimizer's tolerance
-   starts at half of share x target and is tightened where that left too much. Tolerances are set as PETSc options (-accuracy_view
-   shows them); those that the user has given stay.
+   starts at half of share x target and is tightened where that left too much. An option of the user's wins over a tolerance, as
+   over any other of a simulation; `AccuracyAssess()` learns of it after the run.
 
-.seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`
+.seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
-PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene)
+PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *tolerances)
 {
-  const char *const solver = scene->npairs ? "-tao_ipfilter_tol" : "-elasticity_ksp_rtol";
-  PetscBool         set;
+  PetscBool given;
 
   PetscFunctionBegin;
   if (acc->target == 0.0) PetscFunctionReturn(0);
-  if (acc->nlevels && !acc->given) PetscCall(PetscOptionsClearValue(NULL, solver));
-  PetscCall(SetUnlessGiven(solver, acc->tolerance, &acc->given));
   acc->contact = (PetscBool)(scene->npairs > 0);
-  if (acc->nlevels || !acc->contact) PetscFunctionReturn(0);
-  PetscCall(SetUnlessGiven("-contact_update_tol", acc->update_tolerance, &set));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-contact_updates", &set));
-  if (!set) scene->contact_updates = PetscMax(scene->contact_updates, ACCURACY_UPDATES);
-  acc->updates = scene->contact_updates;
+  if (!acc->contact) tolerances->linear = acc->tolerance;
+  else {
+    tolerances->optimizer  = acc->tolerance;
+    tolerances->gap_change = acc->update_tolerance;
+    PetscCall(PetscOptionsHasName(NULL, NULL, "-contact_updates", &given));
+    if (!given) scene->contact_updates = PetscMax(scene->contact_updates, ACCURACY_UPDATES);
+    acc->updates = scene->contact_updates;
+  }
   PetscFunctionReturn(0);
 }
 
 /* The largest difference of the load steps, relative to the largest value */
-static PetscReal LargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
+static PetscReal AccuracyLargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
 {
   PetscReal difference = 0.0, size = 0.0;
 
@@ -111,7 +102,7 @@ static PetscReal LargestChange(PetscInt n, const PetscReal now[], const PetscRea
 }
 
 /* The last run on a coarser mesh than the last run's, NULL if there is none */
-static const AccuracyLevel *Coarser(const Accuracy *acc)
+static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
 
@@ -124,20 +115,20 @@ static const AccuracyLevel *Coarser(const Accuracy *acc)
 /* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
    than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
    the recovered error stands */
-static void AssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
+static void AccuracyAssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
 {
   PetscReal ratio;
 
-  now->error   = now->recovery;
-  now->coarser = (PetscBool)(before != NULL);
+  now->error  = now->recovery;
+  now->change = NAN;
   if (!before) return;
-  now->change = PetscMax(LargestChange(nsteps, now->energy, before->energy), LargestChange(nsteps, now->force, before->force));
+  now->change = PetscMax(AccuracyLargestChange(nsteps, now->energy, before->energy), AccuracyLargestChange(nsteps, now->force, before->force));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
   ratio       = PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
 }
 
-static PetscErrorCode RecordLevel(Accuracy *acc, const RunReport *report)
+static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report)
 {
   AccuracyLevel *level;
   PetscReal      largest = 0.0;
@@ -165,26 +156,36 @@ static PetscErrorCode RecordLevel(Accuracy *acc, const RunReport *report)
     level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
     level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
   }
-  AssessMesh(level, Coarser(acc), report->nsteps);
+  AccuracyAssessMesh(level, AccuracyCoarser(acc), report->nsteps);
   PetscFunctionReturn(0);
 }
 
 /* Refined once more, unless the error is within a factor 2 of the target or the unknowns do not allow it */
-static PetscErrorCode DecideOnMesh(Accuracy *acc, PetscBool *refine)
+static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];
   const PetscReal      next = 8.0 * (PetscReal)now->dofs;
 
   PetscFunctionBegin;
   acc->reached = (PetscBool)(now->error <= 2.0 * acc->target);
-  *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->most_dofs);
+  *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->max_dofs);
   if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
-  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->most_dofs));
+  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 
+/* What an option of the user's has made of the plan */
+static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
+{
+  const PetscReal solver = acc->contact ? used->optimizer : used->linear;
+
+  acc->given            = (PetscBool)(solver != acc->tolerance);
+  acc->tolerance        = solver;
+  acc->update_tolerance = used->gap_change;
+}
+
 /* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
-static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
+static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
   const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
   const PetscReal      allowed = acc->share * acc->target;
@@ -209,9 +210,10 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
    Collective
 
    Input Parameters:
-+  acc    - what is asked for
-.  report - the run's
--  scene  - the scene; its refinement becomes that of the next run
++  acc        - what is asked for
+.  tolerances - those that the run had
+.  report     - the run's
+-  scene      - the scene; its refinement becomes that of the next run
 
    Output Parameter:
 .  again - whether the scene is to be run again
@@ -225,20 +227,22 @@ static PetscErrorCode DecideOnTolerance(Accuracy *acc, PetscBool *tighten)
    factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much, so that all the coarser meshes together
    cost a seventh of the last.
 
-   Where the solver left more than its share, its tolerance is tightened; on the finest mesh the run is repeated with it.
+   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
+   repeated with it.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/
-PetscErrorCode AccuracyAssess(Accuracy *acc, const RunReport *report, Scene scene, PetscBool *again)
+PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene, PetscBool *again)
 {
   PetscBool refine, tighten;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (acc->target == 0.0) PetscFunctionReturn(0);
-  PetscCall(RecordLevel(acc, report));
-  PetscCall(DecideOnMesh(acc, &refine));
-  PetscCall(DecideOnTolerance(acc, &tighten));
+  AccuracyAdopt(acc, tolerances);
+  PetscCall(AccuracyRecord(acc, report));
+  PetscCall(AccuracyDecideOnMesh(acc, &refine));
+  PetscCall(AccuracyDecideOnTolerance(acc, &tighten));
   if (refine) ++scene->refine;
   *again = (PetscBool)(refine || tighten);
   PetscFunctionReturn(0);

@@ -2,7 +2,7 @@
 #include "stepimpl.h"
 #include <math.h>
 
-static PetscErrorCode LinearizeGap(Simulation sim, Vec u, ContactLinearization *lin)
+static PetscErrorCode AttemptLinearizeGap(Simulation sim, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
   *lin = NULL;
@@ -18,9 +18,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
-  else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(SolveLinear(p, u, report));
-  else if (p->sim->penalty > 0.0 && p->J) PetscCall(SolvePenalty(p, resume, u, report, sol));
-  else PetscCall(SolveTao(p, resume, u, report, sol));
+  else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, u, report));
+  else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, resume, u, report, sol));
+  else PetscCall(OptimizerSolve(p, resume, u, report, sol));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -37,7 +37,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true = (PetscBool)(report->gap_change <= sim->update_tol * size);
+  *is_true = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
   PetscFunctionReturn(0);
 }
 
@@ -52,7 +52,7 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
 }
 
 /* Negative; 0 where nothing is penetrated, or nothing can be */
-static PetscErrorCode DeepestGap(Vec gap, PetscReal *deepest)
+static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 {
   PetscReal least = 0.0;
   PetscInt  nrows;
@@ -72,7 +72,7 @@ static PetscErrorCode DeepestGap(Vec gap, PetscReal *deepest)
 static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
 {
   ContactLinearization wide = NULL;
-  PetscReal            moved, least = 0.0, let;
+  PetscReal            moved, least = 0.0, allowed;
   Vec                  du, gap;
 
   PetscFunctionBegin;
@@ -81,14 +81,14 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
-    PetscCall(LinearizeGap(sim, u_linearized, &wide));
+    PetscCall(AttemptLinearizeGap(sim, u_linearized, &wide));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
-    PetscCall(DeepestGap(gap, &least));
-    PetscCall(DeepestGap(own, &let));
+    PetscCall(AttemptDeepestGap(gap, &least));
+    PetscCall(AttemptDeepestGap(own, &allowed));
     PetscCall(VecDestroy(&gap));
-    *missed = (PetscBool)(least < let - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
+    *missed = (PetscBool)(least < allowed - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
@@ -147,7 +147,7 @@ static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, C
     PetscCall(VecDestroy(&du));
     PetscCall(ContactGetReach(sim->contact, &distance, &depth));
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
-    PetscCall(LinearizeGap(sim, u, &deep));
+    PetscCall(AttemptLinearizeGap(sim, u, &deep));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
@@ -171,7 +171,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
     PetscCall(AttemptLinearized(p, (PetscBool)(k > 0), u_linearized, u, report, sol));
     if (!report->converged) break;
     ++report->contact_updates;
-    PetscCall(LinearizeGap(sim, u, at_u));
+    PetscCall(AttemptLinearizeGap(sim, u, at_u));
     PetscCall(AttemptFindLost(sim, u_linearized, u, *at_u, report, &slid));
     if (!report->converged) break;
     PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
@@ -222,7 +222,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   Vec                  u;
 
   PetscFunctionBegin;
-  if (sim->contact && !sim->upcoming) PetscCall(LinearizeGap(sim, sim->path.u, &sim->upcoming));
+  if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeGap(sim, sim->path.u, &sim->upcoming));
   if (sim->contact && sim->path.time == 0.0 && !report->cuts) PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(VecDuplicate(sim->path.u, &u));
@@ -234,7 +234,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   } else PetscCall(AttemptSolve(&p, PETSC_FALSE, u, report, &sol));
 
   if (report->converged) {
-    PetscCall(ReportForces(&p, u, &sol, report));
+    PetscCall(MeasureState(&p, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));

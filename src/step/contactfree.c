@@ -2,18 +2,18 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
-/* PCAMGF without a subspace is its AMG alone, so the solve takes its options from the optimizer's prefix */
+/* The optimizer's own, with its options: PCAMGF without a subspace is its AMG alone */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
-  PC  pc;
+  Tao tao;
   Mat K;
 
   PetscFunctionBegin;
-  PetscCall(KSPCreate(sim->comm, ksp));
-  PetscCall(KSPSetOptionsPrefix(*ksp, "tao_ipfilter_"));
-  PetscCall(KSPSetType(*ksp, KSPCG));
-  PetscCall(KSPGetPC(*ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(TaoCreate(sim->comm, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  PetscCall(TaoGetKSP(tao, ksp));
+  PetscCall(PetscObjectReference((PetscObject)*ksp));
+  PetscCall(TaoDestroy(&tao));
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));

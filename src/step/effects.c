@@ -1,5 +1,6 @@
 /* The effects of a scene: which are on, why, and what each costs. */
 #include "stepimpl.h"
+#include <math.h>
 
 typedef enum {
   EFFECT_CONTACT,
@@ -26,7 +27,7 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
   PetscFunctionBegin;
   effect->name = EffectNames[type];
   effect->on   = on;
-  effect->time = -1.0;
+  effect->time = NAN;
   va_start(args, format);
   PetscCall(PetscVSNPrintf(effect->why, sizeof(effect->why), format, NULL, args));
   va_end(args);

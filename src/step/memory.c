@@ -1,7 +1,7 @@
 /* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
 #include "stepimpl.h"
 
-static const PetscReal negligible = 1e-3; /* of the largest pressure */
+static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 
 PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
 {
@@ -85,7 +85,7 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
     const PetscInt  k   = ContactMemoryIndex(m, lin, i);
     const PetscReal gap = PetscRealPart(g[i]);
 
-    worst = PetscMax(worst, m->pressure[k] > negligible * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+    worst = PetscMax(worst, m->pressure[k] > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
   PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
@@ -103,7 +103,7 @@ PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearizatio
   *nlost = 0;
   PetscCall(ContactMemoryLargest(m, comm, &largest));
   PetscCall(PetscMalloc1(n, lost));
-  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible * largest);
+  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible_pressure * largest);
   for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactMemoryIndex(m, lin, i)] = PETSC_FALSE;
   for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));

@@ -56,7 +56,7 @@ static PetscErrorCode PenaltyStiffness(Mat J, Mat K, PetscReal factor, Vec stiff
 static PetscErrorCode PenaltyForce(Penalty *penalty, Vec u)
 {
   PetscFunctionBegin;
-  PetscCall(StepConstraint(NULL, u, penalty->c, penalty->p));
+  PetscCall(StepProblemConstraint(NULL, u, penalty->c, penalty->p));
   PetscCall(VecSet(penalty->force, 0.0));
   PetscCall(VecPointwiseMin(penalty->force, penalty->c, penalty->force));
   PetscCall(VecPointwiseMult(penalty->force, penalty->force, penalty->stiffness));
@@ -86,7 +86,7 @@ static PetscErrorCode PenaltyProduct(Penalty *penalty, Vec u)
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(StepConstraint(NULL, u, penalty->c, penalty->p));
+  PetscCall(StepProblemConstraint(NULL, u, penalty->c, penalty->p));
   PetscCall(VecCopy(penalty->c, penalty->force));
   PetscCall(VecGetLocalSize(penalty->c, &n));
   PetscCall(VecGetArray(penalty->force, &d));
@@ -223,9 +223,7 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
   Simulation sim = penalty->p->sim;
 
   PetscFunctionBegin;
-  PetscCall(ContactSolutionDestroy(sol));
-  PetscCall(VecDuplicate(penalty->c, &sol->gap));
-  PetscCall(VecDuplicate(penalty->c, &sol->pressure));
+  PetscCall(ContactSolutionCreate(penalty->c, sol));
   PetscCall(VecCopy(penalty->c, sol->gap));
   PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, sim->linearization->mass));
   PetscCall(ContactMemoryStore(&sim->memory, sim->linearization, sol, sol->gap));
@@ -233,7 +231,7 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
 }
 
 /* resume: start from u as it is */
-PetscErrorCode SolvePenalty(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
+PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   Penalty        penalty;
   SNES           snes;

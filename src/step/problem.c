@@ -91,7 +91,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode StepConstraint(Tao tao, Vec u, Vec c, void *ctx)
+PetscErrorCode StepProblemConstraint(Tao tao, Vec u, Vec c, void *ctx)
 {
   StepProblem *p = (StepProblem *)ctx;
 
@@ -103,7 +103,7 @@ PetscErrorCode StepConstraint(Tao tao, Vec u, Vec c, void *ctx)
 }
 
 /* A matrix that is assembled and does not change: its object state tells the optimizer so */
-PetscErrorCode StepConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
+PetscErrorCode StepProblemConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
 {
   PetscFunctionBegin;
   (void)tao, (void)u, (void)A, (void)Apre, (void)ctx;

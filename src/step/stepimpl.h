@@ -1,3 +1,8 @@
+/*
+   The map of src/step: its files in the order in which they build on one another, each with what it offers to those below it.
+   A load step is attempted (attempt.c) as an optimization problem (problem.c), solved by one of three solvers, measured, and kept
+   or cut (step.c).
+*/
 #ifndef STEPIMPL_H
 #define STEPIMPL_H
 
@@ -7,7 +12,24 @@
 #include <gap.h>
 #include <petscamgf.h>
 
-/* Prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
+/* events.c */
+PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
+PETSC_INTERN PetscErrorCode StepEventsRegister(void);
+PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
+PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);
+
+/* resident.c */
+PETSC_INTERN PetscErrorCode ResidentGet(MPI_Comm, PetscLogDouble *bytes);
+PETSC_INTERN PetscErrorCode ResidentGetPeak(MPI_Comm, PetscLogDouble *bytes);
+
+/* report.c */
+PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
+PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
+PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallbacks *);
+PETSC_INTERN PetscErrorCode ReportGetCounts(KSP, PCAMGFCounts *);
+PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
+
+/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
 typedef struct {
   PetscReal value; /* [length] */
   PetscInt  ramp;
@@ -20,27 +42,53 @@ typedef struct {
   PrescribedValue *values;
 } Prescribed;
 
-/* Dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has no load */
+PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, Prescribed *);
+PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
+PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
+PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
+
+/* loads.c: dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has no load */
 typedef struct {
   Scene scene;
   Vec  *force; /* nramps [force] */
 } DeadLoads;
 
-/* Pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
+PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
+PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
+PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
+
+/* solution.c: what a solve left behind, beside the displacement */
+typedef struct {
+  Vec pressure; /* one a row */
+  Vec gap;      /* linearized, one a row */
+} ContactSolution;
+
+PETSC_INTERN PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *);
+PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
+
+/* memory.c: pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
 typedef struct {
   PetscInt   npairs, vstart, vend;
   PetscReal *pressure, *slack; /* npairs x (vend - vstart); pressure 0 where no row was */
 } ContactMemory;
 
-/* The last two states of equilibrium; load step k ends at time k */
+PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
+PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
+PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
+PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost, PetscInt *nlost);
+PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization, PetscReal *least);
+PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
+
+/* path.c: the last two states of equilibrium; load step k ends at time k */
 typedef struct {
   PetscReal time, previous_time;
   Vec       u, previous_u;
   PetscReal largest_increment; /* of any component in any step so far [length] */
 } LoadPath;
 
-#define STEP_NEVENTS 8
-
+/* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
   Scene                scene;
@@ -58,19 +106,33 @@ struct _n_Simulation {
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;
-  PetscBool            warm;       /* later load steps start from the path and pressures of the last */
-  PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
-  PetscBool            estimate;   /* of the discretization error, at the end of every load step */
-  PetscInt             maxcuts;    /* of one load step */
+  StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
+  PetscBool            warm;        /* later load steps start from the path and pressures of the last */
+  PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
+  PetscBool            estimate;    /* of the discretization error, at the end of every load step */
+  PetscInt             maxcuts;     /* of one load step */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
-  PetscReal            update_tol; /* change of the gap that ends the updates, relative to the largest displacement */
   RunReport            report;
-  PetscLogDouble       start, events[STEP_NEVENTS]; /* when it began, and the times of PETSc's events then */
+  RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
 
+PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
+PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
+
+/* interrupt.c */
+PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
+PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
+PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
+
+/* stiffness.c */
+PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
+PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
+PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
+
 /*
-   min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
+   problem.c: min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
 
    base is the last state with the prescribed displacements of this time. The quadratic model of E about it is
    energy + force^T w + 1/2 w^T K w, w = u - base; w vanishes on prescribed rows.
@@ -89,46 +151,22 @@ typedef struct {
   Vec        w, Kw;
 } StepProblem;
 
-/* What a solve left behind, beside the displacement */
-typedef struct {
-  Vec pressure; /* one a row */
-  Vec gap;      /* linearized, one a row */
-} ContactSolution;
-
-PETSC_INTERN PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
-
-PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, Prescribed *);
-PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
-PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
-PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
-PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
-
-PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
-PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
-PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
-
-PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
-PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
-PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
-
-PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
-PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
-PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
-
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
-/* TAO callbacks, and TAO itself with them; the context is a StepProblem */
-PETSC_INTERN PetscErrorCode StepConstraint(Tao, Vec, Vec, void *);
-PETSC_INTERN PetscErrorCode StepConstant(Tao, Vec, Mat, Mat, void *);
+/* Callbacks of TAO, also in quadratic.c and energy.c; the context is a StepProblem */
+PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
+PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
+
+/* quadratic.c */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
+
+/* energy.c */
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
-
-#define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
 /* PETSC_INFINITY is a finite number to IEEE arithmetic, and so to PetscIsInfOrNanReal() */
 static inline PetscBool EnergyIsFinite(PetscReal energy)
@@ -136,32 +174,23 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
-PETSC_INTERN PetscErrorCode SolveLinear(StepProblem *, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode SolvePenalty(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
-PETSC_INTERN PetscErrorCode SolveTao(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
-PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
+/* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
+#define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
+PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+
+/* measure.c */
+PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
+
+/* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
-PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
-PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
-PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
-
-PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
-PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
-PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
-PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
-PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost, PetscInt *nlost);
-PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization, PetscReal *least);
-PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
-
-PETSC_INTERN PetscErrorCode ReportForces(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
-PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
-PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
-PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
-PETSC_INTERN PetscErrorCode ReportEventTimes(PetscLogDouble[STEP_NEVENTS]);
-PETSC_INTERN PetscErrorCode ReportResident(MPI_Comm, PetscLogDouble *bytes);
+/* effects.c */
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
+
+/* simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more than what step.h and accuracy.h offer */
 
 #endif

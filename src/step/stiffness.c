@@ -27,28 +27,30 @@ PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
   PetscFunctionReturn(0);
 }
 
-/* BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node */
-static PetscErrorCode UsesModes(KSP ksp, PetscBool *uses)
+/*
+   BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node. That is the user's word: the AMG
+   of a PCAMGF reads its options at the set-up, by which time the matrix must have the modes, and PCHYPRE does not tell how it coarsens.
+*/
+static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
 {
   PC          pc;
+  PCType      set;
   const char *prefix;
-  char        type[64], amg[PETSC_MAX_OPTION_NAME];
+  char        type[64];
   PetscBool   filtered, hypre, nodal;
 
   PetscFunctionBegin;
   *uses = PETSC_TRUE;
   if (!ksp) PetscFunctionReturn(0);
   PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &filtered));
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCHYPRE, &hypre));
-  PetscCall(PetscSNPrintf(amg, sizeof(amg), "%s%s", prefix ? prefix : "", filtered ? "amgf_amg_" : ""));
-  if (filtered) {
-    PetscCall(PetscStrncpy(type, PetscDefined(HAVE_HYPRE) ? PCHYPRE : PCGAMG, sizeof(type)));
-    PetscCall(PetscOptionsGetString(NULL, amg, "-pc_type", type, sizeof(type), NULL));
-    PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
-  }
-  PetscCall(PetscOptionsHasName(NULL, amg, "-pc_hypre_boomeramg_nodal_coarsen", &nodal));
+  if (filtered) PetscCall(PCAMGFGetAMGPC(pc, &pc));
+  PetscCall(PCGetType(pc, &set));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(PetscStrncpy(type, set ? set : PetscDefined(HAVE_HYPRE) ? PCHYPRE : PCGAMG, sizeof(type)));
+  PetscCall(PetscOptionsGetString(NULL, prefix, "-pc_type", type, sizeof(type), NULL));
+  PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
+  PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_hypre_boomeramg_nodal_coarsen", &nodal));
   *uses = (PetscBool)(!hypre || nodal);
   PetscFunctionReturn(0);
 }
@@ -60,7 +62,7 @@ PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
   PetscBool    uses;
 
   PetscFunctionBegin;
-  PetscCall(UsesModes(ksp, &uses));
+  PetscCall(StiffnessUsesModes(ksp, &uses));
   if (!uses) PetscFunctionReturn(0);
   PetscCall(MatGetNearNullSpace(sim->K, &modes));
   if (!modes) PetscCall(ElasticitySetNearNullSpace(sim->elasticity, sim->K));

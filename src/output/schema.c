@@ -1,0 +1,180 @@
+/*
+   The fields of a report: their keys, units, places and types, and their columns in the tables for people. The summary has them in
+   this order. A new field is a member in report.h and a line here.
+*/
+#include "outputimpl.h"
+#include <math.h>
+
+/* Last the unit, and what else there is to say */
+#define FIELD(record, member, stored, ...) {.name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__}
+/* The same behind the heading: the width, then what else */
+#define COLUMN(place, above, below, ...) {.table = place, .head = {above, below}, .width = __VA_ARGS__}
+#define END {.name = NULL}
+
+static const ReportField fallback_fields[] = {
+  FIELD(TaoIPFilterFallbacks, refinements, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f refined")}),
+  FIELD(TaoIPFilterFallbacks, amg_rebuilds, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with the AMG rebuilt")}),
+  FIELD(TaoIPFilterFallbacks, filters, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with more filter")}),
+  FIELD(TaoIPFilterFallbacks, direct, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f by MUMPS")}),
+  FIELD(TaoIPFilterFallbacks, failures, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f failed")}),
+  FIELD(TaoIPFilterFallbacks, backward_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "backward error at most %.1e")}),
+  END,
+};
+const ReportRecord SchemaFallbacks = {sizeof(TaoIPFilterFallbacks), PETSC_TRUE, fallback_fields};
+
+static const ReportField step_fields[] = {
+  FIELD(StepReport, step, FIELD_INT, "", .columns = {COLUMN(TABLE_EVERY, "step", "", 5)}),
+  FIELD(StepReport, load, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "load", "factor", 8, .format = "%.4f")}),
+  FIELD(StepReport, constraints, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "contact", "rows", 8)}),
+  FIELD(StepReport, filter_dofs, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "filter", "dofs", 8)}),
+  FIELD(StepReport, ip_iterations, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "ip", "its", 4)}),
+  FIELD(StepReport, ksp_iterations, FIELD_INTS, "", .count = offsetof(StepReport, nksp),
+        .columns = {COLUMN(TABLE_WORK, "pcg", "its", 6, .shown = SHOWN_SUM), COLUMN(TABLE_WORK, "pcg/ip", "", 6, .format = "%.1f", .shown = SHOWN_MEAN)}),
+  FIELD(StepReport, amg_applications, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "applic", 6)}),
+  FIELD(StepReport, amg_setups, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "set-ups", 7)}),
+  FIELD(StepReport, substeps, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "solves", "", 6)}),
+  FIELD(StepReport, cuts, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "cuts", "", 5)}),
+  FIELD(StepReport, contact_updates, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "gap", "updates", 8)}),
+  FIELD(StepReport, regularizations, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "indef.", "systems", 8)}),
+  FIELD(StepReport, systems, FIELD_INT, ""),
+  FIELD(StepReport, filtered_systems, FIELD_INT, ""),
+  FIELD(StepReport, linear, FIELD_RECORD, "", .record = &SchemaFallbacks),
+  FIELD(StepReport, energy, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
+  FIELD(StepReport, potential, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
+  FIELD(StepReport, equilibrium, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "equilibrium", "residual", 11)}),
+  FIELD(StepReport, kkt_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "KKT", "error", 9)}),
+  FIELD(StepReport, kkt_error_unscaled, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "unscaled", "KKT error", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, gap_min, FIELD_REAL, "length", .absent = "no contact", .columns = {COLUMN(TABLE_WORK, "smallest", "gap", 10)}),
+  FIELD(StepReport, gap_true, FIELD_REAL, "length", .absent = "no contact", .columns = {COLUMN(TABLE_TRUTH, "true", "gap", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, gap_change, FIELD_REAL, "length", .columns = {COLUMN(TABLE_TRUTH, "gap", "change", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, gap_untrue, FIELD_BOOL, ""),
+  FIELD(StepReport, complementarity, FIELD_REAL, "force/length", .columns = {COLUMN(TABLE_WORK, "complem.", "error", 9)}),
+  FIELD(StepReport, action_reaction, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "action =", "reaction", 9)}),
+  FIELD(StepReport, algebraic_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_ERRORS, "", "of the solver", 13, .blanks = 1)}),
+  FIELD(StepReport, error_estimate, FIELD_REAL, "", .absent = "",
+        .columns = {COLUMN(TABLE_ERRORS, "", "of the mesh", 13, .shown = SHOWN_SQUARE), COLUMN(TABLE_ERRORS, "", "all", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT, .blanks = 1)}),
+  FIELD(StepReport, body_errors, FIELD_BODY_REALS, "", .columns = {COLUMN(TABLE_ERRORS, "", "", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT)}),
+  FIELD(StepReport, contact_force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "contact force on the nonmortar side", "", -41, .blanks = 1)}),
+  FIELD(StepReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "reaction on the driven faces", "", -41, .blanks = 1)}),
+  FIELD(StepReport, solve_time, FIELD_DOUBLE, "s"),
+  FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged", .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
+  FIELD(StepReport, reason, FIELD_TEXT, ""),
+  END,
+};
+const ReportRecord SchemaSteps = {sizeof(StepReport), PETSC_FALSE, step_fields};
+
+static const ReportField time_fields[] = {
+  FIELD(RunTimes, total, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "total", "", 0, .behind = PETSC_TRUE)}),
+  FIELD(RunTimes, mesh, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "mesh", "", 0)}),
+  FIELD(RunTimes, assembly, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "assembly", "", 0)}),
+  FIELD(RunTimes, contact, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "contact", "", 0)}),
+  FIELD(RunTimes, amg_setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "AMG set-up", "", 0)}),
+  FIELD(RunTimes, amg_apply, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "AMG apply", "", 0)}),
+  FIELD(RunTimes, filter_setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter set-up", "", 0)}),
+  FIELD(RunTimes, filter_apply, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter apply", "", 0)}),
+  FIELD(RunTimes, error_estimate, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "error estimate", "", 0)}),
+  FIELD(RunTimes, other, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "other", "", 0)}),
+  END,
+};
+const ReportRecord SchemaTimes = {sizeof(RunTimes), PETSC_FALSE, time_fields};
+
+static const ReportField level_fields[] = {
+  FIELD(AccuracyLevel, refine, FIELD_INT, "", .columns = {COLUMN(TABLE_LEVELS, "refine", "", 8)}),
+  FIELD(AccuracyLevel, dofs, FIELD_INT, "", .columns = {COLUMN(TABLE_LEVELS, "unknowns", "", 10)}),
+  FIELD(AccuracyLevel, recovery, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "recovery", "", 10)}),
+  FIELD(AccuracyLevel, change, FIELD_REAL, "", .absent = "-", .columns = {COLUMN(TABLE_LEVELS, "change", "", 10)}),
+  FIELD(AccuracyLevel, error, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "mesh error", "", 12)}),
+  FIELD(AccuracyLevel, algebraic, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "solver error", "", 12)}),
+  FIELD(AccuracyLevel, time, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_LEVELS, "time", "", 10, .with_unit = PETSC_TRUE)}),
+  END,
+};
+const ReportRecord SchemaLevels = {sizeof(AccuracyLevel), PETSC_TRUE, level_fields};
+
+static const ReportField accuracy_fields[] = {
+  FIELD(Accuracy, target, FIELD_REAL, ""),
+  FIELD(Accuracy, share, FIELD_REAL, ""),
+  FIELD(Accuracy, tolerance, FIELD_REAL, ""),
+  FIELD(Accuracy, reached, FIELD_BOOL, ""),
+  FIELD(Accuracy, end, FIELD_CHARS, ""),
+  FIELD(Accuracy, levels, FIELD_LIST, "", .count = offsetof(Accuracy, nlevels), .record = &SchemaLevels),
+  END,
+};
+static const ReportRecord SchemaAccuracy = {sizeof(Accuracy), PETSC_FALSE, accuracy_fields};
+
+static const ReportField effect_fields[] = {
+  FIELD(RunEffect, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_EFFECTS, "effect", "", -20)}),
+  FIELD(RunEffect, on, FIELD_BOOL, "", .absent = "off", .columns = {COLUMN(TABLE_EFFECTS, "", "", -4, .format = "on")}),
+  FIELD(RunEffect, why, FIELD_CHARS, "", .columns = {COLUMN(TABLE_EFFECTS, "why", "", 0, .blanks = 1, .behind = PETSC_TRUE)}),
+  FIELD(RunEffect, time, FIELD_DOUBLE, "s", .absent = "-",
+        .columns = {COLUMN(TABLE_EFFECTS, "time", "", 10, .with_unit = PETSC_TRUE), COLUMN(TABLE_EFFECTS, "share", "", 6, .format = "%.1f%%", .shown = SHOWN_SHARE)}),
+  END,
+};
+const ReportRecord SchemaEffects = {sizeof(RunEffect), PETSC_TRUE, effect_fields};
+
+static const ReportField contact_free_fields[] = {
+  FIELD(RunContactFree, iterations, FIELD_INT, ""),
+  FIELD(RunContactFree, condition, FIELD_REAL, ""),
+  FIELD(RunContactFree, bound, FIELD_REAL, ""),
+  FIELD(RunContactFree, solve_time, FIELD_DOUBLE, "s"),
+  END,
+};
+static const ReportRecord SchemaContactFree = {sizeof(RunContactFree), PETSC_FALSE, contact_free_fields};
+
+static const ReportField memory_fields[] = {
+  FIELD(RunMemory, start, FIELD_DOUBLE, "byte"),
+  FIELD(RunMemory, mesh, FIELD_DOUBLE, "byte"),
+  FIELD(RunMemory, assembly, FIELD_DOUBLE, "byte"),
+  END,
+};
+static const ReportRecord SchemaMemory = {sizeof(RunMemory), PETSC_FALSE, memory_fields};
+
+static const ReportField run_fields[] = {
+  FIELD(RunReport, problem, FIELD_TEXT, ""),
+  FIELD(RunReport, ranks, FIELD_INT, ""),
+  FIELD(RunReport, dofs, FIELD_INT, ""),
+  FIELD(RunReport, refine, FIELD_INT, ""),
+  FIELD(RunReport, converged, FIELD_BOOL, ""),
+  FIELD(RunReport, reason, FIELD_TEXT, ""),
+  FIELD(RunReport, steps, FIELD_LIST, "", .count = offsetof(RunReport, nsteps), .record = &SchemaSteps),
+  FIELD(RunReport, time, FIELD_RECORD, "", .record = &SchemaTimes),
+  FIELD(RunReport, assemblies, FIELD_BODY_INTS, ""),
+  FIELD(RunReport, accuracy, FIELD_POINTER, "", .record = &SchemaAccuracy),
+  FIELD(RunReport, effects, FIELD_LIST, "", .count = offsetof(RunReport, neffects), .record = &SchemaEffects),
+  FIELD(RunReport, contact_free, FIELD_RECORD, "", .record = &SchemaContactFree),
+  FIELD(RunReport, memory, FIELD_RECORD, "", .record = &SchemaMemory),
+  FIELD(RunReport, peak_memory_bytes, FIELD_DOUBLE, "byte"),
+  END,
+};
+const ReportRecord SchemaRun = {sizeof(RunReport), PETSC_FALSE, run_fields};
+
+const void *SchemaAt(const ReportField *field, const void *record)
+{
+  return (const char *)record + field->offset;
+}
+
+/* Of a field that is a number or a truth */
+double SchemaNumber(const ReportField *field, const void *record)
+{
+  const void *value = SchemaAt(field, record);
+
+  switch (field->type) {
+  case FIELD_INT: return (double)*(const PetscInt *)value;
+  case FIELD_REAL: return (double)*(const PetscReal *)value;
+  case FIELD_DOUBLE: return *(const PetscLogDouble *)value;
+  case FIELD_BOOL: return *(const PetscBool *)value ? 1.0 : 0.0;
+  default: return NAN;
+  }
+}
+
+const char *SchemaText(const ReportField *field, const void *record)
+{
+  const void *value = SchemaAt(field, record);
+
+  return field->type == FIELD_CHARS ? (const char *)value : *(const char *const *)value;
+}
+
+/* How many values a list of this record's has */
+PetscInt SchemaCount(const ReportField *field, const void *record)
+{
+  return *(const PetscInt *)((const char *)record + field->count);
+}

@@ -1,0 +1,144 @@
+/* The report of a run for people: its tables, and sentences between them. */
+#include "outputimpl.h"
+
+/* A table of the load steps, under one heading line or two */
+static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, PetscInt lines, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  for (PetscInt line = 0; line < lines; ++line) PetscCall(TableViewHead(report, table, &SchemaSteps, line, viewer));
+  PetscCall(TableViewRows(report, table, &SchemaSteps, report->nsteps, report->steps, viewer));
+  PetscFunctionReturn(0);
+}
+
+/* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
+static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const TaoIPFilterFallbacks *linear = &report->steps[s].linear;
+    const char                 *before = "linear solves: ";
+    char                        text[64];
+
+    if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  ", report->steps[s].step));
+    for (const ReportField *field = SchemaFallbacks.fields; field->name; ++field) {
+      const char *said = TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text));
+
+      if (!said) continue;
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", said));
+      before = ", ";
+    }
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* How wrong the energy is, by the solver's doing and by the mesh's */
+static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy", "discretization error in the energy norm, and the bodies' parts of it"));
+  PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
+  PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
+  PetscFunctionReturn(0);
+}
+
+/* Turned round: a row a phase, the total last */
+static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10s %6s\n", "phase", "time [s]", "share"));
+  for (int behind = 0; behind < 2; ++behind) {
+    for (const ReportField *field = SchemaTimes.fields; field->name; ++field) {
+      const double time = SchemaNumber(field, &report->time);
+
+      if (field->columns[0].behind != (PetscBool)behind) continue;
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10.3f %5.1f%%\n", field->columns[0].head[0], time, report->time.total > 0 ? 100 * time / report->time.total : 0.0));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The yardstick beside the largest count of any Newton system */
+static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt  largest = 0;
+  PetscReal mean    = 0.0;
+
+  PetscFunctionBegin;
+  if (!report->contact_free.iterations) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    for (PetscInt i = 0; i < report->steps[s].nksp; ++i) largest = PetscMax(largest, report->steps[s].ksp_iterations[i]);
+    mean += report->steps[s].solve_time / report->nsteps;
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nWithout contact: %" PetscInt_FMT " PCG iterations to 1e-10, condition number %.4g, %.3f s\n", report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "With contact: at most %" PetscInt_FMT " PCG iterations a Newton system, bound %.0f; a load step costs %.2f solves without contact\n", largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
+  PetscFunctionReturn(0);
+}
+
+/* Where the peak comes from: the growth of the resident set in each phase, per unknown */
+static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
+{
+  const double n = report->dofs ? 1e3 * (double)report->dofs : 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n", report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n, (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n, (report->peak_memory_bytes - report->memory.assembly) / n));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportViewEffects - Prints what the scene called for and what it did not, why, and the share of the time
+
+   Collective on the viewer
+
+   Input Parameters:
++  report - the report
+-  viewer - an ASCII viewer
+
+   Level: intermediate
+
+   Note:
+   An effect without a share is part of the phases it works in (an element's formulation, say, of the assembly).
+
+.seealso: `ReportView()`
+@*/
+PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(TableViewHead(report, TABLE_EFFECTS, &SchemaEffects, 0, viewer));
+  PetscCall(TableViewRows(report, TABLE_EFFECTS, &SchemaEffects, report->neffects, report->effects, viewer));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportView - Prints the report of a run: steps, forces, times, memory
+
+   Collective on the viewer
+
+   Input Parameters:
++  report - the report
+-  viewer - an ASCII viewer
+
+   Level: beginner
+
+.seealso: `ReportWriteJSON()`
+@*/
+PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
+  PetscCall(ViewSteps(report, TABLE_WORK, 2, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
+  PetscCall(ViewFallbacks(report, viewer));
+  PetscCall(ViewErrors(report, viewer));
+  if (report->accuracy) PetscCall(ReportViewAccuracy(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewTimes(report, viewer));
+  PetscCall(ViewContactFree(report, viewer));
+  PetscCall(ViewMemory(report, viewer));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,92 @@
+/* A load step: tried as a whole, and in smaller parts where that fails. */
+#include "stepimpl.h"
+#include <math.h>
+
+static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *report, StepState *state)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(sim->stress));
+  PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
+  state->report       = report;
+  state->displacement = sim->path.u;
+  state->stress       = sim->stress;
+  state->nrows        = sim->linearization ? sim->linearization->nlocal : 0;
+  state->row_vertex   = sim->linearization ? sim->linearization->vertex : NULL;
+  state->pressure     = sim->pressure;
+  state->gap          = sim->gap;
+  PetscFunctionReturn(0);
+}
+
+/* Half of what was tried; false when the step has been cut often enough */
+static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
+{
+  const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact); /* such a system does not get easier */
+
+  PetscFunctionBegin;
+  *again = (PetscBool)(!linear && !sim->interrupted && report->cuts < sim->maxcuts);
+  if (!*again) PetscFunctionReturn(0);
+  ++report->cuts;
+  *increment *= 0.5;
+  if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step, (double)(sim->path.time + *increment), report->reason));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationStep - Solves the next load step.
+
+   Collective
+
+   Input Parameters:
++  sim  - the simulation
+-  step - number of the step, from 0; steps are taken in order
+
+   Output Parameter:
+.  state - what the step left, borrowed until the next step. Look at state->report->converged: where it is false the
+           displacement is that of the last converged solve
+
+   Level: beginner
+
+   Notes:
+   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at what
+   was found as the scene's contact_updates allow, until it is true. Linear bodies, and the scene's `model quadratic`, make the
+   step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG solve
+   (options prefix -elasticity_) and neither search nor optimizer.
+
+   A step that fails is halved, tried again from the last good state, and doubled after each success.
+
+.seealso: `SimulationCreate()`, `SimulationGetReport()`, `TAOIPFILTER`
+@*/
+PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
+{
+  StepReport     *report    = &sim->report.steps[step];
+  const PetscReal end       = (PetscReal)(step + 1);
+  PetscReal       increment = end - sim->path.time;
+  PetscBool       again     = PETSC_TRUE, stop;
+
+  PetscFunctionBegin;
+  report->step       = step + 1;
+  report->gap_min    = report->gap_true = report->error_estimate = NAN;
+  report->load       = sim->scene->ramps[0].factor[step];
+  sim->report.nsteps = step + 1;
+  while (again && sim->path.time < end) {
+    const PetscReal left = end - sim->path.time;
+
+    PetscCall(InterruptTest(sim, &stop));
+    if (stop) {
+      PetscCall(InterruptReport(sim, report));
+      break;
+    }
+    if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
+    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
+    if (report->converged) {
+      ++report->substeps;
+      increment *= 2.0;
+    } else PetscCall(SimulationCut(sim, report, &increment, &again));
+  }
+  if (!report->converged) {
+    sim->report.converged = PETSC_FALSE;
+    sim->report.reason    = report->reason;
+  } else if (report->gap_untrue) sim->report.reason = report->reason;
+  PetscCall(SimulationGetState(sim, report, state));
+  PetscFunctionReturn(0);
+}

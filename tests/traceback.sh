@@ -1,0 +1,23 @@
+# An error ends every rank, with -traceback and without: one that all ranks meet, one that a rank knows to be its own, and one that a
+# rank takes for everybody's. Only rank 2 has the option that is wrong.
+contact=$AMGF_DIR/bin/contact
+scene="$AMGF_DIR/share/scenes/two_block.yaml -refine 0 -quiet"
+
+# try NAME COMMAND: how it ends, what it says in a sentence, and whether PETSc's traceback leads to where it was raised
+try() {
+  echo "$1"
+  shift
+  timeout -k 5 100 mpiexec --oversubscribe "$@" > out 2>&1
+  code=$?
+  echo "  exit $([ $code -eq 0 ] && echo 0 || { [ $code -ge 124 ] && echo hang || echo 'not 0'; }), traceback to main: $(grep -c 'PETSC ERROR: #[0-9]* AppRun()' out)"
+  grep -ao 'contact: error.*' out | sed -e "s|$AMGF_DIR/||" -e 's/ (do not.*//' -e 's/^/  /'
+}
+
+for traceback in '' ' -traceback'; do
+  # shellcheck disable=SC2086
+  {
+    try "all ranks$traceback" -n 3 "$contact" nowhere.yaml $traceback
+    try "a rank that knows$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -load_max_cuts few
+    try "a rank that does not$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -load_steps 0
+  }
+done
