@@ -4,7 +4,7 @@
 #include <step.h>
 #include <mesh.h>
 #include <elasticity.h>
-#include <gap.h>
+#include <contact.h>
 #include <petscamgf.h>
 
 /* Prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
