@@ -1,10 +1,10 @@
 static char help[] = "Contact: what is wrong with pairs, options and displacements is one sentence on every rank.\n";
 
 #include <mesh.h>
-#include <gap.h>
+#include <contact.h>
 #include "attempt.h"
 
-static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[], const char option[], const char value[], PetscBool finite)
+static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pairs[], const char option[], const char value[], PetscBool finite)
 {
   Contact              contact = NULL;
   ContactLinearization lin;
@@ -36,16 +36,16 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const ContactPair pairs[],
 
 int main(int argc, char **argv)
 {
-  static char       name[2][8] = {"lower", "upper"};
-  const ContactPair good       = {"lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
-  const ContactPair mortar     = {"lower.top", "upper.zmin", GAP_MORTAR, 0.0};
-  const ContactPair nonmortar  = {"lower.zmax", "middle.zmin", GAP_MORTAR, 0.0};
-  const ContactPair twice      = {"lower.zmax", "lower.zmax", GAP_MORTAR, 0.0};
-  const ContactPair near       = {"lower.zmax", "upper.zmin", GAP_NODE, -0.5};
-  const ContactPair unknown    = {"lower.zmax", "upper.zmin", (GapType)7, 0.0};
-  const ContactPair same[2]    = {good, good};
-  SceneBody         body[2];
-  DM                dm;
+  static char            name[2][8] = {"lower", "upper"};
+  const SceneContactPair good       = {"pair", "lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair mortar     = {"pair", "lower.top", "upper.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair nonmortar  = {"pair", "lower.zmax", "middle.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair twice      = {"pair", "lower.zmax", "lower.zmax", GAP_MORTAR, 0.0};
+  const SceneContactPair near       = {"pair", "lower.zmax", "upper.zmin", GAP_NODE, -0.5};
+  const SceneContactPair unknown    = {"pair", "lower.zmax", "upper.zmin", (GapType)7, 0.0};
+  const SceneContactPair same[2]    = {good, good};
+  SceneBody              body[2];
+  DM                     dm;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));

@@ -63,22 +63,22 @@ static void WavyField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
   u[2] = a * PetscSinReal(2.0 * x[0] + x[1] * x[1] + (body ? 0.3 : 0.0));
 }
 
-static const ContactPair pairs[2] = {
-  {"slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
-  {"block.zmax", "plate.zmin", GAP_MORTAR, 0.0}
+static const SceneContactPair pairs[2] = {
+  {"on slab",  "slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
+  {"on block", "block.zmax", "plate.zmin", GAP_MORTAR, 0.0}
 };
 
 /* Parallel planes, turned in space: constant gap, rows that add up to the normal, no row for what looks through a body */
 static PetscErrorCode TestPlanes(DM dm, PetscReal length, PetscReal gap, const char what[])
 {
-  Rigid                rigid = {.gap = gap * length}, shift = {.gap = 0.0};
-  const ContactPair    pair = pairs[0];
-  Contact              contact;
-  ContactLinearization lin;
-  Vec                  u, v, Jv;
-  PetscInt             m;
-  PetscReal            n[3], error = 0.0, rigidity = 0.0, sum = 0.0;
-  char                 name[128];
+  Rigid                  rigid = {.gap = gap * length}, shift = {.gap = 0.0};
+  const SceneContactPair pair = pairs[0];
+  Contact                contact;
+  ContactLinearization   lin;
+  Vec                    u, v, Jv;
+  PetscInt               m;
+  PetscReal              n[3], error = 0.0, rigidity = 0.0, sum = 0.0;
+  char                   name[128];
 
   PetscFunctionBeginUser;
   SetRotation(&rigid);
@@ -120,13 +120,13 @@ static PetscErrorCode TestPlanes(DM dm, PetscReal length, PetscReal gap, const c
 }
 
 /* Rows of a pair of faces, none where they look away from each other or through a body */
-static PetscErrorCode CountRows(DM dm, const char mortar[], const char nonmortar[])
+static PetscErrorCode CountRows(DM dm, char mortar[], char nonmortar[])
 {
-  const ContactPair    pair = {mortar, nonmortar, GAP_MORTAR, 0.0};
-  Contact              contact;
-  ContactLinearization lin;
-  Vec                  u;
-  PetscInt             m;
+  const SceneContactPair pair = {"pair", mortar, nonmortar, GAP_MORTAR, 0.0};
+  Contact                contact;
+  ContactLinearization   lin;
+  Vec                    u;
+  PetscInt               m;
 
   PetscFunctionBeginUser;
   PetscCall(DMCreateGlobalVector(dm, &u));

@@ -3,7 +3,7 @@
 #define CONTACT_PROBLEM_H
 
 #include <mesh.h>
-#include <gap.h>
+#include <contact.h>
 #include "contact_report.h"
 
 typedef struct {

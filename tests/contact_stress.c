@@ -4,8 +4,8 @@ static char help[] = "Patch tests of contact: bodies pressed together by their f
 #include <elasticity.h>
 #include <petscksp.h>
 
-static const ContactPair mortar = {"lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
-static const ContactPair node   = {"lower.zmax", "upper.zmin", GAP_NODE, 0.0};
+static const SceneContactPair mortar = {"pair", "lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
+static const SceneContactPair node   = {"pair", "lower.zmax", "upper.zmin", GAP_NODE, 0.0};
 
 static const PetscInt different[2][3] = {{3, 4, 2}, {4, 3, 2}};
 static const PetscInt matching[2][3]  = {{4, 3, 2}, {4, 3, 2}};
@@ -187,7 +187,7 @@ static PetscErrorCode SolveEquality(Mat K, Mat J, Vec f, Vec c, IS rows, Vec u, 
 }
 
 /* Errors of the stress and of the contact pressure, both by the pressure */
-static PetscErrorCode Solve(const Patch *patch, const ContactPair *pair, const PetscInt cells[2][3], PetscInt refine, PetscReal *stress, PetscReal *contact_pressure)
+static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, const PetscInt cells[2][3], PetscInt refine, PetscReal *stress, PetscReal *contact_pressure)
 {
   Box box[2] = {
     {"lower", {0, 0, 0}, {1, 1, 1},   {cells[0][0], cells[0][1], cells[0][2]}},
@@ -257,7 +257,7 @@ static PetscErrorCode Solve(const Patch *patch, const ContactPair *pair, const P
   Stiffness ratios and Poisson's ratios on one configuration: the worst errors. What rounds the stress of a stiff body is the
   displacement of a soft one: errors are divided by E2/E1, or 1 if larger, over 1 - 2 nu.
 */
-static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const ContactPair *pair, const PetscInt cells[2][3], PetscReal *stress, PetscReal *pressure)
+static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair, const PetscInt cells[2][3], PetscReal *stress, PetscReal *pressure)
 {
   static const PetscReal ratio[] = {1.0, 1e3, 1e6, 1e-6}, nu[] = {0.0, 0.3, 0.499};
   Patch                  patch   = {.p = 0.01, .hydrostatic = PETSC_FALSE, .amplitude = 0.0};
@@ -283,7 +283,7 @@ static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const ContactP
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TestUniform(PetscReal about_x, PetscReal about_y, const ContactPair *pair, const PetscInt cells[2][3], const char what[])
+static PetscErrorCode TestUniform(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair, const PetscInt cells[2][3], const char what[])
 {
   char      name[128];
   PetscReal stress, pressure;

@@ -17,7 +17,7 @@ static void MotionField(const PetscReal x[3], PetscInt body, const void *ctx, Pe
   u[2] = -s * dx + c * dz - dz + m->shift[body][2];
 }
 
-static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const ContactPair pairs[], Field field, const void *ctx, ContactLinearization *lin)
+static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const SceneContactPair pairs[], Field field, const void *ctx, ContactLinearization *lin)
 {
   Contact contact;
   Vec     u;
@@ -65,13 +65,13 @@ static PetscErrorCode GetCover(DM dm, ContactLinearization lin, const Motion *ou
 /* The block slides along the slab over many facets, wherever it is the gap is the same and every vertex has its row */
 static PetscErrorCode TestSliding(DM dm)
 {
-  const ContactPair    pair = {"slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
-  const Motion         down = {.shift = {{0}, {0, 0, -1}, {0}}};
-  Motion               motion = {.shift = {{0}, {0, 0, 0.1}, {0}}};
-  ContactLinearization lin;
-  Vec                  cover;
-  PetscReal            gap = 0.0, rows = 0.0;
-  PetscInt             m, wrong = 0;
+  const SceneContactPair pair = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const Motion           down = {.shift = {{0}, {0, 0, -1}, {0}}};
+  Motion                 motion = {.shift = {{0}, {0, 0, 0.1}, {0}}};
+  ContactLinearization   lin;
+  Vec                    cover;
+  PetscReal              gap = 0.0, rows = 0.0;
+  PetscInt               m, wrong = 0;
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k <= 12; ++k) {
@@ -94,12 +94,12 @@ static PetscErrorCode TestSliding(DM dm)
 /* The block hangs over the slab's end by so much: rows and gaps stay in proportion to what is covered */
 static PetscErrorCode TestEdge(DM dm, PetscReal hang)
 {
-  const ContactPair    pair = {"slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
-  const Motion         down = {.shift = {{0}, {0, 0, -1}, {0}}}, motion = {.shift = {{0}, {3.7 + hang, 0, -0.05}, {0}}};
-  ContactLinearization lin;
-  Vec                  cover;
-  PetscReal            gap = 0.0, least, most;
-  PetscInt             m;
+  const SceneContactPair pair = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const Motion           down = {.shift = {{0}, {0, 0, -1}, {0}}}, motion = {.shift = {{0}, {3.7 + hang, 0, -0.05}, {0}}};
+  ContactLinearization   lin;
+  Vec                    cover;
+  PetscReal              gap = 0.0, least, most;
+  PetscInt               m;
 
   PetscFunctionBeginUser;
   PetscCall(LinearizeAt(dm, 1, &pair, MotionField, &motion, &lin));
@@ -135,11 +135,11 @@ static PetscErrorCode PrintPair(ContactLinearization lin, PetscInt pair, PetscRe
 /* One body in three pairs, two faces in two of them each, as mortar and as nonmortar; each pair as it is alone */
 static PetscErrorCode TestSeveral(DM dm)
 {
-  const ContactPair pairs[4] = {
-    {"slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
-    {"slab.zmax",  "plate.zmin", GAP_NODE,   0.0},
-    {"block.xmax", "plate.xmin", GAP_MORTAR, 2.0},
-    {"plate.zmin", "slab.zmax",  GAP_MORTAR, 0.0}
+  const SceneContactPair pairs[4] = {
+    {"block in slab", "slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
+    {"plate on slab", "slab.zmax",  "plate.zmin", GAP_NODE,   0.0},
+    {"beside",        "block.xmax", "plate.xmin", GAP_MORTAR, 2.0},
+    {"plate on slab", "plate.zmin", "slab.zmax",  GAP_MORTAR, 0.0}
   };
   const Motion         motion = {.shift = {{0}, {0, 0, -0.03}, {0, 0, -0.02}}};
   ContactLinearization all, one;
@@ -177,7 +177,7 @@ static PetscErrorCode TestSeveral(DM dm)
 }
 
 /* Rows of a pair at a motion, on every rank: as many as expected? */
-static PetscErrorCode CountRows(DM dm, const ContactPair *pair, const Motion *motion, const char what[])
+static PetscErrorCode CountRows(DM dm, const SceneContactPair *pair, const Motion *motion, const char what[])
 {
   ContactLinearization lin;
   PetscInt             m, n, N;
@@ -201,9 +201,9 @@ static PetscErrorCode CountRows(DM dm, const ContactPair *pair, const Motion *mo
 /* Faces that do not look at one another, or are too far, never pair; neither do those that see one another through a body */
 static PetscErrorCode TestAway(DM dm)
 {
-  const ContactPair opposite = {"plate.zmin", "plate.zmax", GAP_MORTAR, 1.0}, same = {"slab.zmax", "plate.zmax", GAP_MORTAR, 0.0}, through = {"slab.zmin", "block.zmax", GAP_MORTAR, 3.0}, on = {"slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
-  ContactPair       near = on;
-  Motion            motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
+  const SceneContactPair opposite = {"pair", "plate.zmin", "plate.zmax", GAP_MORTAR, 1.0}, same = {"pair", "slab.zmax", "plate.zmax", GAP_MORTAR, 0.0}, through = {"pair", "slab.zmin", "block.zmax", GAP_MORTAR, 3.0}, on = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  SceneContactPair       near = on;
+  Motion                 motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
 
   PetscFunctionBeginUser;
   PetscCall(CountRows(dm, &opposite, &motion, "opposite sides of a plate"));
@@ -234,7 +234,7 @@ static PetscErrorCode TestAway(DM dm)
 static PetscErrorCode TestOverlap(DM dm)
 {
   static const PetscReal gaps[] = {-0.45, -0.25, -0.05, -1e-14, 0.0, 1e-14};
-  ContactPair            pair   = {"slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  SceneContactPair       pair   = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
   Motion                 motion = {.angle = {0}};
   ContactLinearization   lin;
 
@@ -278,9 +278,9 @@ static void BendField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 /* Largest error of the gap, away from the outline of the nonmortar face if there is one */
 static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, PetscInt *m)
 {
-  const ContactPair    pair   = {"inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
-  const Motion         rest   = {.angle = {0}};
-  Box                  box[2] = {
+  const SceneContactPair pair   = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
+  const Motion           rest   = {.angle = {0}};
+  Box                    box[2] = {
     {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {6, 5, 1}},
     {"outer", {-0.3, -0.3, 0.0},  {0.3, 0.3, 0.3}, {4, 4, 1}}
   };
@@ -335,7 +335,7 @@ static void WavyField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 }
 
 /* Touching bodies: g(u + t v) - g(u) - t J v falls with the square of t where J is the derivative */
-static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const ContactPair pairs[], const char what[])
+static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair pairs[], const char what[])
 {
   const PetscReal      none = 0.0, one = 1.0;
   PetscReal            remainder[3], norm;
@@ -375,9 +375,9 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const ContactPair pairs
 /* On planes, and on curved faces of the same vertices */
 static PetscErrorCode TestTaylorAll(DM dm)
 {
-  const ContactPair pairs[2] = {{"slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}}, bent = {"inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
-  Bend              bend = {.radius = 2.0};
-  Box               box[2] = {
+  const SceneContactPair pairs[2] = {{"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"pair", "slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}}, bent = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
+  Bend                   bend = {.radius = 2.0};
+  Box                    box[2] = {
     {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
     {"outer", {-0.3, -0.6, 0.0},  {0.3, 0.6, 0.3}, {6, 4, 1} }
   };

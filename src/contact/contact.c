@@ -1,4 +1,4 @@
-/* The contact object: pairs of faces, options, linearization of the gap */
+/* The life of the object: pairs of faces, options, how far apart facets pair */
 #include "contactimpl.h"
 
 /* Facets pair by default within this part of the size of the smaller face, the square root of its area */
@@ -8,29 +8,9 @@
 /* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and 7 points */
 #define RULE_DEGREE 5
 
-const char *const GapTypes[] = {"mortar", "node", "GapType", "GAP_", NULL};
-
-static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode}; /* by GapType */
-
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
 
-PetscLogEvent CONTACT_Search, CONTACT_Integrate;
-
-static PetscErrorCode ContactInitializePackage(void)
-{
-  static PetscBool initialized = PETSC_FALSE;
-  PetscClassId     classid;
-
-  PetscFunctionBegin;
-  if (initialized) PetscFunctionReturn(0);
-  initialized = PETSC_TRUE;
-  PetscCall(PetscClassIdRegister("Contact", &classid));
-  PetscCall(PetscLogEventRegister("ContactSearch", classid, &CONTACT_Search));
-  PetscCall(PetscLogEventRegister("ContactIntegr", classid, &CONTACT_Integrate));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const ContactPair pairs[])
+static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneContactPair pairs[])
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
 
@@ -104,14 +84,14 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
-PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const ContactPair pairs[], Contact *contact)
+PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pairs[], Contact *contact)
 {
   Contact         c;
   ContactBoundary boundary;
   PetscReal      *thickness;
 
   PetscFunctionBegin;
-  PetscCall(ContactInitializePackage());
+  PetscCall(ContactEventsRegister());
   PetscCall(ContactCheckPairs(dm, npairs, pairs));
   PetscCall(PetscNew(&c));
   PetscCall(PetscObjectReference((PetscObject)dm));
@@ -198,28 +178,6 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* The surfaces and normals at displacement u */
-static PetscErrorCode ContactDeform(Contact contact, Vec u)
-{
-  ContactRows *rows = &contact->rows;
-  Vec          local;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetLocalVector(contact->dm, &local));
-  PetscCall(DMGlobalToLocal(contact->dm, u, INSERT_VALUES, local));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    ContactPairData *pair  = &contact->pairs[p];
-    const PetscInt   first = rows->first[p], n = rows->first[p + 1] - first;
-
-    PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->mortar));
-    PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->nonmortar));
-    PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first, rows->normal + 3 * first));
-    PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
-  }
-  PetscCall(DMRestoreLocalVector(contact->dm, &local));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactGetReach - How far apart, and how deep in one another, facets pair
 
@@ -274,94 +232,6 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactViewFromOptions(Contact contact)
-{
-  PetscViewer       viewer;
-  PetscViewerFormat format;
-  PetscBool         flag;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsGetViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &flag));
-  if (!flag) PetscFunctionReturn(0);
-  PetscCall(PetscViewerPushFormat(viewer, format));
-  PetscCall(ContactView(contact, viewer));
-  PetscCall(PetscViewerPopFormat(viewer));
-  PetscCall(PetscViewerDestroy(&viewer));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
-
-  Collective
-
-  Input Parameters:
-+ contact - the contact
-- u       - global displacement vector, 3 components a vertex [length]
-
-  Output Parameter:
-. lin - the linearized gap; may have no rows at all
-
-  Options Database Key:
-. -contact_view - prints the pairs, the search distances and the number of rows
-
-  Level: beginner
-
-  Notes:
-  The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A over the part of the nonmortar face that a mortar
-  face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
-  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It is
-  positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals fixed.
-  With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces slide, but
-  facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
-
-  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that face
-  it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and m_A is the
-  same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet, has no row.
-
-  Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on planes,
-  and on curved faces with -contact_normals facet.
-
-  Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite is an
-  error.
-
-  References:
-. * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics, Comput. Methods Appl. Mech. Engrg. 193 (2004)
-
-.seealso: `ContactCreate()`, `ContactLinearizationDestroy()`
-@*/
-PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *lin)
-{
-  ContactAssembly assembly;
-  PetscReal       norm;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* the maximum norm of BLAS passes over NaN */
-  PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP, "The displacement at which contact is linearized is not finite");
-  PetscCall(ContactDeform(contact, u));
-  PetscCall(ContactAssemblyCreate(contact, &assembly));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    ContactPairData     *pair   = &contact->pairs[p];
-    const ContactGapOps *ops    = gap_ops[pair->gap];
-    PetscReal            box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
-    ContactCandidates    candidates;
-
-    PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-    PetscCall((*ops->box)(contact, p, box));
-    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
-    PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
-    pair->nfacing = 0;
-    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
-    PetscCall(ContactCandidatesDestroy(&candidates));
-  }
-  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
-  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(ContactViewFromOptions(contact));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactView - Prints a contact: its pairs, what is searched, and the rows of the last linearization
 
@@ -398,31 +268,6 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows below %g of the largest are left out\n", (double)contact->cosine, (double)contact->overlap_drop,
                                    (double)contact->row_drop));
   PetscCall(PetscViewerASCIIPopTab(viewer));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ContactLinearizationDestroy - Destroys a linearized gap
-
-  Collective
-
-  Input Parameter:
-. lin - the linearized gap, may be NULL
-
-  Level: beginner
-
-.seealso: `ContactLinearize()`
-@*/
-PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
-{
-  PetscFunctionBegin;
-  if (!*lin) PetscFunctionReturn(0);
-  PetscCall(VecDestroy(&(*lin)->g));
-  PetscCall(VecDestroy(&(*lin)->mass));
-  PetscCall(MatDestroy(&(*lin)->J));
-  PetscCall(PetscFree((*lin)->vertex));
-  PetscCall(PetscFree((*lin)->pair));
-  PetscCall(PetscFree(*lin));
   PetscFunctionReturn(0);
 }
 

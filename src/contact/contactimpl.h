@@ -1,14 +1,80 @@
-/* Contact, private: the object, the surfaces of its pairs, and the geometry of one pair of facets. */
+/*
+   Contact, private: the map of src/contact. From one facet to the object, every file builds on those before it.
+*/
 #ifndef CONTACTIMPL_H
 #define CONTACTIMPL_H
 
-#include <gap.h>
+#include <contact.h>
 
-typedef struct _n_ContactPairData ContactPairData;
+/* events.c: PETSc's log events of this folder */
+PETSC_INTERN PetscLogEvent  CONTACT_Search, CONTACT_Integrate;
+PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
 
-PETSC_INTERN PetscLogEvent CONTACT_Search, CONTACT_Integrate;
+/* quadrature.c: a rule for triangles */
+#define CONTACT_RULE_DEGREE 8 /* at most */
+#define CONTACT_RULE_POINTS 16
+typedef struct {
+  PetscInt  degree, n;
+  PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
+} ContactRule;
+PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 
-/* The facets of a named face that this rank owns */
+/* facet.c: bilinear facets */
+PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
+PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
+PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
+PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
+PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+
+/* frame.c: the plane a nonmortar facet is projected to */
+typedef struct {
+  PetscReal origin[3], axis[3][3];
+} ContactFrame;
+PETSC_INTERN PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3]);
+PETSC_INTERN PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *);
+PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4]);
+
+/* clip.c: convex polygons in the plane, vertices counterclockwise */
+#define CONTACT_MAX_POLYGON 32
+PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
+PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
+
+/* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
+   frozen, the weighted gap is linear in the coordinates. */
+#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
+typedef struct {
+  PetscInt  n;
+  PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
+  PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
+  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
+  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
+} ContactOverlap;
+typedef struct {
+  PetscReal cosine, overlap_drop, distance, depth;
+} ContactOverlapLimits;
+PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, const ContactRule *, ContactOverlap *);
+
+/* closest.c: the point of a facet closest to another point */
+PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3]);
+
+/* box.c: boxes along the coordinate axes, about facets and what they sweep */
+PETSC_INTERN void      ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
+PETSC_INTERN void      ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
+PETSC_INTERN PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+
+/* boundary.c: the facets on this rank that bound the bodies, undeformed */
+typedef struct {
+  MPI_Comm   comm;
+  PetscInt   nbodies, n, *body;
+  PetscReal *x; /* [12 n] corners, counterclockwise seen from outside [length] */
+} ContactBoundary;
+PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
+PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
+PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);
+
+/* surface.c: the facets of a named face that this rank owns */
 typedef struct {
   char      *name;
   PetscInt   nfacets;
@@ -22,21 +88,58 @@ typedef struct {
   PetscInt   body;         /* behind the face */
   PetscReal  thickness;    /* mean thickness of that body [length] */
 } ContactSurface;
+PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* Mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
+/* border.c: fills in a surface's border */
+PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
+
+/* exchange.c: mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
 typedef struct {
   PetscInt   n;
   PetscInt  *node;   /* [4 n] */
   PetscInt  *border; /* [n] where the surface is bordered */
   PetscReal *x;      /* [12 n] */
 } ContactCandidates;
+PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *, ContactCandidates *);
+PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 
-/* Of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] along its normal */
+/* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
+#define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
+typedef struct {
+  PetscReal box[6];      /* lower corner, upper corner */
+  PetscInt  first, last; /* facets of a leaf: order[first] to order[last - 1] */
+  PetscInt  second;      /* the second child; 0 in a leaf */
+} ContactTreeNode;
+typedef struct {
+  PetscInt         nnodes;
+  ContactTreeNode *node;
+  PetscInt        *order;
+  PetscReal       *box; /* [6 n] of the facets */
+} ContactTree;
+PETSC_INTERN PetscErrorCode ContactTreeCreate(const ContactCandidates *, ContactTree *);
+PETSC_INTERN PetscErrorCode ContactTreeDestroy(ContactTree *);
+
+/* nearest.c: the facet nearest to a vertex, among those that face it */
+typedef struct {
+  PetscInt  facet; /* of the candidates; negative: none */
+  PetscReal xi[2]; /* closest point on it */
+  PetscReal y[3];
+} ContactNearest;
+PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach, const PetscReal x[3], const PetscReal normal[3], ContactNearest *);
+
+/* search.c: of each of this rank's nonmortar facets f, the candidates facet[offset[f]] to facet[offset[f + 1] - 1] along its normal */
 typedef struct {
   PetscInt *offset, *facet;
 } ContactNear;
+PETSC_INTERN PetscErrorCode ContactSearch(const ContactSurface *nonmortar, PetscReal distance, PetscReal depth, const ContactCandidates *, ContactNear *);
+PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
 
-struct _n_ContactPairData {
+/* The object */
+typedef struct {
   ContactSurface mortar, nonmortar;
   GapType        gap;
   PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */
@@ -45,15 +148,15 @@ struct _n_ContactPairData {
   PetscReal      distance; /* facets farther apart than this do not pair [length] */
   PetscReal      depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
   PetscInt       nfacing;  /* of the last linearization, on this rank: facets that overlap, or vertices that face a facet */
-};
+} ContactPairData;
 
 /* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
 typedef struct {
-  PetscInt  nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
-  PetscInt *vertex;         /* [nlocal] local DMPlex points */
-  PetscReal *normal;        /* [3 nlocal] averaged unit normals */
-  PetscReal *x;             /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;          /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
+  PetscInt  *vertex;         /* [nlocal] local DMPlex points */
+  PetscReal *normal;         /* [3 nlocal] averaged unit normals */
+  PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
+  Vec        mass;           /* int phi_A over the whole undeformed nonmortar face [length^2] */
 } ContactRows;
 
 /* Along what a mortar gap is measured */
@@ -61,24 +164,6 @@ typedef enum {
   CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
 } ContactNormals;
-
-/* One linearization under construction. entries: (row, node, value), added up where they repeat */
-typedef struct {
-  Vec          gap;        /* int phi_A gap [length^3] */
-  PetscInt     n, size;    /* entries in use, and space for them */
-  PetscInt    *row, *node; /* global row, global number of the vertex */
-  PetscInt     dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
-  PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
-} ContactAssembly;
-
-/* quadrature.c: a rule for triangles */
-#define CONTACT_RULE_DEGREE 8 /* at most */
-#define CONTACT_RULE_POINTS 16
-typedef struct {
-  PetscInt  degree, n;
-  PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
-} ContactRule;
-PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 
 struct _n_Contact {
   DM               dm;
@@ -97,7 +182,28 @@ struct _n_Contact {
   PetscInt         nrows;        /* of the last linearization, on all ranks */
 };
 
-/* A formulation of the gap */
+/* rows.c: the rows there may be */
+PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
+
+/* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
+typedef struct {
+  Vec          gap;        /* int phi_A gap [length^3] */
+  PetscInt     n, size;    /* entries in use, and space for them */
+  PetscInt    *row, *node; /* global row, global number of the vertex */
+  PetscInt     dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
+  PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
+} ContactAssembly;
+PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
+PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3]);
+PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
+PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
+
+/*
+   mortar.c, node.c: formulations of the gap.
+
+   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/scene/formulation.c.
+*/
 typedef struct {
   /* Grows box to hold all that may face this rank's part of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
@@ -106,117 +212,13 @@ typedef struct {
 } ContactGapOps;
 PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode;
 
-/* surface.c */
-PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
-PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
-PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
-PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
-PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
-
-/* border.c */
-PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
-
-/* boundary.c: the facets on this rank that bound the bodies, undeformed */
-typedef struct {
-  MPI_Comm   comm;
-  PetscInt   nbodies, n, *body;
-  PetscReal *x; /* [12 n] corners, counterclockwise seen from outside [length] */
-} ContactBoundary;
-PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
-PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
-PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
-PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);
-PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
-
-/* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
-#define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
-typedef struct {
-  PetscReal box[6];      /* lower corner, upper corner */
-  PetscInt  first, last; /* facets of a leaf: order[first] to order[last - 1] */
-  PetscInt  second;      /* the second child; 0 in a leaf */
-} ContactTreeNode;
-typedef struct {
-  PetscInt         nnodes;
-  ContactTreeNode *node;
-  PetscInt        *order;
-  PetscReal       *box; /* [6 n] of the facets */
-} ContactTree;
-PETSC_INTERN void           ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
-PETSC_INTERN PetscErrorCode ContactTreeCreate(const ContactCandidates *, ContactTree *);
-PETSC_INTERN PetscErrorCode ContactTreeDestroy(ContactTree *);
-
-/* search.c: facets along a facet's normal */
-PETSC_INTERN void           ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
-PETSC_INTERN PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
-PETSC_INTERN PetscErrorCode ContactSearch(const ContactPairData *, const ContactCandidates *, ContactNear *);
-PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
-
-/* nearest.c: the facet nearest to a vertex, among those that face it */
-typedef struct {
-  PetscInt  facet; /* of the candidates; negative: none */
-  PetscReal xi[2]; /* closest point on it */
-  PetscReal y[3];
-} ContactNearest;
-PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach, const PetscReal x[3], const PetscReal normal[3], ContactNearest *);
-
-/* exchange.c */
-PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *, ContactCandidates *);
-PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
-
-/* clip.c: convex polygons in the plane, vertices counterclockwise */
-#define CONTACT_MAX_POLYGON 32
-PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
-PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
-
-/* facet.c: bilinear facets */
-PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
-PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
-PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
-PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
-PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
-
-/* closest.c */
-PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3]);
-
-/* frame.c */
-typedef struct {
-  PetscReal origin[3], axis[3][3];
-} ContactFrame;
-PETSC_INTERN PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3]);
-PETSC_INTERN PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *);
-PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4]);
-
-/* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
-   frozen, the weighted gap is linear in the coordinates. */
-#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
-typedef struct {
-  PetscInt  n;
-  PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
-  PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
-  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
-  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
-} ContactOverlap;
-typedef struct {
-  PetscReal cosine, overlap_drop, distance, depth;
-} ContactOverlapLimits;
-PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, const ContactRule *, ContactOverlap *);
-
-/* integrate.c */
 typedef struct {
   PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
   PetscReal D[4][4]; /* int phi_A N1_B [length^2]; its rows sum to int phi_A */
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
-PETSC_INTERN void           ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
+PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
 
-/* rows.c */
-PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
-PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
-
-/* assemble.c */
-PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
-PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3]);
-PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
-PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
+/* contact.c, linearize.c, deep.c: the object's life, its gap, and the error where bodies overlap deeper than it looks, public */
 
 #endif

@@ -11,27 +11,6 @@ typedef struct {
   PetscReal    box[6];
 } Prism;
 
-/* Box about what a facet sweeps along its normal; its own box where it has no normal */
-void ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6])
-{
-  PetscReal n[3];
-
-  ContactFacetBox(x, box);
-  if (!ContactFacetNormal(x, n)) return;
-  for (PetscInt c = 0; c < 3; ++c) {
-    box[c] += PetscMin(n[c] * distance, -n[c] * depth);
-    box[3 + c] += PetscMax(n[c] * distance, -n[c] * depth);
-  }
-}
-
-PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6])
-{
-  for (PetscInt c = 0; c < 3; ++c) {
-    if (a[c] > b[3 + c] || b[c] > a[3 + c]) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
 static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscReal depth, Prism *p)
 {
   PetscReal y[4][2], h[4];
@@ -91,11 +70,10 @@ static PetscInt TreeQuery(const ContactTree *t, const Prism *prism, PetscInt fou
 }
 
 /* For each of this rank's nonmortar facets, the candidates that may lie along its normal within the search distances */
-PetscErrorCode ContactSearch(const ContactPairData *pair, const ContactCandidates *mortar, ContactNear *near)
+PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscReal depth, const ContactCandidates *mortar, ContactNear *near)
 {
-  const ContactSurface *s = &pair->nonmortar;
-  ContactTree           tree;
-  Prism                 prism;
+  ContactTree tree;
+  Prism       prism;
 
   PetscFunctionBegin;
   PetscCall(ContactTreeCreate(mortar, &tree));
@@ -104,7 +82,7 @@ PetscErrorCode ContactSearch(const ContactPairData *pair, const ContactCandidate
   near->facet     = NULL;
   for (PetscInt pass = 0; pass < 2; ++pass) {
     for (PetscInt f = 0; f < s->nfacets; ++f) {
-      const PetscBool has = PrismCreate(&s->x[12 * f], pair->distance, pair->depth, &prism);
+      const PetscBool has = PrismCreate(&s->x[12 * f], distance, depth, &prism);
       const PetscInt  n   = has ? TreeQuery(&tree, &prism, pass ? near->facet + near->offset[f] : NULL) : 0;
 
       near->offset[f + 1] = near->offset[f] + n;

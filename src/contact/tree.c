@@ -3,14 +3,6 @@
 
 #define LEAF_SIZE 4
 
-void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
-{
-  for (PetscInt c = 0; c < 3; ++c) {
-    box[c]     = PetscMin(PetscMin(x[c], x[3 + c]), PetscMin(x[6 + c], x[9 + c]));
-    box[3 + c] = PetscMax(PetscMax(x[c], x[3 + c]), PetscMax(x[6 + c], x[9 + c]));
-  }
-}
-
 /* Twice the centre of a facet's box along an axis */
 static inline PetscReal Centre(const ContactTree *t, PetscInt facet, PetscInt axis)
 {

@@ -2,68 +2,8 @@
    Assembly of the tangent. Bodies with a constant tangent are assembled into a matrix once: later assemblies zero the rows of
    the other bodies and add those bodies again. No second copy of any value is kept.
 */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
-
-/* Sets marks[v] at the nodes of the bodies that are not kept, also where only another rank has a cell of theirs */
-static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks[])
-{
-  Vec                local, global;
-  PetscScalar       *l;
-  const PetscScalar *sum;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetLocalVector(e->dm, &local));
-  PetscCall(DMGetGlobalVector(e->dm, &global));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(VecZeroEntries(global));
-  PetscCall(VecGetArray(local, &l));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    if (!e->bodies[e->cellbody[i / 8]].kept) l[3 * e->cellnodes[i]] = 1;
-  }
-  PetscCall(VecRestoreArray(local, &l));
-  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, global));
-  PetscCall(DMGlobalToLocal(e->dm, global, INSERT_VALUES, local));
-  PetscCall(VecGetArrayRead(local, &sum));
-  for (PetscInt v = 0; v < e->nnodes; ++v) marks[v] = (PetscBool)(PetscRealPart(sum[3 * v]) > 0);
-  PetscCall(VecRestoreArrayRead(local, &sum));
-  PetscCall(DMRestoreGlobalVector(e->dm, &global));
-  PetscCall(DMRestoreLocalVector(e->dm, &local));
-  PetscFunctionReturn(0);
-}
-
-/* A body stays kept only if none of its rows is zeroed for another; that may take the next body along */
-PetscErrorCode ElasticitySetUpKept(Elasticity e)
-{
-  PetscBool *marks;
-  PetscInt   nkept = 0, nlost, *lost;
-
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < e->nbodies; ++b) {
-    e->bodies[b].kept = e->bodies[b].material.law->constant;
-    if (e->bodies[b].kept) ++nkept;
-  }
-  if (nkept == e->nbodies) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(e->nnodes, &marks, e->nbodies, &lost));
-  do {
-    if (!nkept) break;
-    PetscCall(ElasticityMarkAssembledAgain(e, marks));
-    PetscCall(PetscArrayzero(lost, e->nbodies));
-    for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-      if (marks[e->cellnodes[i]] && e->bodies[e->cellbody[i / 8]].kept) lost[e->cellbody[i / 8]] = 1;
-    }
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lost, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
-    nlost = 0;
-    for (PetscInt b = 0; b < e->nbodies; ++b) {
-      if (!lost[b]) continue;
-      e->bodies[b].kept = PETSC_FALSE;
-      ++nlost;
-    }
-    nkept -= nlost;
-  } while (nlost);
-  PetscCall(PetscFree2(marks, lost));
-  PetscFunctionReturn(0);
-}
 
 /* Zeroes rows and columns of prescribed displacements; their diagonal keeps the stiffness's scale */
 static void HexMaskPrescribed(const unsigned char prescribed[], const PetscInt nodes[8], PetscScalar K[24][24])
@@ -197,5 +137,29 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
   PetscCall(PetscObjectGetId((PetscObject)tangent, &e->assembled.id));
   PetscCall(PetscObjectStateGet((PetscObject)tangent, &e->assembled.state));
   PetscCall(PetscLogEventEnd(ELASTICITY_Tangent, tangent, 0, 0, 0));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityGetAssemblies - Gets how often a body has been assembled into a tangent
+
+  Not Collective
+
+  Input Parameters:
++ elasticity - the context
+- body       - the body, from 0
+
+  Output Parameter:
+. assemblies - number of assemblies, into whichever matrix
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`
+@*/
+PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *assemblies)
+{
+  PetscFunctionBegin;
+  PetscCheck(body >= 0 && body < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
+  *assemblies = e->bodies[body].assemblies;
   PetscFunctionReturn(0);
 }

@@ -8,7 +8,7 @@
    Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980.
    Simo, Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation elasto-plasticity, 1985.
 */
-#include "element.h"
+#include "elasticityimpl.h"
 
 typedef struct {
   PetscReal w[HEX_MAX_POINTS], G[HEX_MAX_POINTS][3][8], H[HEX_MAX_POINTS][9];

@@ -1,23 +1,6 @@
-/* Elasticity: creation, options, prescribed displacements */
-#include "elasticity_private.h"
+/* The life of the object: creation, options, prescribed displacements */
+#include "elasticityimpl.h"
 #include <mesh.h>
-
-static PetscClassId ELASTICITY_CLASSID;
-PetscLogEvent       ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
-
-static PetscErrorCode ElasticityInitializePackage(void)
-{
-  static PetscBool initialized = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  if (initialized) PetscFunctionReturn(0);
-  initialized = PETSC_TRUE;
-  PetscCall(PetscClassIdRegister("Elasticity", &ELASTICITY_CLASSID));
-  PetscCall(PetscLogEventRegister("ElastTangent", ELASTICITY_CLASSID, &ELASTICITY_Tangent));
-  PetscCall(PetscLogEventRegister("ElastForce", ELASTICITY_CLASSID, &ELASTICITY_Force));
-  PetscCall(PetscLogEventRegister("ElastError", ELASTICITY_CLASSID, &ELASTICITY_Error));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode ElasticityReadOptions(Elasticity e)
 {
@@ -100,7 +83,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Elasticity e;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityInitializePackage());
+  PetscCall(ElasticityEventsRegister());
   PetscCall(PetscNew(&e));
   PetscCall(PetscObjectReference((PetscObject)dm));
   e->dm      = dm;
@@ -117,55 +100,6 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   PetscCall(ElasticitySetUpCells(e));
   PetscCall(ElasticitySetUpKept(e));
   *elasticity = e;
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ElasticityIsLinear - Whether no body's tangent depends on the displacement
-
-  Not Collective
-
-  Input Parameter:
-. elasticity - the context
-
-  Output Parameter:
-. linear - `PETSC_TRUE` if the energy is quadratic in the displacement
-
-  Level: intermediate
-
-.seealso: `ElasticityTangent()`, `ElasticityGetAssemblies()`
-@*/
-PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
-{
-  PetscFunctionBegin;
-  *linear = PETSC_TRUE;
-  for (PetscInt b = 0; b < e->nbodies; ++b) {
-    if (!e->bodies[b].material.law->constant) *linear = PETSC_FALSE;
-  }
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ElasticityGetAssemblies - Gets how often a body has been assembled into a tangent
-
-  Not Collective
-
-  Input Parameters:
-+ elasticity - the context
-- body       - the body, from 0
-
-  Output Parameter:
-. assemblies - number of assemblies, into whichever matrix
-
-  Level: intermediate
-
-.seealso: `ElasticityTangent()`
-@*/
-PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *assemblies)
-{
-  PetscFunctionBegin;
-  PetscCheck(body >= 0 && body < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
-  *assemblies = e->bodies[body].assemblies;
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,5 @@
 /* The table of elements */
-#include "element.h"
-
-const char *const ElementTypes[] = {"full", "bbar", "ElementType", "ELEMENT_", NULL};
+#include "elasticityimpl.h"
 
 PetscErrorCode ElementGet(ElementType type, const Element **element)
 {

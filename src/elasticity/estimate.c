@@ -1,5 +1,5 @@
 /* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the energy */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 /*
    The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the dilatation's

@@ -1,5 +1,5 @@
 /* Energy and internal force by loops over the cells; no matrix */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 /*@
   ElasticityEnergy - Computes the elastic energy stored by a displacement

@@ -1,5 +1,5 @@
 /* Full integration: E = int W(H) */
-#include "element.h"
+#include "elasticityimpl.h"
 
 static PetscReal ElementEnergy_Full(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8])
 {

@@ -1,5 +1,5 @@
 /* Shape functions of the trilinear hexahedron at tensor Gauss points */
-#include "hex.h"
+#include "elasticityimpl.h"
 #include <petscdt.h>
 
 PetscErrorCode HexBasisCreate(PetscInt n, HexBasis *basis)

@@ -1,5 +1,5 @@
 /* Dead loads and lumped mass: integrals of the shape functions over the reference geometry */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 #include <mesh.h>
 
 /* Adds factor[d] times the integral of each shape function over the cells of one body (PETSC_DECIDE: all) to a global vector */

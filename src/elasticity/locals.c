@@ -1,5 +1,5 @@
 /* Displacements and coordinates as the cells of this rank see them */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 PetscErrorCode ElasticityGetLocals(Elasticity e, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x)
 {

@@ -1,6 +1,5 @@
 /* Sparsity of the tangent from the nodes' adjacency; DMCreateMatrix() takes as long as several assemblies */
-#include "elasticity_private.h"
-#include <petscsf.h>
+#include "elasticityimpl.h"
 
 /* Cells around each local node, in compressed rows */
 static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, PetscInt **cells)

@@ -7,7 +7,7 @@
    References:
    Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
 */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 /* Of the cells around a node, their places relative to it */
 typedef struct {

@@ -1,5 +1,5 @@
 /* Stiffness of a hexahedron from its points' tangents, shared by the elements */
-#include "element.h"
+#include "elasticityimpl.h"
 
 /*
    K_ab = int lambda grad N_a (x) grad N_b + mu grad N_b (x) grad N_a + mu (grad N_a . grad N_b) I,

@@ -1,5 +1,5 @@
 /* Stress of the cells */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 static PetscReal VonMises(const PetscReal s[6])
 {

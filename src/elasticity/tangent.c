@@ -1,5 +1,5 @@
 /* The tangent matrix and its near null space */
-#include "elasticity_private.h"
+#include "elasticityimpl.h"
 
 /* 1 on free rows, 0 on prescribed ones */
 static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)

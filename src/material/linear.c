@@ -1,5 +1,5 @@
 /* Isotropic linear elasticity: W = lambda/2 (tr e)^2 + mu e:e, e = (H + H^T)/2 */
-#include "laws.h"
+#include "materialimpl.h"
 
 static PetscReal MaterialEnergy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9])
 {

@@ -1,5 +1,5 @@
 /* Parameters of materials and the table of laws */
-#include "laws.h"
+#include "materialimpl.h"
 
 const char *const MaterialTypes[] = {"linear", "neohookean", "MaterialType", "MATERIAL_", NULL};
 

@@ -3,7 +3,7 @@
 
    Everything is written in what vanishes at rest, H, theta = J - 1 and I1 - 3, so that small strains keep their digits.
 */
-#include "laws.h"
+#include "materialimpl.h"
 
 typedef struct {
   PetscReal D[9];  /* cof F - I, cof F = J F^(-T) */

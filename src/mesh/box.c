@@ -1,5 +1,5 @@
 /* Boxes of hexahedra, aligned with the axes, equal or graded along each axis */
-#include "shape.h"
+#include "meshimpl.h"
 
 static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)
 {

@@ -1,7 +1,6 @@
 /* Is a Gmsh file what it says it is? PETSc's reader trusts the numbers of nodes, elements and entities in it, and a wrong one
    is an address out of bounds there. The walk is PETSc's own: the same words, numbers and blanks in the same order */
-#include "mesh_private.h"
-#include "gmsh_stream.h"
+#include "meshimpl.h"
 #include <petscbt.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Words and numbers of a Gmsh file, text or binary, read as PETSc reads them: the same blanks are skipped */
-#include "gmsh_stream.h"
+#include "meshimpl.h"
 #include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* The O-grid of an octant: three patches around an optional core */
-#include "octant.h"
+#include "meshimpl.h"
 
 typedef struct {
   PetscInt  n[3], layers, ncore, nsurface; /* vertices of the core, and of one layer outside of it */

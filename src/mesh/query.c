@@ -1,5 +1,8 @@
 /* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
-#include "mesh_private.h"
+#include "meshimpl.h"
+
+/* Tensor order (x fastest) of DMPlex's hexahedron vertices; DMPlex turns the bottom quadrilateral outward */
+const PetscInt MeshHexTensorOrder[8] = {0, 3, 1, 2, 4, 5, 7, 6};
 
 /* Points of a face label's stratum 1 within [start, end), as a sorted index set, empty on ranks without any */
 static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)

@@ -1,5 +1,5 @@
 /* Octant of a shell between two ellipsoids around its corner */
-#include "octant.h"
+#include "meshimpl.h"
 
 static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {

@@ -3,7 +3,7 @@
    vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar facets.
    A mode outside the span of these rows moves freely, and the stiffness is singular for it.
 */
-#include "mesh_private.h"
+#include "meshimpl.h"
 
 typedef struct {
   DM        dm;

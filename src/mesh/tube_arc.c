@@ -1,5 +1,5 @@
 /* Arc of a tube. Parameters: distance from the axis, angle about it, place along it */
-#include "shape.h"
+#include "meshimpl.h"
 
 static const char *const *ShapeFaces_TubeArc(PETSC_UNUSED const SceneBody *body)
 {

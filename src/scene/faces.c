@@ -1,11 +1,11 @@
-/* The faces that bodies have, and faces: a list of named parts of them */
+/* The faces that bodies have, and faces: a list of named ones that are cut out of them */
 #include "sceneimpl.h"
 #include <mesh.h>
 #include <petscviewer.h>
 #include <string.h>
 
 /* The body of a name <body>.<face>, PETSC_DECIDE if there is none; face: what follows the dot */
-static PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
+PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
 {
   const char *dot = strchr(name, '.');
 

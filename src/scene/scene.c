@@ -2,8 +2,6 @@
 #include "sceneimpl.h"
 #include <string.h>
 
-const char *const StepModels[] = {"energy", "quadratic", "StepModel", "MODEL_", NULL};
-
 /* The file's name without folders and .yaml */
 static PetscErrorCode SceneDefaultName(const char file[], char **name)
 {

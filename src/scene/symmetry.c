@@ -39,32 +39,26 @@ static PetscInt HalfEllipseAxis(const SceneHalfEllipse *ellipse, const char face
 }
 
 /* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
-static PetscErrorCode SceneFaceAxis(Scene scene, const char face[], PetscInt *axis)
+static PetscInt SceneFaceAxis(Scene scene, const char face[])
 {
-  const char *name = strchr(face, '.') + 1;
+  const char      *name;
+  const PetscInt   b = SceneFindBody(scene, face, &name);
+  const SceneBody *body;
 
-  PetscFunctionBegin;
-  *axis = PETSC_DECIDE;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const SceneBody *body   = &scene->bodies[b];
-    const size_t     length = strlen(body->name);
-
-    if (length != (size_t)(name - 1 - face) || strncmp(face, body->name, length)) continue;
-    if (body->shape == SHAPE_TUBE_ARC) *axis = TubeArcAxis(&body->tube, name);
-    else if (body->shape == SHAPE_HALF_ELLIPSE) *axis = HalfEllipseAxis(&body->ellipse, name);
-    else if (body->shape != SHAPE_GMSH) *axis = BoxOrOctantAxis(name);
-  }
-  PetscFunctionReturn(0);
+  if (b < 0) return PETSC_DECIDE;
+  body = &scene->bodies[b];
+  if (body->shape == SHAPE_TUBE_ARC) return TubeArcAxis(&body->tube, name);
+  if (body->shape == SHAPE_HALF_ELLIPSE) return HalfEllipseAxis(&body->ellipse, name);
+  return body->shape == SHAPE_GMSH ? PETSC_DECIDE : BoxOrOctantAxis(name);
 }
 
 /* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis is unknown */
 static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
 {
-  char     name[SCENE_KEY_LENGTH];
-  PetscInt axis;
+  const PetscInt axis = SceneFaceAxis(scene, face);
+  char           name[SCENE_KEY_LENGTH];
 
   PetscFunctionBegin;
-  PetscCall(SceneFaceAxis(scene, face, &axis));
   if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
   PetscCall(PetscSNPrintf(name, sizeof(name), "symmetry_%s", face));
   *strchr(name, '.') = '_';

@@ -1,44 +1,6 @@
 /* A scene as the YAML that SceneLoad() reads */
 #include "sceneimpl.h"
 #include <petscviewer.h>
-#include <stdlib.h>
-
-/* The shortest decimal that reads back as the same number */
-PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
-{
-  char text[64];
-
-  PetscFunctionBegin;
-  for (int digits = 6; digits <= 17; ++digits) {
-    (void)snprintf(text, sizeof(text), "%.*g", digits, (double)value);
-    if ((PetscReal)strtod(text, NULL) == value) break;
-  }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s", text));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ViewList(PetscViewer viewer, PetscInt n, const PetscReal values[])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "["));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
-    PetscCall(SceneViewReal(viewer, values[i]));
-  }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SceneViewReals(PetscViewer viewer, const char label[], PetscInt n, const PetscReal values[])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", label));
-  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(ViewList(viewer, n, values));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode ViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
@@ -114,7 +76,7 @@ static PetscErrorCode ViewBodyForce(Scene scene, PetscViewer viewer, PetscInt f)
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (force->body >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %s, ", scene->bodies[force->body].name));
   PetscCall(PetscViewerASCIIPrintf(viewer, "value: "));
-  PetscCall(ViewList(viewer, 3, force->value));
+  PetscCall(SceneViewList(viewer, 3, force->value));
   PetscCall(ViewRampName(scene, viewer, force->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
@@ -141,7 +103,7 @@ static PetscErrorCode ViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {factors: ", scene->ramps[1 + r].name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(ViewList(viewer, scene->nsteps, scene->ramps[1 + r].factor));
+  PetscCall(SceneViewList(viewer, scene->nsteps, scene->ramps[1 + r].factor));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);

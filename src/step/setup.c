@@ -36,15 +36,11 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
 
 static PetscErrorCode SimulationSetUpContact(Simulation sim)
 {
-  Scene        scene = sim->scene;
-  ContactPair *pairs;
+  Scene scene = sim->scene;
 
   PetscFunctionBegin;
   if (!scene->npairs) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(scene->npairs, &pairs));
-  for (PetscInt p = 0; p < scene->npairs; ++p) pairs[p] = (ContactPair){scene->pairs[p].mortar, scene->pairs[p].nonmortar, scene->pairs[p].gap, scene->pairs[p].distance};
-  PetscCall(ContactCreate(sim->dm, scene->npairs, pairs, &sim->contact));
-  PetscCall(PetscFree(pairs));
+  PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactMemoryCreate(sim->dm, scene->npairs, &sim->memory));
   PetscFunctionReturn(0);

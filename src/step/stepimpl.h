@@ -9,7 +9,7 @@
 #include <step.h>
 #include <mesh.h>
 #include <elasticity.h>
-#include <gap.h>
+#include <contact.h>
 #include <petscamgf.h>
 
 /* events.c */

@@ -1,19 +1,12 @@
 /*
-   Contact: the linearized mortar gap between pairs of faces, c(u) = g + J (u - u_ref), one row a nonmortar vertex.
+   Contact: the linearized gap between pairs of faces, c(u) = g + J (u - u_ref), one row a nonmortar vertex.
 */
-#ifndef GAP_H
-#define GAP_H
+#ifndef CONTACT_H
+#define CONTACT_H
 
 #include <petscdmplex.h>
 #include <petscmat.h>
-#include <formulation.h>
-
-typedef struct {
-  const char *mortar;    /* face label "<body>.<face>" */
-  const char *nonmortar; /* face label; carries the constraints */
-  GapType     gap;
-  PetscReal   distance;  /* facets further apart never pair [length]; 0: chosen from the size of the faces */
-} ContactPair;
+#include <scene.h>
 
 typedef struct _n_Contact *Contact;
 
@@ -27,11 +20,11 @@ typedef struct {
   PetscInt *pair;   /* contact pair of each local row */
 } *ContactLinearization;
 
-PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const ContactPair[], Contact *);
+PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
-/* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
+/* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 /* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);

@@ -83,7 +83,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-  PetscCall(ContactSearch(pair, mortar, &near));
+  PetscCall(ContactSearch(&pair->nonmortar, pair->distance, pair->depth, mortar, &near));
   PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {

@@ -1,0 +1,166 @@
+/*
+   Mesh, private: the map of src/mesh. From the shapes to the mesh, every file builds on those before it.
+*/
+#ifndef MESHIMPL_H
+#define MESHIMPL_H
+
+#include <mesh.h>
+#include <stdio.h>
+
+/*
+   grid.c: level 0 hexahedral meshes of single bodies, made on one rank.
+
+   The vertices of a mesh are refined in a shape's parameters, where its cells are straight, and mapped to space at the end:
+   so refinement follows curved surfaces on every level without any communication. A body whose facets are to
+   stay is mapped at level 0.
+*/
+typedef struct {
+  PetscInt   ncells, nvertices, nfacets;
+  PetscInt  *cells;       /* 8 vertices a cell, tensor order: vertex i + 2 j + 4 k lies at the corner (i, j, k) */
+  PetscReal *coordinates; /* 3 parameters a vertex; for a shape without a map, its place [length] */
+  PetscInt  *facets;      /* 4 vertices a facet */
+  PetscInt  *facetface;   /* index of each facet's face in the names that MeshGetFaceNames() gives */
+} ShapeGrid;
+
+PETSC_INTERN PetscErrorCode ShapeGridDestroy(ShapeGrid *);
+
+/* A block of n[0] x n[1] x n[2] cells. faces: of the sides at the begin and the end of each direction, or PETSC_DECIDE inside the body */
+typedef struct {
+  PetscInt    n[3], faces[6];
+  const void *context;
+  PetscInt (*vertex)(const void *context, PetscInt i, PetscInt j, PetscInt k);
+} ShapeBlock;
+
+/* Allocates a grid of blocks and fills all but its coordinates; mirrored: the map turns right-handed cells left-handed */
+PETSC_INTERN PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock[], PetscInt nvertices, PetscBool mirrored, ShapeGrid *);
+/* Place in [0, 1] of vertex i of n cells, the last `grading` times as large as the first (0: 1): `even` (0: 1) equal ones at the
+   fine end, from there on growing geometrically */
+PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i);
+/* Errors: a count that is not positive; a count or total too large; a grading that is not positive, or has more even cells than there are */
+PETSC_INTERN PetscErrorCode ShapeCheckCount(MPI_Comm, const SceneBody *, const char what[], PetscInt count);
+PETSC_INTERN PetscErrorCode ShapeCheckTotal(MPI_Comm, const SceneBody *, PetscReal nvertices);
+PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading, PetscInt even, PetscInt n);
+
+/*
+   box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes.
+
+   A new shape is one file with a Shape, one line in shape.c, and its keys in src/scene/shapes.c.
+*/
+typedef struct {
+  /* Names of the faces, NULL-terminated */
+  const char *const *(*faces)(const SceneBody *);
+  /* Collective error if the body's parameters are not valid; number of level 0 cells and vertices */
+  PetscErrorCode (*size)(MPI_Comm, const SceneBody *, PetscInt64 *ncells, PetscInt64 *nvertices);
+  /* Not collective; fills the grid, whose arrays are the caller's to free with ShapeGridDestroy() */
+  PetscErrorCode (*create)(const SceneBody *, ShapeGrid *);
+  /* From parameters to places in space; NULL if they are the same. x and the parameters may be one array */
+  PetscErrorCode (*map)(const SceneBody *, const PetscReal parameters[3], PetscReal x[3]);
+} Shape;
+
+PETSC_INTERN const Shape ShapeBox, ShapeTubeArc, ShapeHalfEllipse, ShapeSphereShell, ShapeSpheroidShell, ShapeBall;
+
+/*
+   octant.c: octants of shells and balls as O-grids.
+
+   Parameters: a cube [0, 1]^3 with a corner at the octant's corner, whose three far sides (the patches) are extruded to the cube
+   [0, 2]^3: there, with m the largest component, the point q = p/m of a far side gives a direction and s = m - 1 the place
+   across the shell, 0 at its inner and 1 at its outer surface. Shells have no cells in [0, 1]^3, a ball has its core there.
+*/
+PETSC_INTERN const char *const *OctantFaces(const SceneBody *);
+PETSC_INTERN PetscErrorCode OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells, PetscInt64 *nvertices);
+PETSC_INTERN PetscErrorCode OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
+/* q on the far sides of the unit cube and s, from parameters outside of the core */
+PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
+/* Unit vector of a point of the far sides, all components >= 0; equal steps along the cube's edges are equal angles */
+PETSC_INTERN void OctantDirection(const PetscReal q[3], PetscReal direction[3]);
+/* Place of a point given relative to the corner, all components >= 0 */
+PETSC_INTERN void OctantPlace(const SceneBody *, const PetscReal relative[3], PetscReal x[3]);
+
+/* shape.c: the shape of a body; NULL for a body from a file */
+PETSC_INTERN PetscErrorCode ShapeGet(MPI_Comm, const SceneBody *, const Shape **);
+
+/* names.c: lists of names; joined with commas, or the word none, cut off at size */
+PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
+PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
+
+/* query.c: number within DMPlex's hexahedron of the vertex at each corner i + 2 j + 4 k; and what is public */
+PETSC_INTERN const PetscInt MeshHexTensorOrder[8];
+
+/* gmsh_stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
+#define GMSH_WORD 256
+
+typedef struct {
+  FILE      *file;
+  PetscInt64 size; /* of the file [bytes]: no count in it can be larger */
+  int        version, width;
+  PetscBool  binary, swapped;
+  char      *sentence;
+  size_t     length;
+} GmshStream;
+
+PETSC_INTERN void GmshComplain(GmshStream *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+#define GmshWrong(...) (GmshComplain(__VA_ARGS__), PETSC_FALSE)
+
+/* A word and the one blank after it; the name of the next section, past comments */
+PETSC_INTERN PetscBool GmshGetWord(GmshStream *, char word[GMSH_WORD]);
+PETSC_INTERN PetscBool GmshGetSection(GmshStream *, char word[GMSH_WORD]);
+PETSC_INTERN PetscBool GmshExpect(GmshStream *, const char section[], const char word[]);
+PETSC_INTERN PetscBool GmshExpectNext(GmshStream *, const char section[]);
+PETSC_INTERN PetscBool GmshGetBytes(GmshStream *, size_t n, void *value);
+/* n whole numbers of 4 or 8 bytes; n finite reals; n counts; a count that format 2 writes as a word, also in binary files */
+PETSC_INTERN PetscBool GmshGetNumbers(GmshStream *, int width, PetscInt64 n, PetscInt64 values[]);
+PETSC_INTERN PetscBool GmshGetReals(GmshStream *, PetscInt64 n);
+PETSC_INTERN PetscBool GmshGetCounts(GmshStream *, const char what[], PetscInt64 n, PetscInt64 counts[]);
+PETSC_INTERN PetscBool GmshGetCountWord(GmshStream *, const char what[], PetscInt64 *count);
+
+/* gmsh_check.c. Not collective: what is wrong with the file's form and numbers, in a sentence of so many characters, or "" */
+PETSC_INTERN PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[]);
+
+/* gmsh_names.c, all collective: what rank 0 found wrong, "" for nothing, is everybody's error */
+#define GMSH_SENTENCE 1024
+PETSC_INTERN PetscErrorCode GmshRaise(MPI_Comm, char sentence[GMSH_SENTENCE]);
+/* Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
+PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags);
+/* Error if the file has no physical volume of the body's name */
+PETSC_INTERN PetscErrorCode GmshGetVolumeTag(MPI_Comm, const SceneBody *, PetscInt *tag);
+
+/* gmsh.c: a Gmsh file, read on rank 0; bodies that come from one file one after another share it */
+typedef struct {
+  const char *name;
+  DM          dm; /* NULL on the other ranks */
+} GmshFile;
+PETSC_INTERN PetscErrorCode GmshFileOpen(MPI_Comm, const SceneBody *, GmshFile *);
+PETSC_INTERN PetscErrorCode GmshFileClose(GmshFile *);
+PETSC_INTERN PetscErrorCode GmshFileGetGrid(MPI_Comm, GmshFile *, const SceneBody *, ShapeGrid *);
+
+/* faces.c: name of the label of a body's face */
+PETSC_INTERN PetscErrorCode MeshFaceLabelName(const char body[], const char face[], size_t length, char name[]);
+
+/* subfaces.c: whether those that the body names are of its faces; their labels at level 0, not collective, on the rank that has
+   the body. first: the first vertex. empty: index of one without facets, or PETSC_DECIDE */
+PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
+PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first, PetscInt *empty);
+
+/* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
+typedef struct {
+  PetscInt64 ncells, nvertices;
+  PetscInt   nfaces;
+  char     **faces;
+  ShapeGrid  grid;
+} MeshBody;
+PETSC_INTERN PetscErrorCode MeshCreateBodies(MPI_Comm, PetscInt nbodies, const SceneBody[], MeshBody[]);
+PETSC_INTERN PetscErrorCode MeshDestroyBodies(PetscInt nbodies, MeshBody[]);
+
+/* map.c: maps the vertices of bodies with curved refinement (or those without) from the shapes' parameters to space */
+PETSC_INTERN PetscErrorCode MeshMapVertices(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
+
+/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: also in bodies that are mapped after
+   refinement */
+PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
+
+/* level0.c: all bodies at level 0, on rank 0, with their labels */
+PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], DM *);
+
+/* metis.c, create.c, support.c: the partitioner, MeshCreate(), and whether the scene holds its bodies, public */
+
+#endif

@@ -1,0 +1,102 @@
+/* Are the cells sound? */
+#include "meshimpl.h"
+
+/* Smallest of the Jacobian's determinants at the corners, in units of the longest edge cubed */
+static PetscReal CellQuality(PetscReal x[8][3])
+{
+  PetscReal smallest = PETSC_MAX_REAL, longest = 0;
+
+  for (PetscInt a = 0; a < 8; ++a) {
+    PetscReal e[3][3], det;
+
+    for (PetscInt k = 0; k < 3; ++k) {
+      const PetscInt low = a & ~(1 << k), high = a | 1 << k;
+      PetscReal      length = 0;
+
+      for (PetscInt d = 0; d < 3; ++d) {
+        e[k][d] = x[high][d] - x[low][d];
+        length += PetscSqr(e[k][d]);
+      }
+      longest = PetscMax(longest, PetscSqrtReal(length));
+    }
+    det      = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    smallest = PetscMin(smallest, det);
+  }
+  return longest > 0 ? smallest / (longest * longest * longest) : 0;
+}
+
+/* Is a before b along x, or else along y, or else along z? */
+static PetscBool IsBefore(const PetscReal a[3], const PetscReal b[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (a[d] != b[d]) return a[d] < b[d] ? PETSC_TRUE : PETSC_FALSE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are this rank's */
+static PetscErrorCode ReportBadCells(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[], PetscReal place[][3])
+{
+  PetscInt *total;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nbodies, &total));
+  PetscCallMPI(MPI_Allreduce(count, total, (PetscMPIInt)nbodies, MPIU_INT, MPI_SUM, comm));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    PetscReal   first[3];
+    PetscBool   candidate = PETSC_TRUE;
+    const char *from      = bodies[b].shape == SHAPE_GMSH ? bodies[b].gmsh.file : "";
+
+    if (!total[b]) continue;
+    for (PetscInt d = 0; d < 3; ++d) {
+      const PetscReal mine = candidate ? place[b][d] : PETSC_MAX_REAL;
+
+      PetscCallMPI(MPI_Allreduce(&mine, &first[d], 1, MPIU_REAL, MPIU_MIN, comm));
+      if (mine > first[d]) candidate = PETSC_FALSE;
+    }
+    SETERRQ(comm, PETSC_ERR_USER_INPUT, "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)", bodies[b].name, *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s", (double)first[0], (double)first[1], (double)first[2]);
+  }
+  PetscCall(PetscFree(total));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[], PetscBool mapped)
+{
+  Vec                coordinates;
+  PetscSection       section;
+  const PetscScalar *array;
+  PetscInt           cstart, cend, *count;
+  PetscReal(*place)[3];
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(PetscCalloc2(nbodies, &count, nbodies, &place));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) place[i / 3][i % 3] = PETSC_MAX_REAL;
+  PetscCall(VecGetArrayRead(coordinates, &array));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt     b, vertices[8];
+    PetscReal    x[8][3], center[3] = {0, 0, 0};
+    const Shape *shape;
+
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
+    PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[b], &shape));
+    if (!mapped && shape && shape->map && bodies[b].curved) continue;
+    PetscCall(MeshGetCellVertices(dm, c, vertices));
+    for (PetscInt a = 0; a < 8; ++a) {
+      PetscInt offset;
+
+      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+      for (PetscInt d = 0; d < 3; ++d) x[a][d] = PetscRealPart(array[offset + d]);
+    }
+    if (CellQuality(x) > 1e-12) continue;
+    for (PetscInt i = 0; i < 24; ++i) center[i % 3] += x[i / 3][i % 3] / 8;
+    if (IsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
+    ++count[b];
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &array));
+  PetscCall(ReportBadCells(PetscObjectComm((PetscObject)dm), nbodies, bodies, count, place));
+  PetscCall(PetscFree2(count, place));
+  PetscFunctionReturn(0);
+}
