@@ -10,6 +10,7 @@ SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -f
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
 TIDY_FILES     ?= $(wildcard src/*/*.c apps/*.c pc_amgf/*.c tao_ipfilter/*.c)
+FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf tao_ipfilter src/* apps tests tests/fuzz tests/stress share/bench,$(folder)/*.c $(folder)/*.h))
 linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
@@ -41,7 +42,12 @@ memcheck:
 	@echo 'memcheck: clean'
 
 tidy:
-	@mkdir -p build; clean=0; for file in $(TIDY_FILES); do \
+	@mkdir -p build; clean=0; \
+	for tool in clang-format clang-tidy; do command -v $$tool > /dev/null || { echo "tidy: there is no $$tool"; exit 1; }; done; \
+	for file in $(FORMAT_FILES); do \
+	  clang-format --dry-run -Werror $$file 2> /dev/null || { echo "tidy: $$file is not as .clang-format has it"; clean=1; }; \
+	done; \
+	for file in $(TIDY_FILES); do \
 	  clang-tidy --quiet $$file -- -std=c11 -Iinclude -I$$(dirname $$file) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(shell $(CC) --showme:compile 2>/dev/null) 2> build/tidy.err || clean=1; \
 	done; exit $$clean
 	@echo 'tidy: clean'

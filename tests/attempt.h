@@ -53,7 +53,8 @@ static inline PetscErrorCode AttemptPrint(PetscErrorCode ierr)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(&failed, &least, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(&failed, &most, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s%s\n", least ? "error on every rank" : most ? "error on some rank" : "no error", most ? ": " : "", attempt_sentence));
+  if (most) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "error on %s rank: %s\n", least ? "every" : "some", attempt_sentence));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no error\n"));
   PetscFunctionReturn(0);
 }
 

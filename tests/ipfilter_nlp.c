@@ -12,7 +12,7 @@ static char help[] = "Small problems whose solutions are known: Hock and Schittk
 #define NMODES 5
 
 static const struct {
-  const char *name, *options, *skip; /* skip: the problem that is not solved, and why stands beside it */
+  const char *name, *options, *skip; /* skip: the problem that is not solved; why stands above it */
 } modes[NMODES] = {
   {"default", "-tao_max_it 200", ""},
   /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which is stationary */
@@ -21,7 +21,7 @@ static const struct {
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", "HS104"},
   {"differences", "-tao_max_it 200 -hessian 0", ""},
   /* dense matrices, whose conversions drop zeros: the same path as in the first mode */
-  {"dense", "-tao_max_it 200 -dense", ""}
+  {"dense", "-tao_max_it 200 -dense", ""},
 };
 
 typedef struct {
@@ -93,7 +93,7 @@ static PetscErrorCode VecFromText(MPI_Comm comm, PetscInt n, const char *text, P
 
     while (isspace((unsigned char)*text)) text++;
     entry = text;
-    text  = end = entry + strcspn(entry, " ");
+    text = end = entry + strcspn(entry, " ");
     if (k >= 0) {
       const char *colon = *entry ? strchr(entry, ':') : entry;
 
@@ -468,9 +468,12 @@ static PetscErrorCode Wanted(const NLP *p, PetscInt mode, PetscInt nonly, char *
   PetscFunctionBeginUser;
   *wanted = PETSC_FALSE;
   for (PetscInt i = 0; i < nonly && !*wanted; i++) PetscCall(PetscStrcmp(only[i], p->name, wanted));
-  if (nonly) PetscFunctionReturn(0);
-  if (mode >= 0) PetscCall(PetscStrcmp(modes[mode].skip, p->name, wanted));
-  *wanted = (PetscBool)!*wanted;
+  if (!nonly) {
+    PetscBool skipped = PETSC_FALSE;
+
+    if (mode >= 0) PetscCall(PetscStrcmp(modes[mode].skip, p->name, &skipped));
+    *wanted = skipped ? PETSC_FALSE : PETSC_TRUE;
+  }
   PetscFunctionReturn(0);
 }
 
@@ -504,7 +507,7 @@ static PetscErrorCode SolveAll(PetscInt mode, PetscBool table)
 int main(int argc, char **argv)
 {
   const char *names[NMODES];
-  PetscInt    mode = -1;
+  PetscInt    mode  = -1;
   PetscBool   table = PETSC_FALSE, print = PETSC_FALSE, given;
 
   PetscFunctionBeginUser;

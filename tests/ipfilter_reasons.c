@@ -65,8 +65,8 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
 /* c = x_0 - 1, and, infeasible, also -x_0 */
 static PetscErrorCode Inequality(Tao tao, Vec x, Vec c, void *user)
 {
-  Mat       J;
-  PetscInt  lo, hi;
+  Mat      J;
+  PetscInt lo, hi;
 
   PetscFunctionBeginUser;
   (void)user;
