@@ -72,7 +72,7 @@ typedef struct {
   Mat          R;        /* P^H A, thin: n_c x n */
   Mat          Aw;       /* P^H A P */
   Vec          rc, ec, wc; /* n_c */
-  Vec          w[PetscDefined(USE_COMPLEX) ? 3 : 2]; /* n */
+  Vec          w[2];     /* n */
 
   AMGFLag lag;
 } PC_AMGF;

@@ -163,16 +163,16 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 
 PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
 {
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
-  Vec      conjugate = r; /* r itself must not be written to */
+  Vec conjugate = r;
 
   PetscFunctionBegin;
   if (PetscDefined(USE_COMPLEX)) {
-    conjugate = amgf->w[2];
+    PetscCall(VecDuplicate(r, &conjugate));
     PetscCall(VecCopy(r, conjugate));
     PetscCall(VecConjugate(conjugate));
   }
   PetscCall(CycleApply(pc, PETSC_TRUE, conjugate, z));
   PetscCall(CycleConjugate(z));
+  if (PetscDefined(USE_COMPLEX)) PetscCall(VecDestroy(&conjugate));
   PetscFunctionReturn(0);
 }
