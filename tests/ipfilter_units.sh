@@ -11,7 +11,6 @@ sys.path.insert(0, os.path.join(top, "tests", "stress"))
 from units import UNITS, in_units
 
 
-
 def solve(shipped, length=1.0, pressure=1.0):
     with open("scene.yaml", "w") as file:
         json.dump(in_units(shipped, ".", length, pressure), file)
