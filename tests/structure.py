@@ -1,0 +1,164 @@
+"""Holds the sources below AMGF_DIR, and their objects in AMGF_DIR/build, to the rules of the tree's structure."""
+import collections
+import glob
+import os
+import re
+import statistics
+import subprocess
+
+TOP = os.environ["AMGF_DIR"]
+FOLDERS = ("pc_amgf", "tao_ipfilter", "src/*", "apps")
+LONGEST, MEDIAN = 60, 12  # lines between the braces of a function
+MEMBERS = 40  # of the solver's object, a structure in it is one
+
+DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n(?P<body>.*?)^\}", re.M | re.S)
+DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
+SECTION = re.compile(r"^/\*\s+(\w+\.c(?:, \w+\.c)*)\b", re.M)  # a comment that begins with one file's name, or several
+
+
+def sources(kind):
+    """Paths below the top"""
+    return sorted(os.path.relpath(path, TOP) for folder in FOLDERS for path in glob.glob(os.path.join(TOP, folder, "*." + kind)))
+
+
+def text(path):
+    with open(os.path.join(TOP, path)) as file:
+        return file.read()
+
+
+def functions(path):
+    """(name, whether it is static, line of its brace, number of its lines)"""
+    content = text(path)
+    for match in DEFINITION.finditer(content):
+        yield match["name"], bool(match["static"]), content.count("\n", 0, match.start("body")), match["body"].count("\n")
+
+
+def symbols():
+    """source file: what its object defines, and what it takes from others"""
+    paths = sources("c")
+    objects = {os.path.join(TOP, "build", path[:-1] + "o"): path for path in paths}
+    defined, taken = {path: set() for path in paths}, {path: set() for path in paths}
+    for line in subprocess.run(["nm", "-A", *objects], capture_output=True, text=True, check=True).stdout.splitlines():
+        place, row = line.split(":", 1)
+        kind, name = row.split()[-2:]
+        if kind == "U":
+            taken[objects[place]].add(name)
+        elif kind in "TDBRC":
+            defined[objects[place]].add(name)
+    return defined, taken
+
+
+def calls(defined, taken):
+    """file: the files that it takes something from, and what"""
+    home = {name: path for path, names in defined.items() for name in names}
+    graph = {path: collections.defaultdict(set) for path in defined}
+    for path, names in taken.items():
+        for name in names:
+            if name in home:
+                graph[path][home[name]].add(name)
+    return graph
+
+
+def reachable(graph, start):
+    seen, stack = set(), [start]
+    while stack:
+        for path in graph[stack.pop()]:
+            if path not in seen:
+                seen.add(path)
+                stack.append(path)
+    return seen
+
+
+def circles(graph):
+    """Groups of files each of which reaches all others, and the calls that make them so"""
+    reach = {path: reachable(graph, path) for path in graph}
+    groups = {tuple(sorted(other for other in graph if other == path or other in reach[path] and path in reach[other])) for path in graph}
+    for group in sorted(group for group in groups if len(group) > 1):
+        yield ", ".join(group)
+        for a in group:
+            yield from (f"  {a} -> {b}: {', '.join(sorted(graph[a][b]))}" for b in group if b in graph[a])
+
+
+def long_functions():
+    for path in sources("c"):
+        for name, _, line, length in functions(path):
+            if length > LONGEST:
+                yield f"{path}:{line}: {name} has {length} lines, more than {LONGEST}"
+
+
+def median_function():
+    median = statistics.median(length for path in sources("c") for *_, length in functions(path))
+    if median > MEDIAN:
+        yield f"the median function has {median:g} lines, more than {MEDIAN}"
+
+
+def repeated_statics():
+    found = collections.defaultdict(list)
+    for path in sources("c"):
+        for name, static, *_ in functions(path):
+            if static:
+                found[name].append(path)
+    for name, files in sorted(found.items()):
+        if len(files) > 1:
+            yield f"static {name}() stands in {', '.join(files)}"
+
+
+def members(content, structure):
+    """Declarators of a structure, those of a structure within it not counted"""
+    content = re.sub(r"/\*.*?\*/", "", content, flags=re.S)
+    body, depth = content[: content.index("} " + structure + ";")], 0
+    for start in range(len(body) - 1, -1, -1):
+        depth += {"}": 1, "{": -1}.get(body[start], 0)
+        if depth < 0:
+            break
+    body = body[start + 1 :]
+    while re.search(r"[({\[]", body):  # innermost first: parameters, dimensions, structures within
+        body = re.sub(r"\([^(){}\[\]]*\)|\{[^(){}\[\]]*\}|\[[^(){}\[\]]*\]", "", body)
+    return sum(declaration.count(",") + 1 for declaration in body.split(";") if declaration.strip())
+
+
+def solver_members():
+    n = members(text("tao_ipfilter/ipfilterimpl.h"), "TAO_IPFILTER")
+    if n > MEMBERS:
+        yield f"tao_ipfilter/ipfilterimpl.h: TAO_IPFILTER has {n} members, more than {MEMBERS}"
+
+
+def private_headers():
+    """A folder's is called after the folder, one file's after the file; what only adapts PETSc declares nothing"""
+    for path in sources("h"):
+        folder, name = os.path.split(path)
+        own = re.sub("^(pc|tao)_", "", os.path.basename(folder)) + "impl.h"
+        if name != own and DECLARATION.search(text(path)) and not os.path.exists(os.path.join(TOP, path[:-1] + "c")):
+            yield f"{path} should be {own}, or called after the file whose functions it declares"
+
+
+def misplaced_declarations(defined):
+    """Under the name of a file stands what that file defines"""
+    for path in sources("h"):
+        folder, content = os.path.dirname(path), text(path)
+        sections = [(match.start(), match[1]) for match in SECTION.finditer(content)]
+        for match in DECLARATION.finditer(content):
+            above = [names for start, names in sections if start < match.start()]
+            homes = [os.path.join(folder, name) for name in above[-1].split(", ")] if above else []
+            if homes and not any(match[1] in defined.get(home, ()) for home in homes):
+                real = [where for where, names in defined.items() if match[1] in names]
+                yield f"{path}: {match[1]} stands under {above[-1]}, is defined in {', '.join(real) or 'no file'}"
+
+
+def main():
+    defined, taken = symbols()
+    rules = {
+        "no files call each other in a circle": circles(calls(defined, taken)),
+        f"no function is longer than {LONGEST} lines": long_functions(),
+        f"half of the functions have {MEDIAN} lines at most": median_function(),
+        "no two static functions have one name": repeated_statics(),
+        f"the solver's object has {MEMBERS} members at most": solver_members(),
+        "private headers are called after their folder or file": private_headers(),
+        "functions are declared under the file that defines them": misplaced_declarations(defined),
+    }
+    for rule, violations in rules.items():
+        lines = list(violations)
+        print(f"{rule}: {'NO' if lines else 'sound'}", *lines, sep="\n  ")
+
+
+main()
