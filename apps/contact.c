@@ -258,7 +258,7 @@ static void AppLimitHeap(void)
 int main(int argc, char **argv)
 {
   PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
-  AppError       error     = {.traceback = PETSC_FALSE};
+  AppError       error = {.traceback = PETSC_FALSE};
   PetscErrorCode ierr;
 
   AppLimitHeap();

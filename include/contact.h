@@ -18,7 +18,7 @@ typedef struct {
   PetscInt  nlocal; /* rows of this rank */
   PetscInt *vertex; /* nonmortar vertex (local DMPlex point) of each local row */
   PetscInt *pair;   /* contact pair of each local row */
-} *ContactLinearization;
+} * ContactLinearization;
 
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);

@@ -5,38 +5,38 @@
 #include <petscamgf.h>
 
 typedef struct {
-  PetscInt    step;
-  PetscReal   load;
-  PetscInt    constraints;
-  PetscInt    filter_dofs;
-  PetscInt    ip_iterations;
-  PetscInt   *ksp_iterations; /* one a Newton system, nksp values */
-  PetscInt    nksp;
-  PetscInt    amg_applications, amg_setups;
-  PetscInt    substeps, cuts;         /* solves of equilibrium in this load step; how often it was cut */
-  PetscInt    contact_updates;        /* linearizations of the gap in the last solve */
-  PetscInt    regularizations;        /* Newton systems whose matrix was not positive definite */
-  PetscInt    systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
-  TaoIPFilterFallbacks linear;        /* linear solves that took more than the Krylov method by itself */
-  PetscReal   energy;                 /* elastic, from the elements [force length] */
-  PetscReal   potential;              /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
-  PetscReal   equilibrium;            /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
-  PetscReal   kkt_error;              /* scaled, dimensionless */
-  PetscReal   kkt_error_unscaled;
-  PetscReal   gap_min;                /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
-  PetscReal   gap_true;               /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
-  PetscReal   gap_change;             /* largest difference of the two where there is pressure, or penetration [length] */
-  PetscBool   gap_untrue;             /* the limit on linearizations came before the gap was true */
-  PetscReal   complementarity;        /* max s z [force/length] */
-  PetscReal   algebraic_error;        /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
-  PetscReal   action_reaction;        /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
-  PetscReal   error_estimate;         /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
-  PetscReal  *body_errors;            /* parts of the bodies, whose squares sum to its square; NULL: none was made */
-  PetscReal   contact_force[3];       /* on the nonmortar side [force] */
-  PetscReal   reaction[3];            /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
-  PetscLogDouble solve_time;          /* optimizer alone, its linear solves included [s] */
-  PetscBool   converged;
-  const char *reason;
+  PetscInt             step;
+  PetscReal            load;
+  PetscInt             constraints;
+  PetscInt             filter_dofs;
+  PetscInt             ip_iterations;
+  PetscInt            *ksp_iterations; /* one a Newton system, nksp values */
+  PetscInt             nksp;
+  PetscInt             amg_applications, amg_setups;
+  PetscInt             substeps, cuts;            /* solves of equilibrium in this load step; how often it was cut */
+  PetscInt             contact_updates;           /* linearizations of the gap in the last solve */
+  PetscInt             regularizations;           /* Newton systems whose matrix was not positive definite */
+  PetscInt             systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
+  TaoIPFilterFallbacks linear;                    /* linear solves that took more than the Krylov method by itself */
+  PetscReal            energy;                    /* elastic, from the elements [force length] */
+  PetscReal            potential;                 /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
+  PetscReal            equilibrium;               /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
+  PetscReal            kkt_error;                 /* scaled, dimensionless */
+  PetscReal            kkt_error_unscaled;
+  PetscReal            gap_min;          /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
+  PetscReal            gap_true;         /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
+  PetscReal            gap_change;       /* largest difference of the two where there is pressure, or penetration [length] */
+  PetscBool            gap_untrue;       /* the limit on linearizations came before the gap was true */
+  PetscReal            complementarity;  /* max s z [force/length] */
+  PetscReal            algebraic_error;  /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
+  PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
+  PetscReal            error_estimate;   /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
+  PetscReal           *body_errors;      /* parts of the bodies, whose squares sum to its square; NULL: none was made */
+  PetscReal            contact_force[3]; /* on the nonmortar side [force] */
+  PetscReal            reaction[3];      /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
+  PetscLogDouble       solve_time;       /* optimizer alone, its linear solves included [s] */
+  PetscBool            converged;
+  const char          *reason;
 } StepReport;
 
 /* The state at the end of a load step; borrowed, valid until the next one */
@@ -71,18 +71,18 @@ typedef struct {
 } AccuracyLevel;
 
 typedef struct {
-  PetscReal      target; /* relative error in energy and contact force; 0: accuracy is not asked for */
-  PetscReal      share;  /* of it that the solver may leave */
-  PetscInt       max_dofs;  /* of a mesh */
-  PetscBool      contact;   /* the scene has contact pairs */
-  PetscReal      tolerance; /* of the optimizer with contact, of the linear solver without; after a run the one that it had */
-  PetscBool      given;     /* by the user: it stays */
+  PetscReal      target;           /* relative error in energy and contact force; 0: accuracy is not asked for */
+  PetscReal      share;            /* of it that the solver may leave */
+  PetscInt       max_dofs;         /* of a mesh */
+  PetscBool      contact;          /* the scene has contact pairs */
+  PetscReal      tolerance;        /* of the optimizer with contact, of the linear solver without; after a run the one that it had */
+  PetscBool      given;            /* by the user: it stays */
   PetscReal      update_tolerance; /* of the gap, relative to the largest displacement */
-  PetscInt       updates;   /* linearizations of the gap a load step may take */
+  PetscInt       updates;          /* linearizations of the gap a load step may take */
   PetscInt       nlevels;
   AccuracyLevel *levels;
   PetscBool      reached;
-  char           end[160];  /* why the last mesh is the last */
+  char           end[160]; /* why the last mesh is the last */
 } Accuracy;
 
 /* One contact-free PCG solve with the AMG alone, to the same tolerance as published; iterations = 0: not asked for */
@@ -104,22 +104,22 @@ typedef struct {
 } RunTimes;
 
 typedef struct {
-  const char *problem;
-  PetscInt    ranks, dofs, refine;
-  PetscBool   converged;
-  const char *reason;
-  PetscInt    nsteps;
-  StepReport *steps;
-  PetscInt    nbodies;
-  const char **bodies;
-  PetscInt   *assemblies; /* of each body's tangent */
-  const Accuracy *accuracy; /* what -accuracy chose and attained; NULL: not asked for */
-  PetscInt    neffects;
-  RunEffect  *effects;
-  RunTimes    time;
-  RunContactFree contact_free;
-  PetscLogDouble peak_memory_bytes; /* sum over ranks of the resident set's high-water mark */
-  RunMemory      memory;
+  const char     *problem;
+  PetscInt        ranks, dofs, refine;
+  PetscBool       converged;
+  const char     *reason;
+  PetscInt        nsteps;
+  StepReport     *steps;
+  PetscInt        nbodies;
+  const char    **bodies;
+  PetscInt       *assemblies; /* of each body's tangent */
+  const Accuracy *accuracy;   /* what -accuracy chose and attained; NULL: not asked for */
+  PetscInt        neffects;
+  RunEffect      *effects;
+  RunTimes        time;
+  RunContactFree  contact_free;
+  PetscLogDouble  peak_memory_bytes; /* sum over ranks of the resident set's high-water mark */
+  RunMemory       memory;
 } RunReport;
 
 #endif

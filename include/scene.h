@@ -45,14 +45,14 @@ typedef struct {
 
 /* The octants of shells and balls: cut out by the three coordinate planes through a corner */
 typedef struct {
-  PetscReal   corner[3];             /* [length] */
-  PetscInt    signs[3];              /* +-1: the side of each plane; 0 stands for 1 */
-  SceneSphere inner, outer;          /* sphere_shell; outer also ball */
-  SceneSphere cap;                   /* sphere_shell: cuts the outer sphere; radius 0: none */
-  PetscReal   inner_axes[3];         /* spheroid_shell: semi-axes [length] */
+  PetscReal   corner[3];     /* [length] */
+  PetscInt    signs[3];      /* +-1: the side of each plane; 0 stands for 1 */
+  SceneSphere inner, outer;  /* sphere_shell; outer also ball */
+  SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
+  PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */
   PetscReal   outer_axes[3];
-  PetscReal   layer_grading;         /* thickness of the outermost layer over the innermost; 0 stands for 1 */
-  PetscInt    layer_even;            /* equal layers at the fine end of the grading; 0 stands for 1 */
+  PetscReal   layer_grading; /* thickness of the outermost layer over the innermost; 0 stands for 1 */
+  PetscInt    layer_even;    /* equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
 /* One volume of a Gmsh file */
@@ -77,11 +77,11 @@ typedef struct {
   PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
   Material         material;
   ElementType      element;
-  PetscReal        grading[3];         /* size of the last cell over the first: box, octants: along each axis; half_ellipse: of the
+  PetscReal        grading[3]; /* size of the last cell over the first: box, octants: along each axis; half_ellipse: of the
                                           core along depth and across, of the ring to the arc; 0 stands for 1 */
-  PetscInt         even[3];            /* equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt         layers;             /* half_ellipse: cells along the axis; octants: cells across the shell */
-  PetscBool        curved;             /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  PetscInt         even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt         layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
+  PetscBool        curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
   SceneTubeArc     tube;
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
@@ -124,7 +124,7 @@ typedef struct {
   char     *mortar;    /* "<body>.<face>" */
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
-  PetscReal distance;  /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal distance; /* facets further apart never pair [length]; 0: chosen from the size of the faces */
 } SceneContactPair;
 
 /* A PETSc option, without its dash */
@@ -154,7 +154,7 @@ typedef struct {
   PetscInt           displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
   PetscInt           noptions;            /* of the solver */
   SceneOption       *options;
-} *Scene;
+} * Scene;
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 /* Factor of a ramp at a time: load step k ends at time k, from 1 */

@@ -28,16 +28,16 @@ typedef struct {
 
 /* When to rebuild the AMG */
 typedef struct {
-  PetscInt  every;     /* as PCAMGFSetAMGLag() */
-  PetscReal ratio;     /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
+  PetscInt  every; /* as PCAMGFSetAMGLag() */
+  PetscReal ratio; /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
   PetscBool built;
-  PetscInt  age;       /* changed operators since the last rebuild */
-  AMGFStamp seen;      /* operator at the last set-up */
-  Vec       diagonal;  /* diagonal of the operator the AMG was built from; automatic only */
-  PetscBool overdue;   /* the last solve cost too much */
-  PetscInt  its;       /* reference: iterations, */
-  PetscReal digits;    /* and digits of residual reduction */
-  PetscInt  history;   /* length of the residual history when the solve began */
+  PetscInt  age;      /* changed operators since the last rebuild */
+  AMGFStamp seen;     /* operator at the last set-up */
+  Vec       diagonal; /* diagonal of the operator the AMG was built from; automatic only */
+  PetscBool overdue;  /* the last solve cost too much */
+  PetscInt  its;      /* reference: iterations, */
+  PetscReal digits;   /* and digits of residual reduction */
+  PetscInt  history;  /* length of the residual history when the solve began */
 } AMGFLag;
 
 /* The subspace range(P): either unknowns (rows) or a general interpolation P */
@@ -66,13 +66,13 @@ typedef struct {
   IS        detected_is;
 
   AMGFSubspace sub;
-  AMGFStamp    galerkin; /* operator R and Aw were filled from */
-  Mat          rowsA;    /* rows of A where P is nonzero; with a general P only */
-  Mat          rowsP;    /* the same rows of P */
-  Mat          R;        /* P^H A, thin: n_c x n */
-  Mat          Aw;       /* P^H A P */
+  AMGFStamp    galerkin;   /* operator R and Aw were filled from */
+  Mat          rowsA;      /* rows of A where P is nonzero; with a general P only */
+  Mat          rowsP;      /* the same rows of P */
+  Mat          R;          /* P^H A, thin: n_c x n */
+  Mat          Aw;         /* P^H A P */
   Vec          rc, ec, wc; /* n_c */
-  Vec          w[2];     /* n */
+  Vec          w[2];       /* n */
 
   AMGFLag lag;
 } PC_AMGF;

@@ -124,8 +124,8 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
 
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
-  static const char *const names[] = {"PCAMGFSetCycle_C",        "PCAMGFGetCycle_C",  "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C",    "PCAMGFGetFilterKSP_C",           "PCAMGFGetCounts_C"};
+  static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
+                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));

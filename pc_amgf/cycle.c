@@ -86,7 +86,7 @@ static PetscErrorCode CycleSubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 /* (I-BA)(I-QA)(I-BA) */
 static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
-  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PC_AMGF  *amgf     = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
   const Mat A = pc->useAmat ? pc->mat : pc->pmat;
 
@@ -111,7 +111,7 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
    P^H r_1 vanishes if A_w is solved exactly. */
 static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PC_AMGF *amgf     = (PC_AMGF *)pc->data;
   Vec      residual = amgf->w[0], work = amgf->w[1];
 
   PetscFunctionBegin;

@@ -21,7 +21,7 @@ static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar 
   PetscReal low = -range[0], high = range[1];
   while (count && high - low > 1e-3) {
     const PetscReal middle = 0.5 * (low + high), value = PetscExpReal(middle);
-    PetscInt        below  = 0;
+    PetscInt        below = 0;
 
     for (PetscInt i = 0; i < n; i++) below += (PetscRealPart(d[i]) > 0.0 && PetscRealPart(d[i]) <= value);
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &below, 1, MPIU_INT, MPI_SUM, comm));

@@ -66,13 +66,13 @@ static PetscErrorCode InnerConfigureBoomerAMG(PC pc, PC amg)
   PetscBool    all;
   PetscOptions options;
   InnerOption  defaults[] = {
-    {"-pc_hypre_boomeramg_coarsen_type",     "HMIS"                    },
-    {"-pc_hypre_boomeramg_interp_type",      "ext+i"                   },
-    {"-pc_hypre_boomeramg_P_max",            "4"                       },
-    {"-pc_hypre_boomeramg_agg_nl",           "0"                       },
-    {"-pc_hypre_boomeramg_strong_threshold", "0.25"                    },
-    {"-pc_hypre_boomeramg_relax_type_down",  "l1-Gauss-Seidel"         },
-    {"-pc_hypre_boomeramg_relax_type_up",    "backward-l1-Gauss-Seidel"},
+     {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
+     {"-pc_hypre_boomeramg_interp_type", "ext+i"},
+     {"-pc_hypre_boomeramg_P_max", "4"},
+     {"-pc_hypre_boomeramg_agg_nl", "0"},
+     {"-pc_hypre_boomeramg_strong_threshold", "0.25"},
+     {"-pc_hypre_boomeramg_relax_type_down", "l1-Gauss-Seidel"},
+     {"-pc_hypre_boomeramg_relax_type_up", "backward-l1-Gauss-Seidel"},
   };
   char full[PETSC_MAX_OPTION_NAME];
 
@@ -137,10 +137,10 @@ static PetscErrorCode InnerSetDirectSolver(PC inner)
 
 static PetscErrorCode InnerConfigureFilter(PC pc)
 {
-  KSP         filter = ((PC_AMGF *)pc->data)->filter;
-  PC          inner;
-  KSPType     ksptype;
-  PCType      pctype;
+  KSP     filter = ((PC_AMGF *)pc->data)->filter;
+  PC      inner;
+  KSPType ksptype;
+  PCType  pctype;
 
   PetscFunctionBegin;
   PetscCall(KSPGetType(filter, &ksptype));

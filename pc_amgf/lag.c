@@ -122,7 +122,7 @@ PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
   lag->built   = PETSC_FALSE;
   lag->overdue = PETSC_FALSE;
   LagSetReference(lag, 0, 0.0);
-  lag->age     = 0;
+  lag->age = 0;
   PetscFunctionReturn(0);
 }
 

@@ -293,7 +293,7 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
    of the constraints are so nearly dependent that it would be huge (Waechter and Biegler 2006, section 3.6). */
 PetscErrorCode IPEstimateMultipliers(Tao tao)
 {
-  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const PetscReal huge = 1e3; /* times the gradient */
   Mat             identity;
   PetscBool       inertia, singular;

@@ -4,7 +4,7 @@
 /* Weighted mean of t z over all pairs */
 static PetscErrorCode BarrierAverage(Tao tao, PetscReal *average)
 {
-  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   PetscReal     total = 0.0, weight = 0.0;
 
   PetscFunctionBegin;
@@ -70,7 +70,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(BarrierAverage(tao, &before));
   ip->bar.corrector_max = 100.0 * before;
-  ip->mu            = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
+  ip->mu                = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
@@ -124,7 +124,7 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscCall(BarrierMonotone(tao));
     PetscFunctionReturn(0);
   }
-  was_free    = ip->bar.free;
+  was_free     = ip->bar.free;
   ip->bar.free = (PetscBool)(BarrierProgresses(ip) && ip->bar.hold == 0 && !ip->bar.curved);
   if (ip->bar.hold > 0) ip->bar.hold--;
   if (ip->bar.free) PetscFunctionReturn(0);

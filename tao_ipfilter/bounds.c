@@ -49,7 +49,7 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
 /* Entries of a bound vector that make pairs, over all ranks */
 static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
 {
-  const PetscScalar *b, *o = NULL;
+  const PetscScalar *b, *o    = NULL;
   PetscInt           n, local = 0;
 
   PetscFunctionBegin;

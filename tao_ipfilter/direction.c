@@ -5,7 +5,7 @@
 static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           d = ip->dir.x, Wd;
+  Vec           d  = ip->dir.x, Wd;
   PetscScalar   dHd, dd, dSd = 0.0;
 
   PetscFunctionBegin;
@@ -53,8 +53,8 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
    curvature to speak of. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  const PetscReal kappa = ip->opt.kappa_curvature * (ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->stiff.hscale);
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal kappa     = ip->opt.kappa_curvature * (ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->stiff.hscale);
   PetscReal       curvature = 0.0, square = 0.0, step, size;
 
   PetscFunctionBegin;
@@ -194,7 +194,7 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   ip->aug.centered = PETSC_FALSE;
   PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
   if (!*ok || ip->shift.delta == 0.0) PetscFunctionReturn(0);
-  ip->shift.last    = ip->shift.delta;
+  ip->shift.last        = ip->shift.delta;
   ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
   ip->rec.nregularized++;
   ip->bar.curved = PETSC_TRUE;

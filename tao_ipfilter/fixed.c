@@ -10,8 +10,8 @@ PetscBool IPIsFixed(PetscScalar lower, PetscScalar upper)
 /* The smallest index whose lower bound exceeds its upper bound is an error, with the values, on all ranks */
 static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscScalar u[])
 {
-  MPI_Comm  comm  = PetscObjectComm((PetscObject)tao);
-  PetscInt  first = PETSC_MAX_INT, worst, rstart, rend;
+  MPI_Comm  comm      = PetscObjectComm((PetscObject)tao);
+  PetscInt  first     = PETSC_MAX_INT, worst, rstart, rend;
   PetscReal bounds[2] = {PETSC_NINFINITY, PETSC_NINFINITY};
 
   PetscFunctionBegin;

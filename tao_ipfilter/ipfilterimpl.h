@@ -137,9 +137,9 @@ typedef struct {
 typedef struct {
   Mat              inequality; /* AIJ */
   Mat              equality;
-  PetscObjectId    user_id;              /* the caller's inequality Jacobian that this one came from, */
-  PetscObjectState user_state;           /* with these values */
-  PetscObjectId    pattern_id;           /* which pattern: two stamps alike have the same */
+  PetscObjectId    user_id;    /* the caller's inequality Jacobian that this one came from, */
+  PetscObjectState user_state; /* with these values */
+  PetscObjectId    pattern_id; /* which pattern: two stamps alike have the same */
   PetscObjectState pattern_state;
 } IPJacobian;
 
@@ -150,8 +150,8 @@ typedef struct {
 
 /* Sizes at the starting point */
 typedef struct {
-  PetscReal f, gradient;       /* objective and norm of its gradient */
-  PetscReal length, equality;  /* of c_I and c_E */
+  PetscReal f, gradient;      /* objective and norm of its gradient */
+  PetscReal length, equality; /* of c_I and c_E */
   PetscReal x;
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
@@ -188,19 +188,19 @@ typedef struct {
 /* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
 typedef struct {
   Mat              A;
-  Mat              DJ, JtDJ;               /* D J, J^T D J */
-  Vec              shift;                  /* Sigma + delta M_u, the diagonal added to H */
-  Vec              hdiag;                  /* diagonal of H, kept while a shift is added to it */
-  PetscBool        shifted;                /* A's diagonal holds a shift */
-  PetscObjectId    H_id;                   /* which H A was assembled from, */
-  PetscObjectState H_state, H_nonzero;     /* with which values and pattern */
-  PetscObjectId    J_id;                   /* which Jacobian the product's pattern came from, */
-  PetscObjectState J_nonzero;              /* with which pattern */
-  PetscObjectId    filter_id;              /* which Jacobian the filter came from, */
-  PetscObjectState filter_state;           /* with which values */
-  PetscInt         nrows;                  /* rows of this rank touched by J^T D J */
+  Mat              DJ, JtDJ;           /* D J, J^T D J */
+  Vec              shift;              /* Sigma + delta M_u, the diagonal added to H */
+  Vec              hdiag;              /* diagonal of H, kept while a shift is added to it */
+  PetscBool        shifted;            /* A's diagonal holds a shift */
+  PetscObjectId    H_id;               /* which H A was assembled from, */
+  PetscObjectState H_state, H_nonzero; /* with which values and pattern */
+  PetscObjectId    J_id;               /* which Jacobian the product's pattern came from, */
+  PetscObjectState J_nonzero;          /* with which pattern */
+  PetscObjectId    filter_id;          /* which Jacobian the filter came from, */
+  PetscObjectState filter_state;       /* with which values */
+  PetscInt         nrows;              /* rows of this rank touched by J^T D J */
   PetscInt        *rows;
-  IS               filter;                 /* composed on A under PCAMGF_FILTER_KEY */
+  IS               filter; /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
 /* What came of a linear solve */
@@ -212,19 +212,19 @@ typedef enum {
 
 /* The present linear system and its last solve */
 typedef struct {
-  KSP                flexible;        /* for corrections; NULL until one is needed */
-  Vec                residual;        /* b - A d */
-  PetscReal          target, rhs;     /* ||b - A d|| asked for, and ||b|| */
-  PetscReal          norm;            /* ||b - A d||, */
-  PetscReal          backward_error;  /* and over the terms it is the difference of */
-  PetscInt           its, limit;      /* Krylov iterations, and their limit */
-  PetscInt           longest;         /* largest number of them in a solve that gave a direction */
+  KSP                flexible;       /* for corrections; NULL until one is needed */
+  Vec                residual;       /* b - A d */
+  PetscReal          target, rhs;    /* ||b - A d|| asked for, and ||b|| */
+  PetscReal          norm;           /* ||b - A d||, */
+  PetscReal          backward_error; /* and over the terms it is the difference of */
+  PetscInt           its, limit;     /* Krylov iterations, and their limit */
+  PetscInt           longest;        /* largest number of them in a solve that gave a direction */
   KSPConvergedReason reason;
-  PetscBool          failed;          /* no solver gave a direction, for reasons other than the matrix's inertia */
-  char               why[128];        /* why the last remedy did not help */
-  PetscInt           ndirect;         /* solves in a row that only MUMPS could do */
-  PetscBool          filtered;        /* preconditioned with the filter */
-  PetscBool          filter_forced;   /* the filter stays on */
+  PetscBool          failed;        /* no solver gave a direction, for reasons other than the matrix's inertia */
+  char               why[128];      /* why the last remedy did not help */
+  PetscInt           ndirect;       /* solves in a row that only MUMPS could do */
+  PetscBool          filtered;      /* preconditioned with the filter */
+  PetscBool          filter_forced; /* the filter stays on */
 } IPLinear;
 
 /* The condensed matrix factored by MUMPS, where the Krylov method fails */
@@ -238,7 +238,7 @@ typedef struct {
 typedef struct {
   KSP       ksp;
   Mat       K;
-  Mat       shift; /* -delta I */
+  Mat       shift;    /* -delta I */
   PetscReal delta;    /* of restoration steps, or regularization of dependent constraints: */
   PetscBool centered; /* about the present multipliers, instead of zero */
   Vec       rhs, sol, residual, correction;
@@ -255,8 +255,8 @@ typedef struct {
   PetscReal corrector_max; /* mehrotra: bound of the second-order term */
   PetscReal errors[4];     /* KKT errors that the free mode must improve on */
   PetscInt  nerrors;
-  PetscBool curved;        /* a step has shown constraints that are not linear, or an objective that is not convex */
-  PetscInt  hold;          /* mehrotra: iterations left in the monotone mode that a failed line search called for */
+  PetscBool curved; /* a step has shown constraints that are not linear, or an objective that is not convex */
+  PetscInt  hold;   /* mehrotra: iterations left in the monotone mode that a failed line search called for */
 } IPBarrier;
 
 /* Pairs (theta, phi) that no later iterate may be dominated by */
@@ -268,13 +268,13 @@ typedef struct {
 /* The line search: measures of the present iterate, their units, and the last step */
 typedef struct {
   PetscReal theta, phi;
-  PetscReal theta0;                     /* at the first iterate; negative: none yet */
-  PetscReal theta_ref, phi_ref;         /* units */
-  PetscReal equality_weight;            /* brings c_E to the units of theta */
-  PetscReal rounding;                   /* changes of phi below this mean nothing */
+  PetscReal theta0;             /* at the first iterate; negative: none yet */
+  PetscReal theta_ref, phi_ref; /* units */
+  PetscReal equality_weight;    /* brings c_E to the units of theta */
+  PetscReal rounding;           /* changes of phi below this mean nothing */
   PetscReal alpha, alpha_dual;
   PetscInt  ntrials;
-  char      tag;                        /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
+  char      tag; /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
 } IPSearch;
 
 /* Relaxation of constraints without an interior */
@@ -295,12 +295,12 @@ typedef struct {
   PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
   PetscInt             nsystems, nfiltered;             /* condensed matrices, and those preconditioned with the filter */
   TaoIPFilterFallbacks fallbacks;
-  PetscInt             nregularized, nretried;          /* steps taken with a shifted Hessian, and systems solved to find the shift */
-  PetscReal            delta_largest;                   /* largest shift a step was taken with */
-  PetscInt             nrestored;                       /* restorations */
-  PetscInt             ntiny;                           /* steps in a row that are as small as rounding */
-  PetscInt             nacceptable;                     /* iterates in a row within the acceptable tolerance */
-  PetscReal            best_error;                      /* KKT error of the best iterate */
+  PetscInt             nregularized, nretried; /* steps taken with a shifted Hessian, and systems solved to find the shift */
+  PetscReal            delta_largest;          /* largest shift a step was taken with */
+  PetscInt             nrestored;              /* restorations */
+  PetscInt             ntiny;                  /* steps in a row that are as small as rounding */
+  PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
+  PetscReal            best_error;             /* KKT error of the best iterate */
   char                 reason[256];
 } IPRecord;
 
@@ -336,9 +336,9 @@ typedef struct {
 } TAO_IPFILTER;
 
 #define IP_TINY_STEP       (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
-#define IP_LEAST_SLACK     1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
-#define IP_CLOSE           1e-6  /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
-#define IP_MANY_ITERATIONS 500   /* of a Krylov method, when others of the same problem took few */
+#define IP_LEAST_SLACK     1e-14                          /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
+#define IP_CLOSE           1e-6                           /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
+#define IP_MANY_ITERATIONS 500                            /* of a Krylov method, when others of the same problem took few */
 
 /* No value of a function there: NaN, or infinite, be it C's infinity or PETSc's large number */
 static inline PetscBool IPUndefined(PetscReal value)
@@ -349,7 +349,7 @@ static inline PetscBool IPUndefined(PetscReal value)
 /* ---- problem ---- */
 
 /* log.c */
-PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
+PETSC_INTERN PetscLogEvent  TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
 PETSC_INTERN PetscErrorCode IPLogRegister(void);
 
 /* work.c */

@@ -108,8 +108,8 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
 /* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
 PetscErrorCode IPComputeKKT(Tao tao)
 {
-  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  IPKKT        *k   = &ip->kkt;
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPKKT        *k        = &ip->kkt;
   PetscReal     products = 0.0, deviation = 0.0;
 
   PetscFunctionBegin;

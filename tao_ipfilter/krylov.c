@@ -181,13 +181,13 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct));
   PetscCall(IPResidualRefine(tao, b, d, direct, KrylovCorrect, reason));
   ip->lin.reason = reason;
-  ip->lin.its   = its;
+  ip->lin.its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
   if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
   else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
   if (*verdict == IP_LINEAR_SOLVED) {
     ip->lin.longest = PetscMax(ip->lin.longest, its);
-    ip->lin.ndirect  = 0;
+    ip->lin.ndirect = 0;
   } else PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
   /* a factorization that failed is not to be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KSPReset(tao->ksp));

@@ -101,8 +101,8 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
    constraints leave */
 static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair         *slack = &ip->pair[IP_SLACK];
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  IPPair         *slack  = &ip->pair[IP_SLACK];
   const PetscReal linear = 1e-2;
   PetscReal       error, change;
   Vec             r;
@@ -214,9 +214,9 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscCall(IPMeritSlope(tao, &slope));
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
-  least   = SearchSmallestStep(ip, slope);
+  least              = SearchSmallestStep(ip, slope);
   ip->search.ntrials = 0;
-  *ok     = PETSC_FALSE;
+  *ok                = PETSC_FALSE;
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;

@@ -106,11 +106,11 @@ static const struct {
   PetscErrorCode (*prepare)(Tao, PetscBool *);
   PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
 } remedies[] = {
-  {NULL,           IPKrylovSolve},
-  {RebuildAMG,     IPKrylovSolve},
+  {NULL, IPKrylovSolve},
+  {RebuildAMG, IPKrylovSolve},
   {SwitchFilterOn, IPKrylovSolve},
-  {EnlargeFilter,  IPKrylovSolve},
-  {NULL,           IPDirectSolve}
+  {EnlargeFilter, IPKrylovSolve},
+  {NULL, IPDirectSolve},
 };
 
 /* Whether only MUMPS is tried: by the user's choice, or since the last solves all had to be done by it */

@@ -1,11 +1,11 @@
 /* Options and their defaults. */
 #include "ipfilterimpl.h"
 
-const char *const IPStarts[]       = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
-const char *const IPBarrierRules[] = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
-const char *const IPKKTMeasures[]  = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
-const char *const IPForcings[]     = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
-static const char *const IPScalings[] = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
+const char *const        IPStarts[]       = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
+const char *const        IPBarrierRules[] = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
+const char *const        IPKKTMeasures[]  = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
+const char *const        IPForcings[]     = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
+static const char *const IPScalings[]     = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
 typedef struct {
@@ -15,7 +15,9 @@ typedef struct {
 } RealOption;
 
 #define IP_REAL(name, member, value, text) \
-  { "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value }
+  { \
+    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value \
+  }
 
 static const RealOption real_options[] = {
   IP_REAL("acceptable_tol", acceptable_tol, 1e-6, "KKT error accepted when no further progress is made"),

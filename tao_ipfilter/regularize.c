@@ -59,9 +59,9 @@ PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
-  *ok               = PETSC_FALSE;
-  ip->shift.delta         = first * unit;
-  ip->lin.failed = PETSC_FALSE;
+  *ok             = PETSC_FALSE;
+  ip->shift.delta = first * unit;
+  ip->lin.failed  = PETSC_FALSE;
   while (ip->shift.delta <= ip->opt.delta_max * unit) {
     PetscCall((*assemble)(tao));
     if (least == PETSC_NINFINITY && !ip->me) PetscCall(LeastDelta(tao, &least));

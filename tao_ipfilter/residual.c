@@ -91,6 +91,6 @@ PetscErrorCode IPResidualNotANumber(Tao tao)
   PetscCall(PetscStrncpy(ip->lin.why, "the Hessian, a Jacobian or a gradient has an entry that is not a number", sizeof(ip->lin.why)));
   ip->rec.fallbacks.failures++;
   ip->lin.failed = PETSC_TRUE;
-  ip->lin.reason    = KSP_DIVERGED_NANORINF;
+  ip->lin.reason = KSP_DIVERGED_NANORINF;
   PetscFunctionReturn(0);
 }

@@ -136,8 +136,8 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
 /* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal armijo = 1e-4;
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal armijo   = 1e-4;
   const PetscInt  halvings = 12;
 
   PetscFunctionBegin;
@@ -353,7 +353,7 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
    *gradient at least */
 static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck, PetscReal *least)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
   const PetscReal no_change = 1e-8, falling = 0.9;
   const PetscInt  patience = 15;
   PetscReal       size = 0.0, gradient = 1.0;
@@ -390,9 +390,9 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  PetscReal       theta0 = ip->search.theta, psi, least = 0.0;
-  PetscBool       stuck  = PETSC_FALSE;
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscReal     theta0 = ip->search.theta, psi, least = 0.0;
+  PetscBool     stuck = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPMeritFilterAdd(tao));

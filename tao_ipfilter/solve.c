@@ -10,7 +10,7 @@ static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
   PetscFunctionBegin;
   PetscCall(TaoIsGradientDefined(tao, &alone));
   if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
-  *defined = (PetscBool)!(alone && IPUndefined(ip->at.f));
+  *defined = (PetscBool) !(alone && IPUndefined(ip->at.f));
   if (!*defined) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));

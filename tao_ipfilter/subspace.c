@@ -154,7 +154,7 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
 /* Switches the filter of a PCAMGF on where J^T D J has become stiff against H, off where it has not; counts the systems */
 PetscErrorCode IPSubspaceSwitch(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   PetscReal     ratio = PETSC_INFINITY;
   PetscBool     amgf;
   PC            pc;

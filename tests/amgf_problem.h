@@ -48,7 +48,7 @@ static inline PetscInt NumConstraints(const Problem *p)
 /* The blocks of K owned by this rank */
 static inline PetscErrorCode AddStiffness(const Problem *p, Mat A)
 {
-  const PetscScalar C3[9]    = {2.0, 0.5, 0.3, 0.5, 2.0, 0.4, 0.3, 0.4, 2.0}, C1[1] = {2.0};
+  const PetscScalar C3[9] = {2.0, 0.5, 0.3, 0.5, 2.0, 0.4, 0.3, 0.4, 2.0}, C1[1] = {2.0};
   const PetscInt    steps[5] = {0, -1, 1, -p->n, p->n};
   PetscInt          start, end;
 
@@ -60,7 +60,8 @@ static inline PetscErrorCode AddStiffness(const Problem *p, Mat A)
       PetscScalar    block[9];
 
       if (other < 0 || other >= p->n * p->n || (PetscAbsInt(steps[s]) == 1 && other / p->n != node / p->n)) continue;
-      for (PetscInt i = 0; i < p->bs * p->bs; i++) block[i] = (p->bs == 3 ? C3[i] : C1[0]) * (s == 0 ? 2.0 * (p->ax + p->ay) : s < 3 ? -p->ax : -p->ay);
+      for (PetscInt i = 0; i < p->bs * p->bs; i++) block[i] = (p->bs == 3 ? C3[i] : C1[0]) * (s == 0 ? 2.0 * (p->ax + p->ay) : s < 3 ? -p->ax
+                                                                                                                                     : -p->ay);
       PetscCall(MatSetValuesBlocked(A, 1, &node, 1, &other, block, ADD_VALUES));
     }
   }

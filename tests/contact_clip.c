@@ -212,7 +212,7 @@ static PetscReal Hats(PetscReal lo, PetscReal hi, PetscReal p0, PetscReal p1, Pe
 static PetscErrorCode TestParallelograms(PetscRandom r)
 {
   static const PetscInt corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  PetscReal             error = 0.0;
+  PetscReal             error        = 0.0;
 
   PetscFunctionBeginUser;
   for (PetscInt trial = 0; trial < 2000; ++trial) {
@@ -266,19 +266,19 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
     const char *name;
     PetscReal   q[4][2], area;
   } cases[] = {
-    {"same facet",               {{0, 0}, {1, 0}, {1, 1}, {0, 1}},                         1    },
-    {"same facet, turned",       {{1, 1}, {0, 1}, {0, 0}, {1, 0}},                         1    },
-    {"edges collinear",          {{0.25, 0}, {0.75, 0}, {0.75, 1}, {0.25, 1}},             0.5  },
-    {"common edge",              {{1, 0}, {2, 0}, {2, 1}, {1, 1}},                         0    },
-    {"common vertex",            {{1, 1}, {2, 1}, {2, 2}, {1, 2}},                         0    },
-    {"vertex on an edge",        {{0.5, 0}, {1, -1}, {1.5, 0}, {1, 1}},                    0.25 },
-    {"diamond through vertices", {{0.5, -0.5}, {1.5, 0.5}, {0.5, 1.5}, {-0.5, 0.5}},       1    },
-    {"sliver",                   {{-1, 0.5}, {2, 0.5}, {2, 0.500001}, {-1, 0.500001}},     1e-6 },
-    {"triangle",                 {{0, 0}, {1, 0}, {1, 1}, {1, 1}},                         0.5  },
-    {"reflex corner",            {{0, 0}, {1, 0}, {0.25, 0.25}, {0, 1}},                   0.25 },
-    {"collapsed to a line",      {{0, 0}, {1, 1}, {1, 1}, {0, 0}},                         0    },
-    {"collapsed to a point",     {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}},         0    },
-    {"apart",                    {{3, 3}, {4, 3}, {4, 4}, {3, 4}},                         0    }
+    {"same facet", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1},
+    {"same facet, turned", {{1, 1}, {0, 1}, {0, 0}, {1, 0}}, 1},
+    {"edges collinear", {{0.25, 0}, {0.75, 0}, {0.75, 1}, {0.25, 1}}, 0.5},
+    {"common edge", {{1, 0}, {2, 0}, {2, 1}, {1, 1}}, 0},
+    {"common vertex", {{1, 1}, {2, 1}, {2, 2}, {1, 2}}, 0},
+    {"vertex on an edge", {{0.5, 0}, {1, -1}, {1.5, 0}, {1, 1}}, 0.25},
+    {"diamond through vertices", {{0.5, -0.5}, {1.5, 0.5}, {0.5, 1.5}, {-0.5, 0.5}}, 1},
+    {"sliver", {{-1, 0.5}, {2, 0.5}, {2, 0.500001}, {-1, 0.500001}}, 1e-6},
+    {"triangle", {{0, 0}, {1, 0}, {1, 1}, {1, 1}}, 0.5},
+    {"reflex corner", {{0, 0}, {1, 0}, {0.25, 0.25}, {0, 1}}, 0.25},
+    {"collapsed to a line", {{0, 0}, {1, 1}, {1, 1}, {0, 0}}, 0},
+    {"collapsed to a point", {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}, 0},
+    {"apart", {{3, 3}, {4, 3}, {4, 4}, {3, 4}}, 0},
   };
 
   PetscFunctionBeginUser;
@@ -287,7 +287,7 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
 
     for (PetscInt trial = 0; trial < 400; ++trial) {
       const PetscReal  shift = trial % 4 == 3 ? 1e-7 : (trial % 4) * 1e-12, scale = PetscPowRealInt(10.0, (int)(trial % 13) - 6);
-      const PetscBool  swap  = (PetscBool)(trial % 3 == 1);
+      const PetscBool  swap = (PetscBool)(trial % 3 == 1);
       PetscReal        p[4][2], q[4][2], x1[12], x2[12], normals[12] = {0}, sum = 0.0;
       Motion           motion;
       ContactOverlap   o;
@@ -388,16 +388,16 @@ static PetscErrorCode TestWarped(PetscRandom r)
 static PetscErrorCode TestLimits(void)
 {
   static const PetscReal     square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  const ContactOverlapLimits near = {-0.174, 1e-8, 0.5, 0.2};
+  const ContactOverlapLimits near         = {-0.174, 1e-8, 0.5, 0.2};
   static const struct {
     PetscReal z;
     PetscBool up, pairs;
   } cases[] = {
-    {0.4,  PETSC_FALSE, PETSC_TRUE },
-    {0.6,  PETSC_FALSE, PETSC_FALSE},
-    {-0.1, PETSC_FALSE, PETSC_TRUE },
+    {0.4, PETSC_FALSE, PETSC_TRUE},
+    {0.6, PETSC_FALSE, PETSC_FALSE},
+    {-0.1, PETSC_FALSE, PETSC_TRUE},
     {-0.3, PETSC_FALSE, PETSC_FALSE},
-    {0.0,  PETSC_TRUE,  PETSC_FALSE}
+    {0.0, PETSC_TRUE, PETSC_FALSE},
   };
   static const PetscReal steep[2] = {0.1, 0.3}; /* minus the cosine between the normals */
   PetscInt               wrong    = 0;
@@ -655,7 +655,7 @@ static PetscReal Diameter(const PetscReal x[12])
 /* Adds one pair's errors: area, partition of unity of the rows, of the mortar shape functions; infinite where something is not finite */
 static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal error[3], PetscInt *noverlaps)
 {
-  const ContactOverlapLimits all = {-1e-3, 0.0, 1e30, 1e30};
+  const ContactOverlapLimits all         = {-1e-3, 0.0, 1e30, 1e30};
   const PetscReal            normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
   PetscReal                  n1[3], n2[3], exact, size, weights = 0.0, sum[2] = {0, 0};
   Extended                   p[4][2], q[4][2];
@@ -696,8 +696,8 @@ static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
   PetscCall(PetscRandomSetSeed(r, 1000 + rank));
   PetscCall(PetscRandomSeed(r));
   for (PetscInt kind = 0; kind < PAIR_KINDS; ++kind) {
-    const PetscInt n = npairs / PAIR_KINDS;
-    PetscReal      error[3] = {0, 0, 0};
+    const PetscInt n         = npairs / PAIR_KINDS;
+    PetscReal      error[3]  = {0, 0, 0};
     PetscInt       noverlaps = 0;
 
     for (PetscInt trial = rank; trial < n; trial += size) {
@@ -737,7 +737,7 @@ static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
 static PetscErrorCode TestRules(void)
 {
   const PetscReal factorial[] = {1, 1, 2, 6, 24, 120, 720, 5040, 40320, 362880, 3628800};
-  PetscReal       error = 0.0;
+  PetscReal       error       = 0.0;
 
   PetscFunctionBeginUser;
   for (PetscInt degree = 1; degree <= CONTACT_RULE_DEGREE; ++degree) {

@@ -97,7 +97,7 @@ static PetscErrorCode TestOnFacet(PetscRandom r)
     if (trial % 8 == 5) st[0] = -1.0;
     if (trial % 8 == 6) st[1] = 1.0;
     Point(x, st[0], st[1], p);
-    error      = PetscMax(error, ContactClosestPoint(x, p, xi, y));
+    error = PetscMax(error, ContactClosestPoint(x, p, xi, y));
     Point(x, xi[0], xi[1], y);
     parameters = PetscMax(parameters, Distance(p, y));
   }

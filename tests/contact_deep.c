@@ -17,8 +17,8 @@ static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal heig
 {
   const SceneContactPair pair   = {"pair", mortar, nonmortar, gap, 0.0};
   Box                    box[2] = {
-    {"lower", {0, 0, 0},              {1, 1, thickness},        {3, 2, 2}},
-    {"upper", {0.125, 0.25, height}, {0.875, 1, 1.0 + height}, {2, 3, 2}}
+                       {"lower", {0, 0, 0}, {1, 1, thickness}, {3, 2, 2}},
+                       {"upper", {0.125, 0.25, height}, {0.875, 1, 1.0 + height}, {2, 3, 2}},
   };
   Contact              contact = NULL;
   ContactLinearization lin     = NULL;

@@ -8,9 +8,9 @@ static char help[] = "Linearized gap of meshes: exact gaps, translations, forces
 static PetscErrorCode CreateMesh(MPI_Comm comm, PetscReal length, PetscInt cells, DM *dm)
 {
   Box body[3] = {
-    {"slab",  {-2.0, -1.5, -1.0}, {2.0, 1.5, 0.0}, {cells, 4, 2}},
-    {"block", {-1.1, -0.8, 0.0},  {0.9, 0.7, 1.0}, {3, 3, 2}    },
-    {"plate", {-1.5, -1.5, 1.0},  {1.5, 1.5, 1.2}, {4, 3, 1}    }
+    {"slab", {-2.0, -1.5, -1.0}, {2.0, 1.5, 0.0}, {cells, 4, 2}},
+    {"block", {-1.1, -0.8, 0.0}, {0.9, 0.7, 1.0}, {3, 3, 2}},
+    {"plate", {-1.5, -1.5, 1.0}, {1.5, 1.5, 1.2}, {4, 3, 1}},
   };
 
   PetscFunctionBeginUser;
@@ -64,8 +64,8 @@ static void WavyField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 }
 
 static const SceneContactPair pairs[2] = {
-  {"on slab",  "slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
-  {"on block", "block.zmax", "plate.zmin", GAP_MORTAR, 0.0}
+  {"on slab", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0},
+  {"on block", "block.zmax", "plate.zmin", GAP_MORTAR, 0.0},
 };
 
 /* Parallel planes, turned in space: constant gap, rows that add up to the normal, no row for what looks through a body */
@@ -211,7 +211,7 @@ typedef struct {
 
 static void VirtualField(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal v[3])
 {
-  const Virtual *w         = (const Virtual *)ctx;
+  const Virtual  *w         = (const Virtual *)ctx;
   const PetscReal moment[3] = {1.0, x[0], x[1]};
   PetscReal       u[3];
 
@@ -239,7 +239,7 @@ static PetscReal Moment(PetscInt i, PetscInt j)
 /* A linear contact pressure: its resultant and (mortar) first moments reach the slab; action is reaction, in force and moment */
 static PetscErrorCode TestForces(DM dm, PetscBool moments)
 {
-  const PetscReal      c[3] = {1.0, 0.5, -0.25}; /* p = c0 + c1 x + c2 y */
+  const PetscReal      c[3]  = {1.0, 0.5, -0.25}; /* p = c0 + c1 x + c2 y */
   Rigid                rigid = {.gap = 0.0};
   Virtual              w     = {.rigid = &rigid};
   Contact              contact;

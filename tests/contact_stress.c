@@ -32,8 +32,8 @@ static void SetRotation(PetscReal about_x, PetscReal about_y, Patch *patch)
 
 static void PlaceField(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal y[3])
 {
-  const Patch    *patch  = (const Patch *)ctx;
-  const PetscReal height = body ? 2.0 * (1.5 - x[2]) : x[2];
+  const Patch    *patch   = (const Patch *)ctx;
+  const PetscReal height  = body ? 2.0 * (1.5 - x[2]) : x[2];
   const PetscReal bent[3] = {x[0], x[1], x[2] + patch->amplitude * PetscSinReal(2.0 * x[0]) * height};
 
   Rotate(patch, bent, y);
@@ -190,8 +190,8 @@ static PetscErrorCode SolveEquality(Mat K, Mat J, Vec f, Vec c, IS rows, Vec u, 
 static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, const PetscInt cells[2][3], PetscInt refine, PetscReal *stress, PetscReal *contact_pressure)
 {
   Box box[2] = {
-    {"lower", {0, 0, 0}, {1, 1, 1},   {cells[0][0], cells[0][1], cells[0][2]}},
-    {"upper", {0, 0, 1}, {1, 1, 1.5}, {cells[1][0], cells[1][1], cells[1][2]}}
+    {"lower", {0, 0, 0}, {1, 1, 1}, {cells[0][0], cells[0][1], cells[0][2]}},
+    {"upper", {0, 0, 1}, {1, 1, 1.5}, {cells[1][0], cells[1][1], cells[1][2]}},
   };
   Material             materials[2];
   DM                   dm;
@@ -222,7 +222,7 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
   PetscCall(VecDuplicate(lin->g, &pressure));
   PetscCall(MatMult(lin->J, f, c));
   if (!patch->hydrostatic) PetscCall(VecAXPBY(c, -1.0, 0.0, lin->g)); /* closed */
-  { /* u: exact where prescribed, 0 elsewhere */
+  {                                                                   /* u: exact where prescribed, 0 elsewhere */
     Vec mask;
 
     PetscCall(VecDuplicate(u, &mask));
@@ -260,7 +260,7 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
 static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair, const PetscInt cells[2][3], PetscReal *stress, PetscReal *pressure)
 {
   static const PetscReal ratio[] = {1.0, 1e3, 1e6, 1e-6}, nu[] = {0.0, 0.3, 0.499};
-  Patch                  patch   = {.p = 0.01, .hydrostatic = PETSC_FALSE, .amplitude = 0.0};
+  Patch                  patch = {.p = 0.01, .hydrostatic = PETSC_FALSE, .amplitude = 0.0};
 
   PetscFunctionBeginUser;
   *stress = *pressure = 0.0;

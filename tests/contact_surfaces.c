@@ -37,9 +37,9 @@ static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const SceneContactPair
 static PetscErrorCode CreateBodies(DM *dm)
 {
   Box box[3] = {
-    {"slab",  {0, 0, -1},       {8, 2, 0},      {16, 4, 2}},
-    {"block", {3.1, 0.3, 0},    {4.3, 1.5, 1},  {3, 3, 2} },
-    {"plate", {5.15, 0.3, 0},   {6.35, 1.5, 0.1}, {5, 4, 1} }
+    {"slab", {0, 0, -1}, {8, 2, 0}, {16, 4, 2}},
+    {"block", {3.1, 0.3, 0}, {4.3, 1.5, 1}, {3, 3, 2}},
+    {"plate", {5.15, 0.3, 0}, {6.35, 1.5, 0.1}, {5, 4, 1}},
   };
 
   PetscFunctionBeginUser;
@@ -65,13 +65,13 @@ static PetscErrorCode GetCover(DM dm, ContactLinearization lin, const Motion *ou
 /* The block slides along the slab over many facets, wherever it is the gap is the same and every vertex has its row */
 static PetscErrorCode TestSliding(DM dm)
 {
-  const SceneContactPair pair = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
-  const Motion           down = {.shift = {{0}, {0, 0, -1}, {0}}};
+  const SceneContactPair pair   = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const Motion           down   = {.shift = {{0}, {0, 0, -1}, {0}}};
   Motion                 motion = {.shift = {{0}, {0, 0, 0.1}, {0}}};
   ContactLinearization   lin;
   Vec                    cover;
   PetscReal              gap = 0.0, rows = 0.0;
-  PetscInt               m, wrong = 0;
+  PetscInt               m, wrong        = 0;
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k <= 12; ++k) {
@@ -136,10 +136,10 @@ static PetscErrorCode PrintPair(ContactLinearization lin, PetscInt pair, PetscRe
 static PetscErrorCode TestSeveral(DM dm)
 {
   const SceneContactPair pairs[4] = {
-    {"block in slab", "slab.zmax",  "block.zmin", GAP_MORTAR, 0.0},
-    {"plate on slab", "slab.zmax",  "plate.zmin", GAP_NODE,   0.0},
-    {"beside",        "block.xmax", "plate.xmin", GAP_MORTAR, 2.0},
-    {"plate on slab", "plate.zmin", "slab.zmax",  GAP_MORTAR, 0.0}
+    {"block in slab", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0},
+    {"plate on slab", "slab.zmax", "plate.zmin", GAP_NODE, 0.0},
+    {"beside", "block.xmax", "plate.xmin", GAP_MORTAR, 2.0},
+    {"plate on slab", "plate.zmin", "slab.zmax", GAP_MORTAR, 0.0},
   };
   const Motion         motion = {.shift = {{0}, {0, 0, -0.03}, {0, 0, -0.02}}};
   ContactLinearization all, one;
@@ -202,7 +202,7 @@ static PetscErrorCode CountRows(DM dm, const SceneContactPair *pair, const Motio
 static PetscErrorCode TestAway(DM dm)
 {
   const SceneContactPair opposite = {"pair", "plate.zmin", "plate.zmax", GAP_MORTAR, 1.0}, same = {"pair", "slab.zmax", "plate.zmax", GAP_MORTAR, 0.0}, through = {"pair", "slab.zmin", "block.zmax", GAP_MORTAR, 3.0}, on = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
-  SceneContactPair       near = on;
+  SceneContactPair       near   = on;
   Motion                 motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
 
   PetscFunctionBeginUser;
@@ -281,8 +281,8 @@ static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, P
   const SceneContactPair pair   = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
   const Motion           rest   = {.angle = {0}};
   Box                    box[2] = {
-    {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {6, 5, 1}},
-    {"outer", {-0.3, -0.3, 0.0},  {0.3, 0.3, 0.3}, {4, 4, 1}}
+                       {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {6, 5, 1}},
+                       {"outer", {-0.3, -0.3, 0.0}, {0.3, 0.3, 0.3}, {4, 4, 1}},
   };
   DM                   dm;
   ContactLinearization lin;
@@ -302,9 +302,9 @@ static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, P
 /* Curved surfaces that do not match: the gap converges to the one between the surfaces, with the square of the mesh size */
 static PetscErrorCode TestBent(PetscBool sphere, PetscReal gap)
 {
-  Bend      bend = {.radius = 2.0, .gap = gap, .sphere = sphere};
+  Bend      bend     = {.radius = 2.0, .gap = gap, .sphere = sphere};
   PetscReal worst[3] = {0, 0, 0};
-  PetscInt  wrong = 0;
+  PetscInt  wrong    = 0;
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k < 2; ++k) {
@@ -362,7 +362,8 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair 
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal order = PetscLog10Real(remainder[k] / remainder[k + 1]);
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " order %s", order > 1.9 ? "2" : order > 0.9 ? "1" : "0"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " order %s", order > 1.9 ? "2" : order > 0.9 ? "1"
+                                                                                         : "0"));
   }
   PetscCall(PetscInfo(NULL, "remainders %g %g %g beside %g\n", (double)remainder[0], (double)remainder[1], (double)remainder[2], (double)norm));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
@@ -376,10 +377,10 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair 
 static PetscErrorCode TestTaylorAll(DM dm)
 {
   const SceneContactPair pairs[2] = {{"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"pair", "slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}}, bent = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
-  Bend                   bend = {.radius = 2.0};
+  Bend                   bend   = {.radius = 2.0};
   Box                    box[2] = {
-    {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
-    {"outer", {-0.3, -0.6, 0.0},  {0.3, 0.6, 0.3}, {6, 4, 1} }
+                       {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
+                       {"outer", {-0.3, -0.6, 0.0}, {0.3, 0.6, 0.3}, {6, 4, 1}},
   };
   DM curved;
 

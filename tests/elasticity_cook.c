@@ -23,7 +23,7 @@ typedef struct {
 
 static const Published published[] = {
   {0.4999, 1, 8.00, {{2.2603330, 2.5197256}, {7.7281869, 7.9347247}}, {1e-4, 1e-7}}, /* linear */
-  {0.499,  10, 6.89, {{2.8406922, 3.8811997}, {6.7462840, 6.8589365}}, {1e-4, 1e-2}}  /* neo-Hookean */
+  {0.499, 10, 6.89, {{2.8406922, 3.8811997}, {6.7462840, 6.8589365}}, {1e-4, 1e-2}}  /* neo-Hookean */
 };
 
 static void Map(const PetscReal s[3], PetscReal x[3])

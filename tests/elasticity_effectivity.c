@@ -151,8 +151,9 @@ static void MakeBody(const Context *context, SceneBody *body)
 static PetscErrorCode PrescribedRows(const Context *context, DM dm, IS *rows)
 {
   static const char *const faces[] = {"body.xmin", "body.xmax", "body.ymin", "body.ymax", "body.zmin", "body.zmax"}, *const planes[] = {"body.x0", "body.y0", "body.z0"};
-  const PetscInt           n = context->problem == PROBLEM_CUBE ? 6 : context->problem == PROBLEM_SPHERE ? 3 : 1;
-  IS                       parts[6];
+  const PetscInt n = context->problem == PROBLEM_CUBE ? 6 : context->problem == PROBLEM_SPHERE ? 3
+                                                                                               : 1;
+  IS             parts[6];
 
   PetscFunctionBeginUser;
   for (PetscInt i = 0; i < n; ++i) {

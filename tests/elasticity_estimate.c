@@ -30,7 +30,7 @@ static void Quadratic(const PetscReal x[3], PetscReal u[3])
 
 static void QuadraticStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6])
 {
-  const PetscReal H[9] = {0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2], 0.3 * x[1] + 0.1, 0.3 * x[0], 0, 0.1 * x[2], 0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]};
+  const PetscReal H[9]   = {0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2], 0.3 * x[1] + 0.1, 0.3 * x[0], 0, 0.1 * x[2], 0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]};
   const PetscReal lambda = linear.young * linear.poisson / ((1 + linear.poisson) * (1 - 2 * linear.poisson)), mu = linear.young / (2 * (1 + linear.poisson));
 
   (void)ctx;

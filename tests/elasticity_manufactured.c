@@ -2,7 +2,7 @@ static char help[] = "Manufactured solution on a cube: order of convergence in d
 
 #include "elasticity_problem.h"
 
-static const Material  materials[] = {{MATERIAL_LINEAR, 2, 0.3}, {MATERIAL_NEOHOOKEAN, 2, 0.3}};
+static const Material  materials[]  = {{MATERIAL_LINEAR, 2, 0.3}, {MATERIAL_NEOHOOKEAN, 2, 0.3}};
 static const PetscReal amplitude[3] = {0.2, -0.1, 0.14};
 
 /* u = amplitude sin(pi x) sin(pi y) sin(pi z) + (0.1 y, 0.2 z - 0.1 x, 0.3 x) */

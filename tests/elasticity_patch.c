@@ -127,7 +127,7 @@ static PetscErrorCode CheckForce(Elasticity e, DM dm, Vec u)
 /* Lumped mass adds up to the volume that the divergence theorem gives */
 static PetscErrorCode CheckMass(Elasticity e, DM dm)
 {
-  static const char *const faces[] = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax", "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
+  static const char *const faces[]  = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax", "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
   const PetscReal          gauss[2] = {0.5 - PetscSqrtReal(3) / 6, 0.5 + PetscSqrtReal(3) / 6};
   Vec                      mass, coordinates;
   PetscSection             section;

@@ -148,8 +148,8 @@ int main(int argc, char **argv)
   MaterialType    type     = MATERIAL_LINEAR;
   ElementType     element  = ELEMENT_FULL;
   const PetscReal limit[2] = {0.01, 0.012};
-  const PetscReal least   = 1.8;
-  PetscReal       poisson = 0.3, errors[LEVELS][2];
+  const PetscReal least    = 1.8;
+  PetscReal       poisson  = 0.3, errors[LEVELS][2];
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));

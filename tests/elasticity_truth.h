@@ -72,7 +72,7 @@ static inline void CellPointGradient(const CellPoint *p, PetscReal U[8][3], Pets
 static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal lambda, PetscReal mu, PetscReal X[8][3], PetscReal U[8][3])
 {
   static const PetscInt row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  const PetscReal       kappa = lambda + 2 * mu / 3;
+  const PetscReal       kappa  = lambda + 2 * mu / 3;
   PetscReal             volume = 0, mean = 0, sum = 0;
 
   for (PetscInt n = 0; n < 54; ++n) { /* first the mean, then the error */
@@ -178,7 +178,7 @@ static inline PetscErrorCode TrueError(DM dm, const ExactSolution *exact, Vec u,
 static inline PetscErrorCode ReportEffectivity(PetscInt level, PetscReal estimate, PetscReal truth, PetscReal factor)
 {
   const PetscReal effectivity = PetscSqrtReal(estimate / truth);
-  PetscBool       view = PETSC_FALSE;
+  PetscBool       view        = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-effectivity_view", &view, NULL));

@@ -32,7 +32,8 @@ static PetscErrorCode RunFolder(const char kind[], PetscErrorCode (*target)(cons
 
     PetscCall(PetscSNPrintf(file, sizeof(file), "%s/%s", folder, entries[i]->d_name));
     PetscCall(FuzzRun(target, file, &sound));
-    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s %s: %s\n", kind, entries[i]->d_name, sound ? "sound" : verbose ? attempt_sentence : "refused"));
+    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s %s: %s\n", kind, entries[i]->d_name, sound ? "sound" : verbose ? attempt_sentence
+                                                                                                              : "refused"));
     free(entries[i]);
   }
   free(entries);

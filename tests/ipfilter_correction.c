@@ -162,7 +162,7 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-angle", &angle, NULL));
   for (PetscInt k = 0; k < 2; k++) {
-    const PetscBool equality = (PetscBool)(k == 0);
+    const PetscBool equality  = (PetscBool)(k == 0);
     PetscInt        newton[2] = {0, 0}, evaluations[2] = {0, 0};
 
     PetscCall(Solve(equality, angle, "0", &newton[0], &evaluations[0]));

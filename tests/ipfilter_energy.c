@@ -52,7 +52,7 @@ static PetscErrorCode Evaluate(Energy *e, Vec u, PetscReal *f, Vec g)
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
     for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
       const PetscInt  di[4] = {1, 0, -1, 0}, dj[4] = {0, 1, 0, -1};
-      const PetscReal v = PetscRealPart(a[j][i]);
+      const PetscReal v     = PetscRealPart(a[j][i]);
       PetscReal       edges = 0.0;
 
       for (PetscInt k = 0; k < (g ? 4 : 2); k++) {
@@ -73,7 +73,7 @@ static PetscErrorCode Evaluate(Energy *e, Vec u, PetscReal *f, Vec g)
 
 static PetscErrorCode Objective(Tao tao, Vec u, PetscReal *f, void *user)
 {
-  Energy   *e = (Energy *)user;
+  Energy   *e  = (Energy *)user;
   PetscBool in = PETSC_FALSE;
 
   PetscFunctionBeginUser;

@@ -23,9 +23,9 @@ static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
   PetscCall(DMCreateGlobalVector(da, &o->q.b));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
     for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
-      MatStencil  row = {.i = i, .j = j}, col[5];
-      PetscScalar v[5];
-      PetscInt    n   = 0;
+      MatStencil     row = {.i = i, .j = j}, col[5];
+      PetscScalar    v[5];
+      PetscInt       n     = 0;
       const PetscInt di[4] = {-1, 1, 0, 0}, dj[4] = {0, 0, -1, 1};
 
       col[n] = row;
@@ -35,7 +35,7 @@ static PetscErrorCode AssembleMembrane(DM da, Obstacle *o)
           const PetscInt ni = i + di[d], nj = j + dj[d];
 
           if (ni == 0 || nj == 0 || ni == info.mx - 1 || nj == info.my - 1) continue;
-          col[n]   = (MatStencil){.i = ni, .j = nj};
+          col[n] = (MatStencil){.i = ni, .j = nj};
           v[n++] = -k;
         }
       }
@@ -265,13 +265,14 @@ static PetscErrorCode CompareUnits(PetscInt n)
     PetscCall(DestroyProblem(&da, &o));
   }
   if (same) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units: the same iterations and objective\n"));
-  else for (PetscInt k = 0; k < 3; k++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units %g, %g: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations, objective %.10e\n", (double)length[k], (double)energy[k], newton[k], krylov[k], (double)(f[k] / energy[k])));
+  else
+    for (PetscInt k = 0; k < 3; k++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units %g, %g: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations, objective %.10e\n", (double)length[k], (double)energy[k], newton[k], krylov[k], (double)(f[k] / energy[k])));
   PetscFunctionReturn(0);
 }
 
 int main(int argc, char **argv)
 {
-  PetscInt  n = 41;
+  PetscInt  n       = 41;
   PetscBool compare = PETSC_FALSE;
   DM        da;
   Obstacle  o;

@@ -19,7 +19,7 @@ static PetscErrorCode Report(const char name[], PetscReal value, PetscReal toler
 /* Largest errors of P against differences of W, of A against differences of P, and of A's symmetry */
 static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
 {
-  const PetscReal h = 1e-5;
+  const PetscReal h         = 1e-5;
   PetscReal       errors[3] = {0, 0, 0};
 
   PetscFunctionBeginUser;
@@ -33,8 +33,8 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda,
       const PetscReal keep = H[j];
       PetscReal       forward, backward, Pf[9], Pb[9];
 
-      H[j]     = keep + h;
-      forward  = law->energy(lambda, mu, H);
+      H[j]    = keep + h;
+      forward = law->energy(lambda, mu, H);
       law->stress(lambda, mu, H, Pf);
       H[j]     = keep - h;
       backward = law->energy(lambda, mu, H);
@@ -164,7 +164,7 @@ static PetscErrorCode CheckRotation(const MaterialLaw *law, PetscReal lambda, Pe
 static PetscErrorCode CheckDilation(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
 {
   const PetscReal a = 1.3, kappa = lambda + 2 * mu / 3, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
-  PetscReal       sigma[6], P[9], A[81], error = 0;
+  PetscReal       sigma[6], P[9], A[81], error                                                                    = 0;
   PetscBool       refused;
 
   PetscFunctionBeginUser;

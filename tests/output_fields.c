@@ -147,11 +147,11 @@ static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
 
 int main(int argc, char **argv)
 {
-  SceneBody         bodies[] = {
+  SceneBody bodies[] = {
     {.name = (char *)"lower", .shape = SHAPE_BOX, .lower = {0, 0, 0}, .upper = {3, 2, 1}, .cells = {3, 2, 1}},
     {.name = (char *)"upper", .shape = SHAPE_BOX, .lower = {1, 0, 1}, .upper = {2, 1, 2}, .cells = {2, 2, 2}},
   };
-  const char *const names[] = {"lower", "upper <&\">"};
+  const char *const names[]                  = {"lower", "upper <&\">"};
   char              base[PETSC_MAX_PATH_LEN] = "results";
   DM                dm;
   Output            output;

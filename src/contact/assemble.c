@@ -59,8 +59,8 @@ typedef struct {
 /* The sums over facets and ranks are made here */
 static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
-  Vec       u;
-  PetscInt  n, *row = as->row, *node = as->node;
+  Vec      u;
+  PetscInt n, *row = as->row, *node = as->node;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(contact->dm, &u));

@@ -77,7 +77,7 @@ PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cell[0], &body));
     if (body < 0) continue;
     PetscCall(MeshGetFacetVertices(dm, f, vertex));
-    PetscCall(MeshGetVertexCoordinates(dm, 4, vertex, (PetscReal(*)[3])&b->x[12 * b->n]));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, vertex, (PetscReal(*)[3]) & b->x[12 * b->n]));
     b->body[b->n++] = body;
   }
   PetscCall(PetscFree(boundary));

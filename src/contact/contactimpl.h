@@ -78,15 +78,15 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 typedef struct {
   char      *name;
   PetscInt   nfacets;
-  PetscInt  *vertex;       /* [4 nfacets] local DMPlex points, counterclockwise seen from outside */
-  PetscInt  *node;         /* [4 nfacets] global numbers of the vertices: a third of their first global row */
-  PetscReal *reference;    /* [12 nfacets] coordinates of the undeformed vertices [length] */
-  PetscReal *x;            /* [12 nfacets] coordinates of the deformed vertices [length] */
-  PetscInt  *border;       /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
-  PetscBool  bordered;     /* whether border has been asked for; the same on all ranks */
-  PetscReal  area;         /* of the whole undeformed face, all ranks [length^2] */
-  PetscInt   body;         /* behind the face */
-  PetscReal  thickness;    /* mean thickness of that body [length] */
+  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points, counterclockwise seen from outside */
+  PetscInt  *node;      /* [4 nfacets] global numbers of the vertices: a third of their first global row */
+  PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
+  PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
+  PetscBool  bordered;  /* whether border has been asked for; the same on all ranks */
+  PetscReal  area;      /* of the whole undeformed face, all ranks [length^2] */
+  PetscInt   body;      /* behind the face */
+  PetscReal  thickness; /* mean thickness of that body [length] */
 } ContactSurface;
 PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);

@@ -52,7 +52,7 @@ static PetscErrorCode FindDeepRows(Contact contact, const PetscReal box[], Conta
   PetscCall(PetscMalloc1(wide->nlocal, deep));
   PetscCall(VecGetArrayRead(wide->g, &g));
   for (PetscInt w = 0; w < wide->nlocal; ++w) {
-    const PetscInt         p    = wide->pair[w], v = wide->vertex[w];
+    const PetscInt         p = wide->pair[w], v = wide->vertex[w];
     const ContactPairData *pair = &contact->pairs[p];
     const PetscReal        gap  = PetscRealPart(g[w]);
     DeepRow                row  = {.pair = (PetscReal)p, .depth = -gap};

@@ -4,10 +4,10 @@
 
 /* Facets on their way, those for one rank together */
 typedef struct {
-  PetscMPIInt  nranks, *rank;
-  PetscInt    *range; /* [2 nranks] for each rank, first facet and number of facets */
-  PetscInt     n, *node, *border;
-  PetscReal   *x;
+  PetscMPIInt nranks, *rank;
+  PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
+  PetscInt    n, *node, *border;
+  PetscReal  *x;
 } Outgoing;
 
 /* Counts the facets for each rank, or packs them once out->x is there */

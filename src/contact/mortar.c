@@ -28,11 +28,11 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
 static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
-  const PetscReal *x1  = &pair->nonmortar.x[12 * f];
-  const PetscInt  *row = &pair->row[4 * f];
+  const PetscReal *x1      = &pair->nonmortar.x[12 * f];
+  const PetscInt  *row     = &pair->row[4 * f];
   PetscReal        D[4][4] = {{0}};
   PetscScalar      gap[4]  = {0};
-  PetscInt         n = 0;
+  PetscInt         n       = 0;
   ContactOverlap   overlap;
   ContactIntegrals m;
 

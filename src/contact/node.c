@@ -8,7 +8,7 @@
 static PetscBool OnBorder(PetscInt border, const PetscReal xi[2])
 {
   static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* at (xi, eta) = (-1 or 1, -1 or 1) */
-  const PetscInt        i            = xi[0] >= 1.0, j = xi[1] >= 1.0;
+  const PetscInt        i = xi[0] >= 1.0, j = xi[1] >= 1.0;
 
   if (PetscAbsReal(xi[0]) >= 1.0 && PetscAbsReal(xi[1]) >= 1.0) return (PetscBool)((border >> (4 + vertex[i][j]) & 1) != 0);
   if (PetscAbsReal(xi[0]) >= 1.0) return (PetscBool)((border >> (i ? 1 : 3) & 1) != 0);

@@ -38,9 +38,9 @@ static void AddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, cons
 {
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
-      {polygon[0][0],     polygon[0][1]    },
-      {polygon[t][0],     polygon[t][1]    },
-      {polygon[t + 1][0], polygon[t + 1][1]}
+      {polygon[0][0], polygon[0][1]},
+      {polygon[t][0], polygon[t][1]},
+      {polygon[t + 1][0], polygon[t + 1][1]},
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 

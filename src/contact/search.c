@@ -51,7 +51,7 @@ static PetscInt TreeQuery(const ContactTree *t, const Prism *prism, PetscInt fou
 
   if (t->nnodes) stack[depth++] = 0;
   while (depth) {
-    const PetscInt  self = stack[--depth];
+    const PetscInt         self = stack[--depth];
     const ContactTreeNode *node = &t->node[self];
 
     if (!PrismMeetsBox(prism, node->box)) continue;

@@ -34,10 +34,10 @@ static void SelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi
 
 static void TreeBuild(ContactTree *t, PetscInt first, PetscInt last)
 {
-  const PetscInt self = t->nnodes++;
-  PetscReal      lower[3], upper[3];
-  PetscInt       axis = 0;
-  ContactTreeNode      *node = &t->node[self];
+  const PetscInt   self = t->nnodes++;
+  PetscReal        lower[3], upper[3];
+  PetscInt         axis = 0;
+  ContactTreeNode *node = &t->node[self];
 
   *node = (ContactTreeNode){.first = first, .last = last, .second = 0};
   for (PetscInt c = 0; c < 3; ++c) {

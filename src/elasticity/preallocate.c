@@ -63,7 +63,7 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
 */
 static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout, const PetscInt global[], const PetscInt start[], const PetscInt neighbours[], PetscInt nowned, PetscInt *owned[4])
 {
-  PetscSF  sf;
+  PetscSF   sf;
   PetscInt *local[4], N;
 
   PetscFunctionBegin;

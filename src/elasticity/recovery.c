@@ -57,7 +57,7 @@ static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, Pet
 static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][8], int a, const CellSample *cell)
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  const PetscReal  d[3]   = {cell->x[0] - X[0][a], cell->x[1] - X[1][a], cell->x[2] - X[2][a]};
+  const PetscReal  d[3] = {cell->x[0] - X[0][a], cell->x[1] - X[1][a], cell->x[2] - X[2][a]};
 
   sums->n += 1;
   for (int k = 0; k < 6; ++k) sums->dd[k] += d[row[k]] * d[column[k]];
@@ -78,7 +78,7 @@ static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mea
   const PetscReal C[3][3] = {
     {yy * zz - yz * yz, yz * zx - xy * zz, xy * yz - yy * zx},
     {yz * zx - xy * zz, xx * zz - zx * zx, xy * zx - xx * yz},
-    {xy * yz - yy * zx, xy * zx - xx * yz, xx * yy - xy * xy}
+    {xy * yz - yy * zx, xy * zx - xx * yz, xx * yy - xy * xy},
   };
   const PetscReal det = xx * C[0][0] + xy * C[0][1] + zx * C[0][2];
 

@@ -19,7 +19,7 @@ static PetscErrorCode ReadFile(const char file[], DM *dm)
 {
   PetscErrorCode ierr;
   PetscOptions   options;
-  FILE          *stream = fopen(file, "r");
+  FILE          *stream  = fopen(file, "r");
   float          version = 0;
 
   PetscFunctionBegin;

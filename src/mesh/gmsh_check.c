@@ -222,9 +222,12 @@ static PetscBool CheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n
 static PetscErrorCode AddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 element, const PetscInt64 nodes[])
 {
   static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  static const int prism[3][4]      = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
-  const int(*quadrilaterals)[4]     = type == 5 ? hexahedron : type == 6 ? prism : pyramid;
-  const int n                       = type == 5 ? 6 : type == 6 ? 3 : type == 7 ? 1 : 0;
+  static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
+  const int(*quadrilaterals)[4] = type == 5 ? hexahedron : type == 6 ? prism
+                                                                     : pyramid;
+  const int n                   = type == 5 ? 6 : type == 6 ? 3
+                                                : type == 7 ? 1
+                                                            : 0;
 
   PetscFunctionBegin;
   if (check->nfacets + n > check->maxfacets) {
@@ -358,7 +361,7 @@ PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[])
   GmshCheck check = {.in = {.sentence = sentence, .length = length}};
 
   PetscFunctionBegin;
-  sentence[0]  = 0;
+  sentence[0]   = 0;
   check.in.file = fopen(file, "r");
   if (!check.in.file || fseek(check.in.file, 0, SEEK_END)) (void)GmshWrong(&check.in, "it cannot be read");
   else {

@@ -68,7 +68,7 @@ PetscBool GmshGetBytes(GmshStream *in, size_t n, void *value)
 PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 values[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
-    long long value = 0;
+    long long value  = 0;
     int       narrow = 0;
 
     if (!in->binary) {

@@ -44,9 +44,9 @@ static void HalfEllipseSetUp(const SceneBody *body, HalfEllipse *e)
 
 static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {
-  const SceneHalfEllipse *ellipse   = &body->ellipse;
-  const char *const       what[3]   = {"of the core along its depth (patches)", "of the core across one half (patches)", "across the ring (patches)"};
-  const PetscReal         halves    = ellipse->half < 0 ? 2 : 1;
+  const SceneHalfEllipse *ellipse = &body->ellipse;
+  const char *const       what[3] = {"of the core along its depth (patches)", "of the core across one half (patches)", "across the ring (patches)"};
+  const PetscReal         halves  = ellipse->half < 0 ? 2 : 1;
   HalfEllipse             e;
 
   PetscFunctionBegin;
@@ -175,10 +175,10 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
     const PetscInt   across   = e.middle + e.core[1];
     const PetscInt   symmetry = e.middle ? PETSC_DECIDE : ELLIPSE_SYMMETRY;
     const ShapeBlock blocks[] = {
-      {{e.core[0], across, e.length},      {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX},       &e, CoreVertex },
-      {{e.ring, across, e.length},         {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX},        &e, CrownVertex},
-      {{e.core[0], e.ring, e.length},      {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX},    &e, AboveVertex},
-      {{e.core[0], e.ring, e.length},      {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX},    &e, BelowVertex}
+      {{e.core[0], across, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, CoreVertex},
+      {{e.ring, across, e.length}, {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, CrownVertex},
+      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, AboveVertex},
+      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, BelowVertex},
     };
 
     PetscCall(ShapeGridCreate(e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
@@ -193,8 +193,8 @@ static PetscReal ArcLength(const PetscReal semi_axes[2], PetscReal angle)
 {
   static const PetscReal point[4]  = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
   static const PetscReal weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
-  const PetscReal        h = angle / 4;
-  PetscReal              length = 0;
+  const PetscReal        h         = angle / 4;
+  PetscReal              length    = 0;
 
   for (PetscInt panel = 0; panel < 4; ++panel) {
     for (PetscInt q = 0; q < 8; ++q) {
@@ -230,9 +230,9 @@ static void ArcPoint(const PetscReal semi_axes[2], PetscReal fraction, PetscReal
 /* From (u, v) with v >= 0 to (depth, across) */
 static void SectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal place[2])
 {
-  const PetscReal *a     = body->ellipse.semi_axes;
-  const PetscReal  ring  = body->cells[2];
-  const PetscReal  total = (PetscReal)(body->cells[0] + body->cells[1]);
+  const PetscReal *a       = body->ellipse.semi_axes;
+  const PetscReal  ring    = body->cells[2];
+  const PetscReal  total   = (PetscReal)(body->cells[0] + body->cells[1]);
   const PetscReal  edge[2] = {body->cells[0] / (body->cells[0] + ring), body->cells[1] / (body->cells[1] + ring)}; /* of the core, so that cells on the symmetry lines are equal */
   const PetscReal  m = PetscMax(uv[0], uv[1]), scale = PetscMax(m, 1);
   const PetscReal  q[2] = {uv[0] / scale, uv[1] / scale};

@@ -67,8 +67,8 @@ PETSC_INTERN const Shape ShapeBox, ShapeTubeArc, ShapeHalfEllipse, ShapeSphereSh
    across the shell, 0 at its inner and 1 at its outer surface. Shells have no cells in [0, 1]^3, a ball has its core there.
 */
 PETSC_INTERN const char *const *OctantFaces(const SceneBody *);
-PETSC_INTERN PetscErrorCode OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells, PetscInt64 *nvertices);
-PETSC_INTERN PetscErrorCode OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
+PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells, PetscInt64 *nvertices);
+PETSC_INTERN PetscErrorCode     OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
 /* q on the far sides of the unit cube and s, from parameters outside of the core */
 PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
 /* Unit vector of a point of the far sides, all components >= 0; equal steps along the cube's edges are equal angles */

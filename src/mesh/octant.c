@@ -106,7 +106,7 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
     for (PetscInt k = 0; k <= o->n[2]; ++k) {
       for (PetscInt j = 0; j <= o->n[1]; ++j) {
         for (PetscInt i = 0; i <= o->n[0]; ++i) {
-          const PetscInt at[3] = {i, j, k};
+          const PetscInt at[3]  = {i, j, k};
           const PetscInt inside = o->surface[i + (o->n[0] + 1) * (j + (o->n[1] + 1) * k)] < 0;
 
           if (inside && (layer || !o->core)) continue;
@@ -132,8 +132,8 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
     const ShapeBlock block = {
       {o.layers, o.n[s], o.n[t]},
       {core ? PETSC_DECIDE : OCTANT_INNER, OCTANT_OUTER, OCTANT_PLANE + s, PETSC_DECIDE, OCTANT_PLANE + t, PETSC_DECIDE},
-      &patches[d], OctantPatchVertex
-    };
+      &patches[d],
+      OctantPatchVertex};
 
     patches[d].octant = &o;
     patches[d].axis   = d;
@@ -144,8 +144,8 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
     const ShapeBlock block = {
       {o.n[0], o.n[1], o.n[2]},
       {OCTANT_PLANE, PETSC_DECIDE, OCTANT_PLANE + 1, PETSC_DECIDE, OCTANT_PLANE + 2, PETSC_DECIDE},
-      &patches[0], OctantCoreVertex
-    };
+      &patches[0],
+      OctantCoreVertex};
 
     blocks[3] = block;
   }

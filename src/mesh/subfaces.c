@@ -10,8 +10,8 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
   PetscFunctionBegin;
   PetscCall(MeshGetFaceNames(comm, body, &n, &names));
   for (PetscInt s = 0; s < body->nsubfaces; ++s) {
-    const SceneSubface *part  = &body->subfaces[s];
-    PetscBool           known = PETSC_FALSE, same;
+    const SceneSubface *part         = &body->subfaces[s];
+    PetscBool           known        = PETSC_FALSE, same;
     char                choices[512] = "";
 
     for (PetscInt f = 0; f < n - body->nsubfaces + s; ++f) {

@@ -6,8 +6,8 @@
 #include "meshimpl.h"
 
 typedef struct {
-  DM        dm;
-  PetscInt  nbodies, n; /* n: 6 modes a body */
+  DM       dm;
+  PetscInt nbodies, n; /* n: 6 modes a body */
   PetscReal (*center)[3], *size;
   PetscReal *gram, *row; /* n x n sum of the rows' outer products, on this rank's facets; one row */
 } Support;

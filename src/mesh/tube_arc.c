@@ -43,8 +43,8 @@ static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid
   const ShapeBlock block    = {
        {n[0], n[1], n[2]},
        {0, 1, 2, 3, 4, 5},
-       n, TubeVertex
-  };
+       n,
+       TubeVertex};
   PetscReal *p;
 
   PetscFunctionBegin;

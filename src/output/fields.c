@@ -206,7 +206,7 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
 
 PetscErrorCode OutputWriteFields(Output output, const StepState *state)
 {
-  char    file[PETSC_MAX_PATH_LEN];
+  char        file[PETSC_MAX_PATH_LEN];
   FieldsState what = {output, state};
 
   PetscFunctionBegin;

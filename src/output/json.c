@@ -67,19 +67,41 @@ static void JSONValue(FILE *stream, const RunReport *run, const ReportField *fie
   const void *value = SchemaAt(field, record);
 
   switch (field->type) {
-  case FIELD_INT: fprintf(stream, "%" PetscInt_FMT, *(const PetscInt *)value); break;
+  case FIELD_INT:
+    fprintf(stream, "%" PetscInt_FMT, *(const PetscInt *)value);
+    break;
   case FIELD_REAL:
-  case FIELD_DOUBLE: JSONNumber(stream, SchemaNumber(field, record)); break;
-  case FIELD_BOOL: fputs(*(const PetscBool *)value ? "true" : "false", stream); break;
+  case FIELD_DOUBLE:
+    JSONNumber(stream, SchemaNumber(field, record));
+    break;
+  case FIELD_BOOL:
+    fputs(*(const PetscBool *)value ? "true" : "false", stream);
+    break;
   case FIELD_TEXT:
-  case FIELD_CHARS: JSONString(stream, SchemaText(field, record)); break;
-  case FIELD_VECTOR: JSONVector(stream, (const PetscReal *)value); break;
-  case FIELD_INTS: JSONInts(stream, SchemaCount(field, record), *(const PetscInt *const *)value); break;
-  case FIELD_BODY_INTS: JSONBodies(stream, run, *(const PetscInt *const *)value, NULL); break;
-  case FIELD_BODY_REALS: JSONBodies(stream, run, NULL, *(const PetscReal *const *)value); break;
-  case FIELD_LIST: JSONList(stream, run, field->record, SchemaCount(field, record), *(const char *const *)value, indent); break;
-  case FIELD_RECORD: JSONRecord(stream, run, field->record, value, indent); break;
-  case FIELD_POINTER: JSONRecord(stream, run, field->record, *(const void *const *)value, indent); break;
+  case FIELD_CHARS:
+    JSONString(stream, SchemaText(field, record));
+    break;
+  case FIELD_VECTOR:
+    JSONVector(stream, (const PetscReal *)value);
+    break;
+  case FIELD_INTS:
+    JSONInts(stream, SchemaCount(field, record), *(const PetscInt *const *)value);
+    break;
+  case FIELD_BODY_INTS:
+    JSONBodies(stream, run, *(const PetscInt *const *)value, NULL);
+    break;
+  case FIELD_BODY_REALS:
+    JSONBodies(stream, run, NULL, *(const PetscReal *const *)value);
+    break;
+  case FIELD_LIST:
+    JSONList(stream, run, field->record, SchemaCount(field, record), *(const char *const *)value, indent);
+    break;
+  case FIELD_RECORD:
+    JSONRecord(stream, run, field->record, value, indent);
+    break;
+  case FIELD_POINTER:
+    JSONRecord(stream, run, field->record, *(const void *const *)value, indent);
+    break;
   }
 }
 

@@ -64,7 +64,7 @@ typedef enum {
   FIELD_BODY_REALS, /* PetscReal *, one a body; NULL: not known */
   FIELD_LIST,       /* an array of records, counted */
   FIELD_RECORD,
-  FIELD_POINTER     /* to a record; NULL: there is none */
+  FIELD_POINTER, /* to a record; NULL: there is none */
 } ReportType;
 
 /* The tables for people. TABLE_EVERY: all those of load steps; the fallbacks make a sentence, the phases a row each */
@@ -93,10 +93,10 @@ typedef enum {
 
 typedef struct {
   ReportTable table;
-  const char *head[2];   /* one above the other */
-  int         width;     /* in characters; negative: to the left; 0: as wide as what it says */
-  int         blanks;    /* before it, beyond the one that every column has */
-  const char *format;    /* of a double, NULL: that of its type; of a FIELD_BOOL the word that says it is true */
+  const char *head[2]; /* one above the other */
+  int         width;   /* in characters; negative: to the left; 0: as wide as what it says */
+  int         blanks;  /* before it, beyond the one that every column has */
+  const char *format;  /* of a double, NULL: that of its type; of a FIELD_BOOL the word that says it is true */
   ReportShown shown;
   PetscBool   with_unit; /* in the heading */
   PetscBool   behind;    /* printed behind the other columns of its table */
@@ -121,10 +121,10 @@ struct _n_ReportRecord {
 };
 
 PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
-PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
-PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
-PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);
-PETSC_INTERN PetscInt    SchemaCount(const ReportField *, const void *record);
+PETSC_INTERN const void        *SchemaAt(const ReportField *, const void *record);
+PETSC_INTERN double             SchemaNumber(const ReportField *, const void *record);
+PETSC_INTERN const char        *SchemaText(const ReportField *, const void *record);
+PETSC_INTERN PetscInt           SchemaCount(const ReportField *, const void *record);
 
 /* table.c */
 PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const ReportRecord *, PetscInt line, PetscViewer);

@@ -6,10 +6,19 @@
 #include <math.h>
 
 /* Last the unit, and what else there is to say */
-#define FIELD(record, member, stored, ...) {.name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__}
+#define FIELD(record, member, stored, ...) \
+  { \
+    .name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__ \
+  }
 /* The same behind the heading: the width, then what else */
-#define COLUMN(place, above, below, ...) {.table = place, .head = {above, below}, .width = __VA_ARGS__}
-#define END {.name = NULL}
+#define COLUMN(place, above, below, ...) \
+  { \
+    .table = place, .head = {above, below}, .width = __VA_ARGS__ \
+  }
+#define END \
+  { \
+    .name = NULL \
+  }
 
 static const ReportField fallback_fields[] = {
   FIELD(TaoIPFilterFallbacks, refinements, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f refined")}),
@@ -158,11 +167,16 @@ double SchemaNumber(const ReportField *field, const void *record)
   const void *value = SchemaAt(field, record);
 
   switch (field->type) {
-  case FIELD_INT: return (double)*(const PetscInt *)value;
-  case FIELD_REAL: return (double)*(const PetscReal *)value;
-  case FIELD_DOUBLE: return *(const PetscLogDouble *)value;
-  case FIELD_BOOL: return *(const PetscBool *)value ? 1.0 : 0.0;
-  default: return NAN;
+  case FIELD_INT:
+    return (double)*(const PetscInt *)value;
+  case FIELD_REAL:
+    return (double)*(const PetscReal *)value;
+  case FIELD_DOUBLE:
+    return *(const PetscLogDouble *)value;
+  case FIELD_BOOL:
+    return *(const PetscBool *)value ? 1.0 : 0.0;
+  default:
+    return NAN;
   }
 }
 

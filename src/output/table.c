@@ -7,22 +7,31 @@ static const char *TableFormat(const ReportField *field, const ReportColumn *col
 {
   if (column->format) return column->format;
   switch (field->type) {
-  case FIELD_BOOL: return "";
+  case FIELD_BOOL:
+    return "";
   case FIELD_INT:
-  case FIELD_INTS: return "%.0f";
-  case FIELD_DOUBLE: return "%.3f";
-  case FIELD_VECTOR: return "%13.6e";
-  default: return "%.2e";
+  case FIELD_INTS:
+    return "%.0f";
+  case FIELD_DOUBLE:
+    return "%.3f";
+  case FIELD_VECTOR:
+    return "%13.6e";
+  default:
+    return "%.2e";
   }
 }
 
 static double TableShown(const RunReport *run, ReportShown shown, double value)
 {
   switch (shown) {
-  case SHOWN_SQUARE: return value * value;
-  case SHOWN_PERCENT: return 100 * value;
-  case SHOWN_SHARE: return run->time.total > 0 ? 100 * value / run->time.total : 0.0;
-  default: return value;
+  case SHOWN_SQUARE:
+    return value * value;
+  case SHOWN_PERCENT:
+    return 100 * value;
+  case SHOWN_SHARE:
+    return run->time.total > 0 ? 100 * value / run->time.total : 0.0;
+  default:
+    return value;
   }
 }
 
@@ -51,11 +60,18 @@ static const char *TableText(const RunReport *run, const ReportField *field, con
 
   switch (field->type) {
   case FIELD_TEXT:
-  case FIELD_CHARS: return SchemaText(field, record);
-  case FIELD_BOOL: return value != 0.0 ? format : field->absent;
-  case FIELD_VECTOR: TableVector(format, (const PetscReal *)SchemaAt(field, record), text, length); return text;
-  case FIELD_INTS: (void)snprintf(text, length, format, TableSum(field, record, column->shown)); return text;
-  default: break;
+  case FIELD_CHARS:
+    return SchemaText(field, record);
+  case FIELD_BOOL:
+    return value != 0.0 ? format : field->absent;
+  case FIELD_VECTOR:
+    TableVector(format, (const PetscReal *)SchemaAt(field, record), text, length);
+    return text;
+  case FIELD_INTS:
+    (void)snprintf(text, length, format, TableSum(field, record, column->shown));
+    return text;
+  default:
+    break;
   }
   if (isnan(value) && field->absent) return field->absent[0] ? field->absent : NULL;
   (void)snprintf(text, length, format, TableShown(run, column->shown, value));

@@ -24,8 +24,8 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
     const char *name;
     PetscReal  *value;
   } constants[] = {
-    {"young",   &body->material.young  },
-    {"poisson", &body->material.poisson}
+    {"young", &body->material.young},
+    {"poisson", &body->material.poisson},
   };
 
   PetscFunctionBegin;

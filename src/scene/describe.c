@@ -163,7 +163,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  displacement %s: %s", here->name, here->face));
     for (PetscInt i = 0; i < 3; ++i) {
-      if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here->value[i]));
+      if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
     }
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }

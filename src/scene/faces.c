@@ -146,7 +146,9 @@ PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, 
     PetscCall(PetscStrcmp(names[f], face, &same));
     if (same) found = PETSC_TRUE;
     used = strlen(choices);
-    PetscCall(PetscSNPrintf(choices + used, sizeof(choices) - used, "%s%s", !f ? "" : f + 1 < n ? ", " : " and ", names[f]));
+    PetscCall(PetscSNPrintf(choices + used, sizeof(choices) - used, "%s%s", !f ? "" : f + 1 < n ? ", "
+                                                                                                : " and ",
+                            names[f]));
   }
   PetscCall(MeshRestoreFaceNames(&n, &names));
   PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\", which does not exist; %s has %s", file, what, owner, name, scene->bodies[b].name, choices[0] ? choices : "no named faces");

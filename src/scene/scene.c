@@ -23,9 +23,9 @@ static PetscErrorCode SceneReadProblem(SceneKeys keys, Scene scene)
     const char *name;
     PetscInt   *value;
   } counts[] = {
-    {"refine",              &scene->refine             },
-    {"contact_updates",     &scene->contact_updates    },
-    {"displacement_bounds", &scene->displacement_bounds}
+    {"refine", &scene->refine},
+    {"contact_updates", &scene->contact_updates},
+    {"displacement_bounds", &scene->displacement_bounds},
   };
 
   PetscFunctionBegin;

@@ -22,7 +22,7 @@ typedef struct {
   PetscInt     nasked, maxasked;
   char       **asked;
   char         complaint[1024]; /* the first; empty if none */
-} *SceneKeys;
+} * SceneKeys;
 
 #define SCENE_KEY_LENGTH 256
 

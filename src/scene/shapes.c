@@ -25,7 +25,10 @@ typedef struct {
   PetscBool   required;
 } ShapeKey;
 
-#define KEY(name, type, n, field, required) {name, type, n, offsetof(SceneBody, field), required}
+#define KEY(name, type, n, field, required) \
+  { \
+    name, type, n, offsetof(SceneBody, field), required \
+  }
 
 static const ShapeKey box_keys[] = {
   KEY("lower", KEY_REALS, 3, lower, PETSC_TRUE),
@@ -33,7 +36,7 @@ static const ShapeKey box_keys[] = {
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
   KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey tube_arc_keys[] = {
@@ -43,7 +46,7 @@ static const ShapeKey tube_arc_keys[] = {
   KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
   KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey half_ellipse_keys[] = {
@@ -57,20 +60,20 @@ static const ShapeKey half_ellipse_keys[] = {
   KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
   KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 /* What every octant has: where it is, and how it is divided */
 #define OCTANT_PLACE_KEYS \
   KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), \
-  KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
+    KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
 #define OCTANT_GRID_KEYS \
   KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), \
-  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), \
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
-  KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
-  KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
+    KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
+    KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), \
+    KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
+    KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
+    KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
 
 static const ShapeKey sphere_shell_keys[] = {
   OCTANT_PLACE_KEYS,
@@ -81,7 +84,7 @@ static const ShapeKey sphere_shell_keys[] = {
   KEY("cap_radius", KEY_REALS, 1, octant.cap.radius, PETSC_FALSE),
   KEY("cap_center", KEY_REALS, 3, octant.cap.center, PETSC_FALSE),
   OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey spheroid_shell_keys[] = {
@@ -89,20 +92,20 @@ static const ShapeKey spheroid_shell_keys[] = {
   KEY("inner_semi_axes", KEY_REALS, 3, octant.inner_axes, PETSC_TRUE),
   KEY("outer_semi_axes", KEY_REALS, 3, octant.outer_axes, PETSC_TRUE),
   OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey ball_keys[] = {
   OCTANT_PLACE_KEYS,
   KEY("radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
   OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey gmsh_keys[] = {
   KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
   KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE}
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
 static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys, spheroid_shell_keys, ball_keys, gmsh_keys};
@@ -175,10 +178,10 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 
 PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
 {
-  char          key[SCENE_KEY_LENGTH];
-  const char   *text;
-  SceneOctant  *octant    = &body->octant;
-  SceneSphere  *spheres[] = {&octant->inner, &octant->outer, &octant->cap};
+  char         key[SCENE_KEY_LENGTH];
+  const char  *text;
+  SceneOctant *octant    = &body->octant;
+  SceneSphere *spheres[] = {&octant->inner, &octant->outer, &octant->cap};
 
   PetscFunctionBegin;
   PetscCall(SceneReadShapeName(keys, body));

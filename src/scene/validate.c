@@ -12,7 +12,7 @@ static PetscErrorCode ValidateBodies(MPI_Comm comm, const char file[], Scene sce
     const PetscReal  E = body->material.young, nu = body->material.poisson;
 
     for (PetscInt i = 0; i < 3 && body->shape == SHAPE_BOX; ++i) {
-      SceneRequire(body->lower[i] < body->upper[i], "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i], (double)body->lower[i], "xyz"[i], (double)body->upper[i]);
+      SceneRequire(body->lower[i] < body->upper[i], "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i], (double)body -> lower[i], "xyz"[i], (double)body -> upper[i]);
       SceneRequire(body->cells[i] >= 1, "%s: body \"%s\" has %" PetscInt_FMT " cells along %c, it needs at least 1", file, body->name, body->cells[i], "xyz"[i]);
     }
     PetscCall(MeshCheckBody(comm, body));
@@ -36,7 +36,7 @@ static PetscErrorCode ValidateDisplacements(MPI_Comm comm, const char file[], Sc
       const SceneDisplacement *other = &scene->displacements[e];
 
       PetscCall(PetscStrcmp(here->face, other->face, &same));
-      for (PetscInt i = 0; i < 3; ++i) SceneRequire(!same || !here->fixed[i] || !other->fixed[i], "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name, "xyz"[i], here->face);
+      for (PetscInt i = 0; i < 3; ++i) SceneRequire(!same || !here->fixed[i] || !other->fixed[i], "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name, "xyz"[i], here -> face);
     }
   }
   PetscFunctionReturn(0);

@@ -5,8 +5,8 @@
 static PetscErrorCode ViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
   const SceneBody *body        = &scene->bodies[b];
-  const PetscReal constants[] = {body->material.young, body->material.poisson};
-  const char     *labels[]    = {"young", "poisson"};
+  const PetscReal  constants[] = {body->material.young, body->material.poisson};
+  const char      *labels[]    = {"young", "poisson"};
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));

@@ -163,7 +163,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
 {
   Simulation sim          = p->sim;
   Vec        u_linearized = sim->path.u;
-  PetscBool  is_true      = PETSC_FALSE, slid = PETSC_FALSE;
+  PetscBool  is_true = PETSC_FALSE, slid = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;

@@ -49,7 +49,8 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
   PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1), "contact_updates is %" PetscInt_FMT, scene->contact_updates));
   PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0), scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
-  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies neo-Hookean%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step" : ", true energy"));
+  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies neo-Hookean%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
+                                                                                                                                                                                                  : ", true energy"));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures", scene->npressures));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));

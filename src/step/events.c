@@ -9,14 +9,14 @@ static const struct {
   const char *event;
   size_t      time;
 } phases[] = {
-  {"SimMesh",        offsetof(RunTimes, mesh)          },
-  {"SimAssembly",    offsetof(RunTimes, assembly)      },
-  {"SimContact",     offsetof(RunTimes, contact)       },
-  {"PCAMGFAMGSetUp", offsetof(RunTimes, amg_setup)     },
-  {"PCAMGFAMGApply", offsetof(RunTimes, amg_apply)     },
-  {"PCAMGFFltSetUp", offsetof(RunTimes, filter_setup)  },
-  {"PCAMGFFltApply", offsetof(RunTimes, filter_apply)  },
-  {"ElastError",     offsetof(RunTimes, error_estimate)},
+  {"SimMesh", offsetof(RunTimes, mesh)},
+  {"SimAssembly", offsetof(RunTimes, assembly)},
+  {"SimContact", offsetof(RunTimes, contact)},
+  {"PCAMGFAMGSetUp", offsetof(RunTimes, amg_setup)},
+  {"PCAMGFAMGApply", offsetof(RunTimes, amg_apply)},
+  {"PCAMGFFltSetUp", offsetof(RunTimes, filter_setup)},
+  {"PCAMGFFltApply", offsetof(RunTimes, filter_apply)},
+  {"ElastError", offsetof(RunTimes, error_estimate)},
 };
 
 PetscErrorCode StepEventsRegister(void)

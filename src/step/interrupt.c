@@ -65,7 +65,8 @@ PetscErrorCode InterruptReport(Simulation sim, StepReport *report)
   char reason[64];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s", sim->interrupted == SIGINT ? "SIGINT" : sim->interrupted == SIGTERM ? "SIGTERM" : "SIGUSR1"));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s", sim->interrupted == SIGINT ? "SIGINT" : sim->interrupted == SIGTERM ? "SIGTERM"
+                                                                                                                                              : "SIGUSR1"));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -135,7 +135,7 @@ static PetscErrorCode OptimizerReport(Tao tao, PetscBool ours, Vec u, StepReport
 
 static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ours, Vec u, ContactSolution *sol)
 {
-  ContactLinearization lin = p->sim->linearization;
+  ContactLinearization lin   = p->sim->linearization;
   Vec                  slack = NULL, multipliers;
 
   PetscFunctionBegin;

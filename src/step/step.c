@@ -64,10 +64,10 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscBool       again     = PETSC_TRUE, stop;
 
   PetscFunctionBegin;
-  report->step       = step + 1;
-  report->gap_min    = report->gap_true = report->error_estimate = NAN;
-  report->load       = sim->scene->ramps[0].factor[step];
-  sim->report.nsteps = step + 1;
+  report->step    = step + 1;
+  report->gap_min = report->gap_true = report->error_estimate = NAN;
+  report->load                                                = sim->scene->ramps[0].factor[step];
+  sim->report.nsteps                                          = step + 1;
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 

@@ -47,7 +47,9 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   if (filtered) PetscCall(PCAMGFGetAMGPC(pc, &pc));
   PetscCall(PCGetType(pc, &set));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(PetscStrncpy(type, set ? set : PetscDefined(HAVE_HYPRE) ? PCHYPRE : PCGAMG, sizeof(type)));
+  PetscCall(PetscStrncpy(type, set ? set : PetscDefined(HAVE_HYPRE) ? PCHYPRE
+                                                                    : PCGAMG,
+                         sizeof(type)));
   PetscCall(PetscOptionsGetString(NULL, prefix, "-pc_type", type, sizeof(type), NULL));
   PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
   PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_hypre_boomeramg_nodal_coarsen", &nodal));

@@ -195,9 +195,9 @@ static double Violation(const Context *ctx, const double x[], const double lower
 
 static int Solve(const NLP *p, int limit)
 {
-  Context      ctx = {.p = p};
-  double       x[EXPRESSION_MAX], lower[EXPRESSION_MAX], upper[EXPRESSION_MAX], least[MAXM], most[MAXM], f = 0.0;
-  IpoptProblem problem;
+  Context                      ctx = {.p = p};
+  double                       x[EXPRESSION_MAX], lower[EXPRESSION_MAX], upper[EXPRESSION_MAX], least[MAXM], most[MAXM], f = 0.0;
+  IpoptProblem                 problem;
   enum ApplicationReturnStatus status;
 
   Split(p->inequalities, ctx.c, &ctx.m);
