@@ -28,33 +28,102 @@ static PetscErrorCode DestroyType(Tao tao)
 
 /*MC
   TAOIPFILTER - Interior point with a filter line search, for problems too large to factor:
-  min f(x) subject to c_I(x) >= 0 and x_l <= x <= x_u
+  min f(x) subject to c_E(x) = 0, c_I(x) >= 0 and x_l <= x <= x_u
 
   Options Database Keys:
-+ -tao_gatol <1e-8>                                    - KKT error at which the solver has converged, as `TaoSetTolerances()` sets it; 0: machine precision
-. -tao_ipfilter_tol <1e-8>                             - the same
-. -tao_ipfilter_start <warm> (cold,predict,warm)       - slacks and multipliers to start from: constants, predicted, or
-                                                         those of TaoIPFilterSetWarmStart() where given, else predicted
-. -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra) - update of the barrier parameter
-. -tao_ipfilter_forcing <adaptive> (adaptive,fixed)    - Krylov tolerance from the KKT error, or the KSP's own
-. -tao_ipfilter_kkt <relative> (relative,mass)         - dimensionless KKT error, or the absolute mass-weighted one
-. -tao_ipfilter_scaling <problem> (problem,none)       - constants that follow the units, or stand as they are
-. -tao_ipfilter_filter_switch <10>                     - `PCAMGF` filters once (J^T D J)_ii exceeds this many times H_ii
-                                                         for some i; 0: always
-. -tao_ipfilter_direct                                 - MUMPS on the whole matrix, with its inertia, from the start
-. -tao_ipfilter_direct_memory <2000>                   - MB over all ranks that MUMPS may take for the whole matrix
-                                                         where the Krylov method fails; 0: never
-. -tao_ipfilter_monitor                                - a line an iteration
-- -tao_ipfilter_ksp_type, -tao_ipfilter_pc_type        - solver of the condensed system, `KSPCG` and `PCAMGF` by default
++ -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
+                                                              `TaoSetTolerances()` sets it; 0: machine precision
+. -tao_ipfilter_tol <1e-8>                                  - the same by another name
+. -tao_ipfilter_acceptable_tol <1e-6>                       - KKT error accepted where no further progress is made
+. -tao_ipfilter_acceptable_it <15>                          - iterates in a row within the acceptable tolerance that end
+                                                              the solve
+. -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
+. -tao_ipfilter_scaling <problem> (problem,none)            - constants that follow the units, or stand as they are
+. -tao_ipfilter_row_ratio <100>                             - constraints whose gradient exceeds this many times the
+                                                              smallest at the start are scaled down to that; 0: none
+. -tao_ipfilter_unbounded_factor <1e10>                     - fall of the objective, against its first size, that counts as
+                                                              unbounded
+. -tao_ipfilter_monitor                                     - a line an iteration, in IPOPT's columns
+. -tao_ipfilter_start <warm> (cold,predict,warm)            - slacks and multipliers to start from: constants, predicted by
+                                                              a step of the penalized problem, or those of
+                                                              `TaoIPFilterSetWarmStart()` where given, else predicted
+. -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
+. -tao_ipfilter_slack_init <1>                              - cold start: slacks
+. -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
+. -tao_ipfilter_predict_mu <0.3>                            - predicted start: mu as a fraction of mean length x mean
+                                                              pressure
+. -tao_ipfilter_predict_forcing <0.1>                       - predicted start: forces out of balance, as a fraction of
+                                                              those the constraints transmit
+. -tao_ipfilter_warm_mu <0.03>                              - warm start: least mu as a fraction of the mean product length
+                                                              x pressure
+. -tao_ipfilter_bound_push <0.01>                           - distance of the start from its bounds, relative
+. -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
+. -tao_ipfilter_kappa_epsilon <10>                          - monotone: mu is reduced once the errors of the barrier
+                                                              problem are below kappa_epsilon mu
+. -tao_ipfilter_kappa_dual <0.1>                            - relative measure: imbalance of forces at which mu may be
+                                                              reduced
+. -tao_ipfilter_kappa_mu <0.2>                              - monotone: linear reduction of mu
+. -tao_ipfilter_theta_mu <1.5>                              - monotone: superlinear reduction, mu^theta_mu
+. -tao_ipfilter_mu_reductions_first <10>                    - monotone: limit of the reductions at the first iteration
+. -tao_ipfilter_mu_reductions <1>                           - monotone: limit of the reductions at later iterations
+. -tao_ipfilter_kappa_progress <0.9999>                     - mehrotra: reduction of the KKT error against the worst of the
+                                                              last four, or mu turns monotone
+. -tao_ipfilter_tau_min <0.99>                              - least fraction to the boundary
+. -tao_ipfilter_kappa_sigma <1e10>                          - multipliers are kept within this factor of mu/s
+. -tao_ipfilter_gamma_theta <1e-5>                          - filter: sufficient reduction of the constraint violation
+                                                              theta
+. -tao_ipfilter_gamma_phi <1e-8>                            - filter: sufficient reduction of the barrier function phi
+. -tao_ipfilter_eta_phi <1e-8>                              - Armijo's constant
+. -tao_ipfilter_delta_switch <1>                            - constant of the switching condition
+. -tao_ipfilter_s_theta <1.1>                               - exponent of the violation in it
+. -tao_ipfilter_s_phi <2.3>                                 - exponent of the descent in it
+. -tao_ipfilter_gamma_alpha <0.05>                          - safety factor of the smallest step
+. -tao_ipfilter_theta_min_fact <1e-4>                       - violation below which Armijo may decide, as a fraction of the
+                                                              first
+. -tao_ipfilter_theta_max_fact <1e4>                        - largest violation accepted, as a multiple of the first
+. -tao_ipfilter_obj_max_inc <1e5>                           - largest rise of phi accepted for less violation, against its
+                                                              size
+. -tao_ipfilter_max_soc <4>                                 - limit of second-order corrections a step
+. -tao_ipfilter_kappa_soc <0.99>                            - reduction of the violation that a correction must give to be
+                                                              continued
+. -tao_ipfilter_kappa_curvature <1e-11>                     - curvature d^T W d that a direction must have, as a fraction
+                                                              of d^T d
+. -tao_ipfilter_delta_first <1e-4>                          - first multiple of M_u that is added to the Hessian where a
+                                                              direction has less, in its unit
+. -tao_ipfilter_delta_max <1e20>                            - largest one
+. -tao_ipfilter_delta_grow_first <100>                      - its growth before one has worked
+. -tao_ipfilter_delta_grow <8>                              - its growth later
+. -tao_ipfilter_delta_shrink <0.333>                        - its decrease from one step to the next
+. -tao_ipfilter_delta_equality <1e-8>                       - regularization of dependent equality constraints, in units of
+                                                              J_E H^-1 J_E^T
+. -tao_ipfilter_forcing <adaptive> (adaptive,fixed)         - Krylov tolerance from the KKT error, or the KSP's own
+. -tao_ipfilter_forcing_max <0.1>                           - adaptive: linear residual as a fraction of the forces in
+                                                              balance, while mu falls
+. -tao_ipfilter_forcing_reduce <0.7>                        - adaptive: and as a fraction of the last stationarity residual
+. -tao_ipfilter_forcing_last <0.5>                          - adaptive: as a fraction of the tolerance, in the step that
+                                                              would finish
+. -tao_ipfilter_filter_threshold <1e-12>                    - columns of J above this fraction of its largest entry belong
+                                                              to the filter subspace
+. -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
+                                                              H_ii for some i; 0: always
+. -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with its inertia, from the start
+. -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
+                                                              where the Krylov method fails; 0: never
+. -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
+- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the system with equality constraints
 
   Level: beginner
 
   Notes:
-  The Newton system is condensed to A = H + Sigma + J^T D J and solved by a Krylov method. The unknowns that J touches
-  are composed on A as an IS under `PCAMGF_FILTER_KEY`, where `PCAMGF` finds them.
+  Slacks, multipliers and bounds are eliminated from the Newton system, which leaves A = H + Sigma + J^T D J, solved by a Krylov method.
+  The unknowns that J touches are composed on A as an IS under `PCAMGF_FILTER_KEY`, where `PCAMGF` finds them.
 
-  `TaoSetHessian()` must give the Hessian of f - DI^T c_I as an assembled matrix, DI being what `TaoGetDualVariables()`
-  returns. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
+  Equality constraints are not eliminated: the symmetric system of A and their Jacobian is factored by MUMPS, which must be there.
+  Constraints that depend on one another are regularized, by proximal terms that leave nothing of them in the solution.
+
+  `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()` returns, as a matrix of
+  type AIJ, BAIJ, SBAIJ or dense; without it gradients are differenced, up to 1,000 unknowns. Jacobians of other types are converted to
+  AIJ at every evaluation. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
 
   The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
   iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns are
@@ -66,12 +135,16 @@ static PetscErrorCode DestroyType(Tao tao)
   `TaoIPFilterSetPrimalMass()`, is added: `TaoIPFilterGetRegularizations()` tells how often.
 
   Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
-  gradient that `TaoGetGradient()` returns are zero.
+  gradient that `TaoGetGradient()` returns are zero. Inequalities have no upper bounds: state c <= u as u - c >= 0.
 
-  `TaoSetTolerances()` has no effect; convergence is decided by the KKT error alone. Reasons: `TAO_CONVERGED_GATOL`
-  (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL` (only within the acceptable tolerance),
-  `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the constraints may be infeasible), `TAO_DIVERGED_USER` (linear solver
-  failed), `TAO_DIVERGED_NAN`, `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.
+  Of `TaoSetTolerances()` gatol alone counts, for the KKT error, which with `-tao_ipfilter_kkt relative` is dimensionless; of
+  `TaoSetConstraintTolerances()` nothing does. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
+  (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`), `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the
+  constraints may be infeasible), `TAO_DIVERGED_USER` (no direction, or the objective seems unbounded), `TAO_DIVERGED_NAN`,
+  `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.
+
+  Errors where a PETSc without MUMPS meets equality constraints, where a lower bound exceeds an upper one, and where the sizes of the
+  masses do not fit. Scalars must be real.
 
   References:
 + * - A. Waechter and L. T. Biegler, "On the implementation of an interior-point filter line-search algorithm for
@@ -81,7 +154,8 @@ static PetscErrorCode DestroyType(Tao tao)
 - * - J. Nocedal, A. Waechter and R. A. Waltz, "Adaptive barrier update strategies for nonlinear interior methods",
         SIAM Journal on Optimization 19, 2009.
 
-.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterGetReason()`, `PCAMGF`
+.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
+          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `PCAMGF`
 M*/
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
 {

@@ -15,7 +15,7 @@ PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
 }
 
 /* Their forces, m z */
-static PetscErrorCode PenaltyForce(Tao tao, Vec c, Vec force)
+static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
 {
   PetscFunctionBegin;
   PetscCall(IPPenaltyPressure(tao, c, force));
@@ -34,7 +34,7 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &transmitted));
   PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, ip->at.c, c));
-  PetscCall(PenaltyForce(tao, c, force));
+  PetscCall(PenaltyPairForce(tao, c, force));
   PetscCall(MatMultTranspose(ip->jac.inequality, force, transmitted));
   PetscCall(VecNorm(transmitted, NORM_2, norm));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &transmitted));
@@ -71,7 +71,7 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
   PetscCall(VecPointwiseMult(v, ip->stiff.rho, ip->pair[IP_SLACK].w));
   PetscCall(IPCondenseMatrix(tao, v));
-  PetscCall(PenaltyForce(tao, ip->at.c, v));
+  PetscCall(PenaltyPairForce(tao, ip->at.c, v));
   PetscCall(VecAXPBY(rhs, -1.0, 0.0, tao->gradient));
   PetscCall(MatMultTransposeAdd(ip->jac.inequality, v, rhs, rhs));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
@@ -118,7 +118,7 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   if (IPUndefined(*value)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, x, it->c, it->ce));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(PenaltyForce(tao, it->c, force));
+  PetscCall(PenaltyPairForce(tao, it->c, force));
   PetscCall(VecDot(force, it->c, &penalty));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   *value -= 0.5 * PetscRealPart(penalty);
