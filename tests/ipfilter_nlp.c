@@ -21,7 +21,7 @@ static const struct {
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", "HS104"},
   {"differences", "-tao_max_it 200 -hessian 0", ""},
   /* dense matrices, whose conversions drop zeros: the same path as in the first mode */
-  {"dense", "-tao_max_it 200 -dense", ""},
+  {"dense", "-tao_max_it 200 -dense_hessian -dense_jacobians", ""},
 };
 
 typedef struct {
@@ -226,14 +226,14 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
   PetscFunctionReturn(0);
 }
 
-/* Full pattern, rows laid out as r, columns as c: AIJ, or dense */
-static PetscErrorCode CreateFull(Vec r, Vec c, Mat *A)
+/* Full pattern, rows laid out as r, columns as c: AIJ, or dense where an option says so */
+static PetscErrorCode CreateFull(Vec r, Vec c, const char option[], Mat *A)
 {
   PetscInt  m, n, M, N;
   PetscBool dense = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-dense", &dense, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, option, &dense, NULL));
   PetscCall(VecGetLocalSize(r, &m));
   PetscCall(VecGetLocalSize(c, &n));
   PetscCall(VecGetSize(r, &M));
@@ -377,9 +377,9 @@ static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *
   PetscCall(VecFromText(comm, ctx.n, p->bounds, 1, &xu));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ci.m, &ci));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ce.m, &ce));
-  PetscCall(CreateFull(x, x, &H));
-  PetscCall(CreateFull(ci, x, &Ji));
-  PetscCall(CreateFull(ce, x, &Je));
+  PetscCall(CreateFull(x, x, "-dense_hessian", &H));
+  PetscCall(CreateFull(ci, x, "-dense_jacobians", &Ji));
+  PetscCall(CreateFull(ce, x, "-dense_jacobians", &Je));
   PetscCall(TaoCreate(comm, tao));
   PetscCall(TaoSetType(*tao, TAOIPFILTER));
   PetscCall(TaoSetSolution(*tao, x));
@@ -546,6 +546,11 @@ int main(int argc, char **argv)
    test:
       suffix: no_direction
       args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+
+   # c = x y - 1 has one nonzero in its Jacobian at the start, two later
+   test:
+      suffix: dense_jacobian
+      args: -problems hyperbola -dense_jacobians
 
    test:
       suffix: dense
