@@ -1,6 +1,7 @@
 /* The life of the object: creation, options, prescribed displacements */
 #include "elasticityimpl.h"
 #include <mesh.h>
+#include <rankerror.h>
 
 static PetscErrorCode ElasticityReadOptions(Elasticity e)
 {
@@ -16,42 +17,54 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* Nodes and body of every cell */
-static PetscErrorCode ElasticitySetUpCells(Elasticity e)
+/* Nodes and body of every cell of this rank */
+static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
-  MPI_Comm     comm = PetscObjectComm((PetscObject)e->dm);
   PetscSection section, coordinates;
-  DMLabel      label;
-  PetscInt     start, end, size, bad[2] = {0, 0};
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(e->dm, &section));
   PetscCall(DMGetCoordinateSection(e->dm, &coordinates));
-  PetscCall(DMGetLabel(e->dm, MESH_BODY_LABEL, &label));
-  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\" that gives the body of each cell", MESH_BODY_LABEL);
-  PetscCall(DMPlexGetHeightStratum(e->dm, 0, &start, &end));
-  PetscCall(PetscSectionGetStorageSize(section, &size));
-  e->nnodes = size / 3;
-  e->ncells = end - start;
-  PetscCall(PetscMalloc2(8 * e->ncells, &e->cellnodes, e->ncells, &e->cellbody));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscInt vertices[8];
 
     PetscCall(DMLabelGetValue(label, start + c, &e->cellbody[c]));
-    if (e->cellbody[c] < 0 || e->cellbody[c] >= e->nbodies) bad[0] = 1;
+    PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
     PetscCall(MeshGetCellVertices(e->dm, start + c, vertices));
     for (PetscInt a = 0; a < 8; ++a) {
       PetscInt offset, coordinateoffset;
 
       PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
       PetscCall(PetscSectionGetOffset(coordinates, vertices[a], &coordinateoffset));
-      if (offset != coordinateoffset) bad[1] = 1;
+      PetscCheck(offset == coordinateoffset, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The mesh's local section does not lay out the displacements as the coordinates are");
       e->cellnodes[8 * c + a] = offset / 3;
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPIU_INT, MPI_MAX, comm));
-  PetscCheck(!bad[0], comm, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
-  PetscCheck(!bad[1], comm, PETSC_ERR_ARG_WRONG, "The mesh's local section does not lay out the displacements as the coordinates are");
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ElasticitySetUpCells(Elasticity e)
+{
+  MPI_Comm       comm = PetscObjectComm((PetscObject)e->dm);
+  RankError      error;
+  PetscErrorCode ierr;
+  PetscSection   section;
+  DMLabel        label;
+  PetscInt       start, end, size;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLabel(e->dm, MESH_BODY_LABEL, &label));
+  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\" that gives the body of each cell", MESH_BODY_LABEL);
+  PetscCall(DMGetLocalSection(e->dm, &section));
+  PetscCall(DMPlexGetHeightStratum(e->dm, 0, &start, &end));
+  PetscCall(PetscSectionGetStorageSize(section, &size));
+  e->nnodes = size / 3;
+  e->ncells = end - start;
+  PetscCall(PetscMalloc2(8 * e->ncells, &e->cellnodes, e->ncells, &e->cellbody));
+  PetscCall(RankErrorBegin(&error));
+  ierr = ElasticityNumberCells(e, label, start);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscFunctionReturn(0);
 }
 

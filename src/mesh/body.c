@@ -31,33 +31,51 @@ PetscErrorCode MeshCheckBody(MPI_Comm comm, const SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[])
+/* The grid of a body with a shape; what it may fail for is want of memory */
+static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const Shape *shape, MeshBody *mesh)
 {
-  GmshFile    file = {NULL, NULL};
-  PetscMPIInt rank;
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
 
   PetscFunctionBegin;
+  PetscCall(shape->size(comm, body, &mesh->ncells, &mesh->nvertices));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = shape->create(body, &mesh->grid);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "Body \"%s\": the first rank cannot make its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells, error.message);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MeshReadGrid(MPI_Comm comm, const SceneBody *body, GmshFile *file, MeshBody *mesh)
+{
+  PetscInt64 size[2];
+
+  PetscFunctionBegin;
+  PetscCall(GmshFileOpen(comm, body, file));
+  PetscCall(GmshFileGetGrid(comm, file, body, &mesh->grid));
+  size[0] = mesh->grid.ncells;
+  size[1] = mesh->grid.nvertices;
+  PetscCallMPI(MPI_Bcast(size, 2, MPIU_INT64, 0, comm));
+  mesh->ncells    = size[0];
+  mesh->nvertices = size[1];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[])
+{
+  GmshFile file = {NULL, NULL};
+
+  PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) {
-    MeshBody    *mesh = &meshes[b];
-    PetscInt64   size[2];
     const Shape *shape;
 
     PetscCall(ShapeGet(comm, &bodies[b], &shape));
     PetscCall(MeshCheckBody(comm, &bodies[b]));
-    PetscCall(MeshGetFaceNames(comm, &bodies[b], &mesh->nfaces, &mesh->faces));
-    if (shape) {
-      PetscCall(shape->size(comm, &bodies[b], &mesh->ncells, &mesh->nvertices));
-      if (rank == 0) PetscCall(shape->create(&bodies[b], &mesh->grid));
-    } else {
-      PetscCall(GmshFileOpen(comm, &bodies[b], &file));
-      PetscCall(GmshFileGetGrid(comm, &file, &bodies[b], &mesh->grid));
-      size[0] = mesh->grid.ncells;
-      size[1] = mesh->grid.nvertices;
-      PetscCallMPI(MPI_Bcast(size, 2, MPIU_INT64, 0, comm));
-      mesh->ncells    = size[0];
-      mesh->nvertices = size[1];
-    }
+    PetscCall(MeshGetFaceNames(comm, &bodies[b], &meshes[b].nfaces, &meshes[b].faces));
+    if (shape) PetscCall(MeshCreateGrid(comm, &bodies[b], shape, &meshes[b]));
+    else PetscCall(MeshReadGrid(comm, &bodies[b], &file, &meshes[b]));
   }
   PetscCall(GmshFileClose(&file));
   PetscFunctionReturn(0);

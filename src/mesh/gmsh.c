@@ -2,27 +2,21 @@
 #include "meshimpl.h"
 #include <petscviewer.h>
 
-static char gmsh_complaint[256];
-
-/* PETSc's reader raises from deep inside, on rank 0 alone; the sentence is kept for ours */
-static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *context)
-{
-  (void)comm, (void)line, (void)function, (void)file, (void)context;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(gmsh_complaint, message, sizeof(gmsh_complaint));
-  return n;
-}
-
 /* On rank 0. PETSc labels cells and facets with their physical tags: in formats 4 these are the tags of their entities, in format 2
    the first of their own, which the number of the entity follows. (Its labels by name would take that for a tag.)
    The options are not the user's, whose own meshes must not change */
-static PetscErrorCode ReadFile(const char file[], DM *dm)
+static PetscErrorCode GmshReadFile(const char file[], DM *dm)
 {
   PetscErrorCode ierr;
   PetscOptions   options;
-  FILE          *stream  = fopen(file, "r");
+  char           complaint[256];
+  FILE          *stream;
   float          version = 0;
 
   PetscFunctionBegin;
+  PetscCall(GmshCheckFile(file, sizeof(complaint), complaint));
+  PetscCheck(!complaint[0], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s", complaint);
+  stream = fopen(file, "r");
   if (stream) {
     if (fscanf(stream, "$MeshFormat %f", &version) != 1) version = 0;
     (void)fclose(stream);
@@ -31,38 +25,34 @@ static PetscErrorCode ReadFile(const char file[], DM *dm)
   PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_multiple_tags", version >= 4 ? "true" : "false"));
   PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_periodic", "false"));
   PetscCall(PetscOptionsPush(options));
-  gmsh_complaint[0] = 0;
-  PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
   ierr = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, file, PETSC_TRUE, dm);
-  PetscCall(PetscPopErrorHandler());
   PetscCall(PetscOptionsPop());
   PetscCall(PetscOptionsDestroy(&options));
   if (ierr) *dm = NULL;
+  PetscCall(ierr);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file)
 {
-  char        sentence[GMSH_SENTENCE] = "";
-  PetscMPIInt rank;
-  PetscBool   same = PETSC_FALSE;
-  PetscInt    dim;
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
+  PetscBool      same = PETSC_FALSE;
+  PetscInt       dim  = 3;
 
   PetscFunctionBegin;
   if (file->name) PetscCall(PetscStrcmp(file->name, body->gmsh.file, &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(GmshFileClose(file));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) {
-    PetscCall(GmshCheckFile(body->gmsh.file, sizeof(gmsh_complaint), gmsh_complaint));
-    if (!gmsh_complaint[0]) PetscCall(ReadFile(body->gmsh.file, &file->dm));
-    if (!file->dm) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": %s is not a whole Gmsh mesh of 8-node hexahedra: %s", body->name, body->gmsh.file, gmsh_complaint[0] ? gmsh_complaint : "it cannot be read"));
-    else {
-      PetscCall(DMGetDimension(file->dm, &dim));
-      if (dim != 3) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim));
-    }
-  }
-  PetscCall(GmshRaise(comm, sentence));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->dm);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh of 8-node hexahedra: %s", body->name, body->gmsh.file, error.message);
+  if (file->dm) PetscCall(DMGetDimension(file->dm, &dim));
+  PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
+  PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
   file->name = body->gmsh.file;
   PetscFunctionReturn(0);
 }
@@ -75,7 +65,7 @@ PetscErrorCode GmshFileClose(GmshFile *file)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode HasTag(DM dm, const char sets[], PetscInt tag, PetscInt point, PetscBool *has)
+static PetscErrorCode GmshHasTag(DM dm, const char sets[], PetscInt tag, PetscInt point, PetscBool *has)
 {
   DMLabel label;
 
@@ -87,7 +77,7 @@ static PetscErrorCode HasTag(DM dm, const char sets[], PetscInt tag, PetscInt po
 }
 
 /* The hexahedra of the body's volume with their vertices numbered anew; number: new number of each vertex, PETSC_DECIDE without one */
-static PetscErrorCode CutVolume(DM dm, const SceneBody *body, PetscInt tag, PetscInt number[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
+static PetscErrorCode GmshCutVolume(DM dm, const SceneBody *body, PetscInt tag, PetscInt number[], ShapeGrid *grid)
 {
   PetscInt           cstart, cend, vstart, vend;
   PetscSection       section;
@@ -99,23 +89,21 @@ static PetscErrorCode CutVolume(DM dm, const SceneBody *body, PetscInt tag, Pets
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
   PetscCall(PetscMalloc1(8 * (cend - cstart), &grid->cells));
   for (PetscInt v = 0; v < vend - vstart; ++v) number[v] = PETSC_DECIDE;
-  for (PetscInt c = cstart; c < cend && !sentence[0]; ++c) {
+  for (PetscInt c = cstart; c < cend; ++c) {
     DMPolytopeType type;
     PetscInt       vertices[8];
     PetscBool      within;
 
-    PetscCall(HasTag(dm, "Cell Sets", tag, c, &within));
+    PetscCall(GmshHasTag(dm, "Cell Sets", tag, c, &within));
     if (!within) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
-    if (type != DM_POLYTOPE_HEXAHEDRON) PetscCall(PetscSNPrintf(sentence, GMSH_SENTENCE, "Body \"%s\": the volume \"%s\" of %s has cells of type %s; only hexahedra with 8 nodes are read", body->name, body->gmsh.volume, body->gmsh.file, DMPolytopeTypes[type]));
-    else {
-      PetscCall(MeshGetCellVertices(dm, c, vertices));
-      for (PetscInt a = 0; a < 8; ++a) {
-        if (number[vertices[a] - vstart] < 0) number[vertices[a] - vstart] = grid->nvertices++;
-        grid->cells[8 * grid->ncells + a] = number[vertices[a] - vstart];
-      }
-      ++grid->ncells;
+    PetscCheck(type == DM_POLYTOPE_HEXAHEDRON, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8 nodes are read", body->gmsh.volume, body->gmsh.file, DMPolytopeTypes[type]);
+    PetscCall(MeshGetCellVertices(dm, c, vertices));
+    for (PetscInt a = 0; a < 8; ++a) {
+      if (number[vertices[a] - vstart] < 0) number[vertices[a] - vstart] = grid->nvertices++;
+      grid->cells[8 * grid->ncells + a] = number[vertices[a] - vstart];
     }
+    ++grid->ncells;
   }
   PetscCall(DMGetCoordinateSection(dm, &section));
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
@@ -133,7 +121,7 @@ static PetscErrorCode CutVolume(DM dm, const SceneBody *body, PetscInt tag, Pets
 }
 
 /* A facet's vertices if it bounds the volume; a facet between two of its cells is inside */
-static PetscErrorCode GetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, PetscInt vertices[4], PetscBool *bounds)
+static PetscErrorCode GmshGetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, PetscInt vertices[4], PetscBool *bounds)
 {
   const PetscInt *cells;
   PetscInt        ncells, nwithin = 0, npoints, n = 0, vstart, vend, *closure = NULL;
@@ -145,7 +133,7 @@ static PetscErrorCode GetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, P
   for (PetscInt c = 0; c < ncells; ++c) {
     PetscBool within;
 
-    PetscCall(HasTag(dm, "Cell Sets", volume, cells[c], &within));
+    PetscCall(GmshHasTag(dm, "Cell Sets", volume, cells[c], &within));
     if (within) ++nwithin;
   }
   if (nwithin != 1) PetscFunctionReturn(0);
@@ -160,7 +148,7 @@ static PetscErrorCode GetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, P
 }
 
 /* A facet may be on several surfaces and is listed once for each */
-static PetscErrorCode CutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
+static PetscErrorCode GmshCutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
   PetscInt       fstart, fend;
   PetscSegBuffer facets, facetface;
@@ -174,8 +162,8 @@ static PetscErrorCode CutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, co
       PetscInt  vertices[4] = {0}, *slot;
       PetscBool has;
 
-      PetscCall(HasTag(dm, "Face Sets", surfaces[face], f, &has));
-      if (has) PetscCall(GetBoundingFacet(dm, volume, f, vertices, &has));
+      PetscCall(GmshHasTag(dm, "Face Sets", surfaces[face], f, &has));
+      if (has) PetscCall(GmshGetBoundingFacet(dm, volume, f, vertices, &has));
       if (!has) continue;
       PetscCall(PetscSegBufferGetInts(facets, 4, &slot));
       for (PetscInt a = 0; a < 4; ++a) slot[a] = number[vertices[a]];
@@ -191,8 +179,8 @@ static PetscErrorCode CutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, co
   PetscFunctionReturn(0);
 }
 
-/* Two vertices at one place: sorted along a direction in which hardly any vertices of a regular mesh coincide */
-static PetscErrorCode FindDuplicate(const SceneBody *body, const ShapeGrid *grid, char sentence[GMSH_SENTENCE])
+/* No two vertices are at one place: sorted along a direction in which hardly any vertices of a regular mesh coincide */
+static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *grid)
 {
   static const PetscReal direction[3] = {0.5773, 0.6180, 0.5342};
   const PetscReal       *x            = grid->coordinates;
@@ -212,13 +200,11 @@ static PetscErrorCode FindDuplicate(const SceneBody *body, const ShapeGrid *grid
   }
   for (PetscInt d = 0; d < 3; ++d) near = PetscMax(near, 1e-9 * (upper[d] - lower[d]));
   PetscCall(PetscSortRealWithArrayInt(grid->nvertices, along, order));
-  for (PetscInt i = 0; i < grid->nvertices && !sentence[0]; ++i) {
+  for (PetscInt i = 0; i < grid->nvertices; ++i) {
     for (PetscInt j = i + 1; j < grid->nvertices && along[j] - along[i] <= 2 * near; ++j) {
       const PetscReal *a = x + 3 * order[i], *b = x + 3 * order[j];
 
-      if (PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near || PetscAbsReal(a[2] - b[2]) > near) continue;
-      PetscCall(PetscSNPrintf(sentence, GMSH_SENTENCE, "Body \"%s\": the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells do not hang together there", body->name, body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]));
-      break;
+      PetscCheck(PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near || PetscAbsReal(a[2] - b[2]) > near, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells do not hang together there", body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
     }
   }
   PetscCall(PetscFree2(along, order));
@@ -226,31 +212,35 @@ static PetscErrorCode FindDuplicate(const SceneBody *body, const ShapeGrid *grid
 }
 
 /* On rank 0; volume: its tag */
-static PetscErrorCode CutBody(DM dm, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid, char sentence[GMSH_SENTENCE])
+static PetscErrorCode GmshCutBody(DM dm, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid)
 {
   PetscInt vstart, vend, *number;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
   PetscCall(PetscMalloc1(vend - vstart, &number));
-  PetscCall(CutVolume(dm, body, volume, number, grid, sentence));
-  if (!sentence[0] && !grid->ncells) PetscCall(PetscSNPrintf(sentence, GMSH_SENTENCE, "Body \"%s\": the volume \"%s\" of %s has no cells", body->name, body->gmsh.volume, body->gmsh.file));
-  if (!sentence[0]) PetscCall(CutSurfaces(dm, volume, nsurfaces, surfaces, number, grid));
-  if (!sentence[0]) PetscCall(FindDuplicate(body, grid, sentence));
+  PetscCall(GmshCutVolume(dm, body, volume, number, grid));
+  PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells", body->gmsh.volume, body->gmsh.file);
+  PetscCall(GmshCutSurfaces(dm, volume, nsurfaces, surfaces, number, grid));
+  PetscCall(GmshCheckVertices(body, grid));
   PetscCall(PetscFree(number));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *body, ShapeGrid *grid)
 {
-  char     sentence[GMSH_SENTENCE] = "", **surfaces;
-  PetscInt n, volume, *tags;
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscInt       n, volume, *tags;
+  char         **surfaces;
 
   PetscFunctionBegin;
   PetscCall(GmshGetVolumeTag(comm, body, &volume));
   PetscCall(GmshGetPhysicalNames(comm, body, 2, &n, &surfaces, &tags));
-  if (file->dm) PetscCall(CutBody(file->dm, body, volume, n, tags, grid, sentence));
-  PetscCall(GmshRaise(comm, sentence));
+  PetscCall(RankErrorBegin(&error));
+  if (file->dm) ierr = GmshCutBody(file->dm, body, volume, n, tags, grid);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
   PetscCall(NamesDestroy(&n, &surfaces));
   PetscCall(PetscFree(tags));
   PetscFunctionReturn(0);

@@ -167,7 +167,7 @@ static PetscErrorCode GetBlocks(GmshCheck *check, const char what[], PetscInt64 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckNodes(GmshCheck *check, PetscBool *sound)
+static PetscErrorCode GmshCheckNodes(GmshCheck *check, PetscBool *sound)
 {
   PetscInt64 nblocks, total, n = 0, *numbers, range[2] = {0, PETSC_MAX_INT};
 
@@ -350,7 +350,7 @@ static PetscErrorCode CheckSections(GmshCheck *check)
     if (sound) sound = GmshGetSection(&check->in, word);
   }
   if (sound) sound = GmshExpect(&check->in, "$Nodes", word);
-  if (sound) PetscCall(CheckNodes(check, &sound));
+  if (sound) PetscCall(GmshCheckNodes(check, &sound));
   if (sound) sound = GmshGetSection(&check->in, word) && GmshExpect(&check->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound) PetscCall(CheckElements(check, &sound));
   PetscFunctionReturn(0);

@@ -3,17 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What rank 0 found wrong is everybody's error */
-PetscErrorCode GmshRaise(MPI_Comm comm, char sentence[GMSH_SENTENCE])
-{
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(sentence, GMSH_SENTENCE, MPI_CHAR, 0, comm));
-  PetscCheck(!sentence[0], comm, PETSC_ERR_USER_INPUT, "%s", sentence);
-  PetscFunctionReturn(0);
-}
-
 /* The entries of one dimension in the section $PhysicalNames, each as tag, blank, name, new line */
-static PetscErrorCode ScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
+static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
 {
   char      line[PETSC_MAX_PATH_LEN], entry[PETSC_MAX_PATH_LEN];
   PetscBool within = PETSC_FALSE;
@@ -37,31 +28,39 @@ static PetscErrorCode ScanPhysicalNames(FILE *stream, PetscInt dim, size_t *leng
   PetscFunctionReturn(0);
 }
 
-/* The entries of one dimension on all ranks, whoever the file belongs to */
-static PetscErrorCode GetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
+/* On rank 0 */
+static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim, size_t *length, char **entries)
 {
-  char        sentence[GMSH_SENTENCE] = "";
-  PetscMPIInt rank;
-  PetscInt64  length = 0;
+  FILE     *stream;
+  PetscBool exists;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
+  stream = exists ? fopen(body->gmsh.file, "r") : NULL;
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "there is no readable mesh file \"%s\"", body->gmsh.file);
+  PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
+  (void)fclose(stream);
+  PetscFunctionReturn(0);
+}
+
+/* The entries of one dimension on all ranks, whoever the file belongs to */
+static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
+{
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
+  PetscInt64     length;
+  size_t         size = 0;
 
   PetscFunctionBegin;
   *entries = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no mesh file", body->name);
-  if (rank == 0) {
-    FILE     *stream;
-    size_t    size = 0;
-    PetscBool exists;
-
-    PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
-    stream = exists ? fopen(body->gmsh.file, "r") : NULL;
-    if (stream) {
-      PetscCall(ScanPhysicalNames(stream, dim, &size, entries));
-      (void)fclose(stream);
-      length = (PetscInt64)size;
-    } else PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "Body \"%s\": there is no readable mesh file \"%s\"", body->name, body->gmsh.file));
-  }
-  PetscCall(GmshRaise(comm, sentence));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = GmshReadPhysicalNames(body, dim, &size, entries);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
+  length = (PetscInt64)size;
   PetscCallMPI(MPI_Bcast(&length, 1, MPIU_INT64, 0, comm));
   if (rank) PetscCall(PetscMalloc1(length, entries));
   PetscCallMPI(MPI_Bcast(*entries, (PetscMPIInt)length, MPI_CHAR, 0, comm));
@@ -74,7 +73,7 @@ PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscI
   int   nwords;
 
   PetscFunctionBegin;
-  PetscCall(GetPhysicalEntries(comm, body, dim, &entries));
+  PetscCall(GmshGetPhysicalEntries(comm, body, dim, &entries));
   PetscCall(PetscStrToArray(entries, '\n', &nwords, &words));
   *n = nwords;
   PetscCall(PetscMalloc1(*n, names));
@@ -94,7 +93,7 @@ PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscI
 /* The tag of the body's volume */
 PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *tag)
 {
-  char      choices[GMSH_SENTENCE / 2], **volumes;
+  char      choices[512], **volumes;
   PetscInt  n, *tags;
   PetscBool known = PETSC_FALSE;
 

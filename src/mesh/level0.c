@@ -39,22 +39,17 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
   PetscFunctionReturn(0);
 }
 
-/* Faces that are parts of others, collectively: a part without facets is everybody's error */
-static PetscErrorCode MeshLabelParts(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], PetscInt ncells)
+/* Sets the labels of all bodies; DMPlex numbers the cells first, then the vertices */
+static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], PetscInt ncells)
 {
-  MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
-  PetscInt    vertex = ncells; /* DMPlex numbers the cells first, then the vertices */
-  PetscMPIInt rank;
+  PetscInt cell = 0, vertex = ncells;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscInt empty = PETSC_DECIDE;
-
-    if (rank == 0) PetscCall(MeshLabelSubfaces(dm, &bodies[b], &meshes[b].grid, vertex, &empty));
+    PetscCall(MeshLabelBody(dm, &bodies[b], b, &meshes[b], cell, vertex));
+    PetscCall(MeshLabelSubfaces(dm, &bodies[b], &meshes[b].grid, vertex));
+    cell += meshes[b].grid.ncells;
     vertex += meshes[b].grid.nvertices;
-    PetscCallMPI(MPI_Bcast(&empty, 1, MPIU_INT, 0, comm));
-    PetscCheck(empty < 0, comm, PETSC_ERR_USER_INPUT, "The face \"%s.%s\" is empty: no facet of \"%s.%s\" has its centroid within the bounds at refinement level 0", bodies[b].name, bodies[b].subfaces[empty].name, bodies[b].name, bodies[b].subfaces[empty].of);
   }
   PetscFunctionReturn(0);
 }
@@ -77,39 +72,52 @@ static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-/* All bodies at level 0, on rank 0; the other ranks' parts are empty */
-PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], DM *dm)
+/* The grids of all bodies in one, the cells' vertices in the order of DMPlex; cells and coordinates: for PetscFree2() */
+static PetscErrorCode MeshJoinGrids(PetscInt nbodies, const MeshBody meshes[], PetscInt *ncells, PetscInt *nvertices, PetscInt **cells, PetscReal **coordinates)
 {
-  PetscInt   ncells = 0, nvertices = 0, cell = 0, vertex = 0, *cells;
-  PetscReal *coordinates;
+  PetscInt cell = 0, vertex = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) {
-    ncells += meshes[b].grid.ncells;
-    nvertices += meshes[b].grid.nvertices;
+    *ncells += meshes[b].grid.ncells;
+    *nvertices += meshes[b].grid.nvertices;
   }
-  PetscCall(PetscMalloc2(8 * ncells, &cells, 3 * nvertices, &coordinates));
+  PetscCall(PetscMalloc2(8 * *ncells, cells, 3 * *nvertices, coordinates));
   for (PetscInt b = 0; b < nbodies; ++b) {
     const ShapeGrid *grid = &meshes[b].grid;
 
     for (PetscInt c = 0; c < grid->ncells; ++c) {
-      for (PetscInt a = 0; a < 8; ++a) cells[8 * (cell + c) + MeshHexTensorOrder[a]] = vertex + grid->cells[8 * c + a];
+      for (PetscInt a = 0; a < 8; ++a) (*cells)[8 * (cell + c) + MeshHexTensorOrder[a]] = vertex + grid->cells[8 * c + a];
     }
-    PetscCall(PetscArraycpy(coordinates + 3 * vertex, grid->coordinates, 3 * grid->nvertices));
+    PetscCall(PetscArraycpy(*coordinates + 3 * vertex, grid->coordinates, 3 * grid->nvertices));
     cell += grid->ncells;
     vertex += grid->nvertices;
   }
+  PetscFunctionReturn(0);
+}
+
+/* All bodies at level 0, on rank 0; the other ranks' parts are empty */
+PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], DM *dm)
+{
+  RankError      error;
+  PetscErrorCode ierr;
+  PetscMPIInt    rank;
+  PetscInt       ncells = 0, nvertices = 0, *cells;
+  PetscReal     *coordinates;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(RankErrorBegin(&error));
+  ierr = MeshJoinGrids(nbodies, meshes, &ncells, &nvertices, &cells, &coordinates);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s", error.message);
   PetscCall(DMPlexCreateFromCellListPetsc(comm, 3, ncells, nvertices, 8, PETSC_TRUE, cells, 3, coordinates, dm));
   PetscCall(PetscFree2(cells, coordinates));
   PetscCall(MeshCreateLabels(*dm, nbodies, bodies, meshes));
-  cell   = 0;
-  vertex = ncells; /* DMPlex numbers the cells first, then the vertices */
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscCall(MeshLabelBody(*dm, &bodies[b], b, &meshes[b], cell, vertex));
-    cell += meshes[b].grid.ncells;
-    vertex += meshes[b].grid.nvertices;
-  }
-  PetscCall(MeshLabelParts(*dm, nbodies, bodies, meshes, ncells));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = MeshLabelBodies(*dm, nbodies, bodies, meshes, ncells);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscCall(MeshCompleteFaceLabels(*dm, nbodies, bodies, meshes));
   PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_FALSE));
   PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_FALSE));

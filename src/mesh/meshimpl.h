@@ -5,6 +5,7 @@
 #define MESHIMPL_H
 
 #include <mesh.h>
+#include <rankerror.h>
 #include <stdio.h>
 
 /*
@@ -116,10 +117,7 @@ PETSC_INTERN PetscBool GmshGetCountWord(GmshStream *, const char what[], PetscIn
 /* gmsh_check.c. Not collective: what is wrong with the file's form and numbers, in a sentence of so many characters, or "" */
 PETSC_INTERN PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[]);
 
-/* gmsh_names.c, all collective: what rank 0 found wrong, "" for nothing, is everybody's error */
-#define GMSH_SENTENCE 1024
-PETSC_INTERN PetscErrorCode GmshRaise(MPI_Comm, char sentence[GMSH_SENTENCE]);
-/* Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
+/* gmsh_names.c, collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
 PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags);
 /* Error if the file has no physical volume of the body's name */
 PETSC_INTERN PetscErrorCode GmshGetVolumeTag(MPI_Comm, const SceneBody *, PetscInt *tag);
@@ -137,9 +135,9 @@ PETSC_INTERN PetscErrorCode GmshFileGetGrid(MPI_Comm, GmshFile *, const SceneBod
 PETSC_INTERN PetscErrorCode MeshFaceLabelName(const char body[], const char face[], size_t length, char name[]);
 
 /* subfaces.c: whether those that the body names are of its faces; their labels at level 0, not collective, on the rank that has
-   the body. first: the first vertex. empty: index of one without facets, or PETSC_DECIDE */
+   the body, an error if one has no facets. first: the first vertex */
 PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
-PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first, PetscInt *empty);
+PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first);
 
 /* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
 typedef struct {

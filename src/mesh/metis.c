@@ -1,5 +1,5 @@
 /* PETSCPARTITIONER "metis": serial METIS on the gathered graph. Debian's PETSc is built without ParMETIS. */
-#include <mesh.h>
+#include "meshimpl.h"
 #include <petsc/private/partitionerimpl.h>
 #include <metis.h>
 
@@ -8,10 +8,11 @@
 /* Above this number of parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section 5.1) */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
-/* Calls METIS on a whole graph; part[v] in [0, nparts) when *status is METIS_OK */
-static PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[], int *status)
+/* Calls METIS on a whole graph; part[v] in [0, nparts) */
+static PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[])
 {
   idx_t n, ncon = 1, np, cut, *xadj, *adjncy, *vwgt = NULL, *where, options[METIS_NOPTIONS];
+  int   status;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(nv + 1, &xadj, start[nv], &adjncy, nv, &where));
@@ -25,20 +26,38 @@ static PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const Pe
   np = (idx_t)nparts;
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
-  if (nparts <= METIS_RECURSIVE_MAX_PARTS) *status = METIS_PartGraphRecursive(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
-  else *status = METIS_PartGraphKway(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
-  for (PetscInt v = 0; v < nv; ++v) part[v] = *status == METIS_OK ? (PetscInt)where[v] : 0;
+  if (nparts <= METIS_RECURSIVE_MAX_PARTS) status = METIS_PartGraphRecursive(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
+  else status = METIS_PartGraphKway(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
+  PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with status %d", status);
+  for (PetscInt v = 0; v < nv; ++v) part[v] = (PetscInt)where[v];
   PetscCall(PetscFree(vwgt));
   PetscCall(PetscFree3(xadj, adjncy, where));
   PetscFunctionReturn(0);
 }
 
+/* The graph from the degrees of its vertices, and what METIS makes of it; *part is allocated */
+static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const PetscInt degree[], const PetscInt adjacency[], const PetscInt weights[], PetscInt **part)
+{
+  PetscInt *start;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nv, part));
+  PetscCall(PetscMalloc1(nv + 1, &start));
+  start[0] = 0;
+  for (PetscInt v = 0; v < nv; ++v) start[v + 1] = start[v] + degree[v];
+  PetscCall(MetisPartitionGraph(nparts, nv, start, adjacency, weights, *part));
+  PetscCall(PetscFree(start));
+  PetscFunctionReturn(0);
+}
+
 /* METIS's index type may be narrower than PetscInt; its graph is bounded here by what MPI can gather at once, which fits either.
    Concatenates the ranks' arrays on rank 0; *all and *total matter there only */
-static PetscErrorCode GatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
+static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
 {
-  PetscMPIInt rank, size, count;
-  PetscInt64  sum = 0, local64 = n;
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank, size, count;
+  PetscInt64     sum = 0, local64 = n;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -47,13 +66,14 @@ static PetscErrorCode GatherArray(MPI_Comm comm, PetscInt n, const PetscInt loca
   PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP, "The graph to be gathered for METIS has %" PetscInt64_FMT " entries; distribute a coarser mesh", sum);
   PetscCall(PetscMPIIntCast(n, &count));
   PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
-  *total = (PetscInt)sum;
-  *all   = NULL;
-  if (!rank) {
-    displs[0] = 0;
-    for (PetscMPIInt r = 1; r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
-    PetscCall(PetscMalloc1(sum, all));
-  }
+  *total    = (PetscInt)sum;
+  *all      = NULL;
+  displs[0] = 0;
+  for (PetscMPIInt r = 1; !rank && r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
+  PetscCall(RankErrorBegin(&error));
+  if (!rank) ierr = PetscMalloc1(sum, all);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot gather a graph of %" PetscInt64_FMT " entries for METIS: %s", sum, error.message);
   PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
   PetscFunctionReturn(0);
 }
@@ -61,29 +81,26 @@ static PetscErrorCode GatherArray(MPI_Comm comm, PetscInt n, const PetscInt loca
 /* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without vertices though `weighted` */
 static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
 {
-  PetscMPIInt rank, size, *counts, *displs, nvlocal;
-  int         status = METIS_OK;
-  PetscInt    nvall, neall, *degree, *alldegree, *alladjacency, *allweights = NULL, *allstart = NULL, *allpart = NULL;
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank, size, *counts, *displs, nvlocal;
+  PetscInt       nvall, neall, *degree, *alldegree, *alladjacency, *allweights = NULL, *allpart = NULL;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc3(size, &counts, size, &displs, nv, &degree));
   for (PetscInt v = 0; v < nv; ++v) degree[v] = start[v + 1] - start[v];
-  PetscCall(GatherArray(comm, nv ? start[nv] : 0, adjacency, counts, displs, &neall, &alladjacency));
-  if (weighted) PetscCall(GatherArray(comm, nv, weights, counts, displs, &nvall, &allweights));
-  PetscCall(GatherArray(comm, nv, degree, counts, displs, &nvall, &alldegree));
-  if (!rank) {
-    PetscCall(PetscMalloc2(nvall + 1, &allstart, nvall, &allpart));
-    allstart[0] = 0;
-    for (PetscInt v = 0; v < nvall; ++v) allstart[v + 1] = allstart[v] + alldegree[v];
-    PetscCall(MetisPartitionGraph(nparts, nvall, allstart, alladjacency, allweights, allpart, &status));
-  }
-  PetscCallMPI(MPI_Bcast(&status, 1, MPI_INT, 0, comm));
-  PetscCheck(status == METIS_OK, comm, PETSC_ERR_LIB, "METIS failed with status %d on a graph of %" PetscInt_FMT " vertices for %" PetscInt_FMT " parts", status, nvall, nparts);
+  PetscCall(MetisGatherArray(comm, nv ? start[nv] : 0, adjacency, counts, displs, &neall, &alladjacency));
+  if (weighted) PetscCall(MetisGatherArray(comm, nv, weights, counts, displs, &nvall, &allweights));
+  PetscCall(MetisGatherArray(comm, nv, degree, counts, displs, &nvall, &alldegree));
+  PetscCall(RankErrorBegin(&error));
+  if (!rank) ierr = MetisPartitionGathered(nparts, nvall, alldegree, alladjacency, allweights, &allpart);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: %s", nvall, nparts, error.message);
   PetscCall(PetscMPIIntCast(nv, &nvlocal));
   PetscCallMPI(MPI_Scatterv(allpart, counts, displs, MPIU_INT, part, nvlocal, MPIU_INT, 0, comm));
-  PetscCall(PetscFree2(allstart, allpart));
+  PetscCall(PetscFree(allpart));
   PetscCall(PetscFree(alldegree));
   PetscCall(PetscFree(alladjacency));
   PetscCall(PetscFree(allweights));

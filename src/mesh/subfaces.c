@@ -1,7 +1,7 @@
 /* Faces that a body names, cut out of its others by bounds */
 #include "meshimpl.h"
 
-/* A part is of a face that comes before it, and its name is not taken */
+/* Each is of a face that comes before it, and its name is not taken */
 PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
 {
   PetscInt n;
@@ -10,18 +10,18 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
   PetscFunctionBegin;
   PetscCall(MeshGetFaceNames(comm, body, &n, &names));
   for (PetscInt s = 0; s < body->nsubfaces; ++s) {
-    const SceneSubface *part         = &body->subfaces[s];
+    const SceneSubface *subface      = &body->subfaces[s];
     PetscBool           known        = PETSC_FALSE, same;
     char                choices[512] = "";
 
     for (PetscInt f = 0; f < n - body->nsubfaces + s; ++f) {
-      PetscCall(PetscStrcmp(names[f], part->of, &same));
+      PetscCall(PetscStrcmp(names[f], subface->of, &same));
       if (same) known = PETSC_TRUE;
-      PetscCall(PetscStrcmp(names[f], part->name, &same));
-      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces of the name \"%s\"", body->name, part->name);
+      PetscCall(PetscStrcmp(names[f], subface->name, &same));
+      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces of the name \"%s\"", body->name, subface->name);
     }
     PetscCall(NamesJoin(n - body->nsubfaces + s, names, sizeof(choices), choices));
-    PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "The face \"%s.%s\" is to be part of \"%s.%s\", which does not exist; before it, %s has: %s", body->name, part->name, body->name, part->of, body->name, choices);
+    PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "The face \"%s.%s\" is to be part of \"%s.%s\", which does not exist; before it, %s has: %s", body->name, subface->name, body->name, subface->of, body->name, choices);
   }
   PetscCall(MeshRestoreFaceNames(&n, &names));
   PetscFunctionReturn(0);
@@ -29,7 +29,7 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
 
 /* Is the centroid of a facet's corners within the bounds, or on them but for rounding? Where the body is curved, its vertices
    are still parameters */
-static PetscErrorCode FacetIsInside(const SceneBody *body, const SceneSubface *part, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
+static PetscErrorCode FacetIsInside(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
 {
   const Shape *shape;
   PetscReal    x[4][3], centroid[3] = {0, 0, 0}, size = 0;
@@ -46,22 +46,21 @@ static PetscErrorCode FacetIsInside(const SceneBody *body, const SceneSubface *p
   for (PetscInt d = 0; d < 3; ++d) size = PetscMax(size, PetscAbsReal(x[0][d] - centroid[d]));
   *inside = PETSC_TRUE;
   for (PetscInt d = 0; d < 3; ++d) {
-    if (centroid[d] < part->lower[d] - 1e-9 * size || centroid[d] > part->upper[d] + 1e-9 * size) *inside = PETSC_FALSE;
+    if (centroid[d] < subface->lower[d] - 1e-9 * size || centroid[d] > subface->upper[d] + 1e-9 * size) *inside = PETSC_FALSE;
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *grid, PetscInt first, PetscInt *empty)
+PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *grid, PetscInt first)
 {
   PetscFunctionBegin;
-  *empty = PETSC_DECIDE;
   for (PetscInt s = 0; s < body->nsubfaces; ++s) {
-    const SceneSubface *part = &body->subfaces[s];
+    const SceneSubface *subface = &body->subfaces[s];
     char                whole[PETSC_MAX_PATH_LEN], name[PETSC_MAX_PATH_LEN];
     PetscInt            nselected = 0;
 
-    PetscCall(MeshFaceLabelName(body->name, part->of, sizeof(whole), whole));
-    PetscCall(MeshFaceLabelName(body->name, part->name, sizeof(name), name));
+    PetscCall(MeshFaceLabelName(body->name, subface->of, sizeof(whole), whole));
+    PetscCall(MeshFaceLabelName(body->name, subface->name, sizeof(name), name));
     for (PetscInt q = 0; q < grid->nfacets; ++q) {
       PetscInt        corners[4], njoin, value;
       const PetscInt *join;
@@ -70,14 +69,14 @@ PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *
       for (PetscInt a = 0; a < 4; ++a) corners[a] = first + grid->facets[4 * q + a];
       PetscCall(DMPlexGetFullJoin(dm, 4, corners, &njoin, &join));
       PetscCall(DMGetLabelValue(dm, whole, join[0], &value));
-      PetscCall(FacetIsInside(body, part, grid, q, &inside));
+      PetscCall(FacetIsInside(body, subface, grid, q, &inside));
       if (value == 1 && inside) {
         PetscCall(DMSetLabelValue(dm, name, join[0], 1));
         ++nselected;
       }
       PetscCall(DMPlexRestoreJoin(dm, 4, corners, &njoin, &join));
     }
-    if (!nselected && *empty < 0) *empty = s;
+    PetscCheck(nselected, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name, whole);
   }
   PetscFunctionReturn(0);
 }

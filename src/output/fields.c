@@ -1,6 +1,7 @@
 /* Mesh and fields as HDF5 datasets: vertices in the order of the DM's global vectors, cells rank by rank */
 #include "outputimpl.h"
 #include <mesh.h>
+#include <rankerror.h>
 #include <math.h>
 
 static PetscErrorCode FieldsCreateVec(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
@@ -155,29 +156,43 @@ static PetscErrorCode FieldsWriteStress(Output output, const PetscReal stress[],
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, PetscViewer viewer)
+/* At this rank's vertices: the sum of the pressures of all rows, and the smallest of their gaps */
+static PetscErrorCode FieldsFillContact(Output output, const StepState *state, PetscScalar pressure[], PetscScalar gap[])
 {
   PetscSection global;
-  Vec          pressure, gap;
-  PetscScalar *p, *g;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
-  PetscCall(FieldsCreateVec(output, "contact_pressure", output->nowned, 1, &pressure));
-  PetscCall(FieldsCreateVec(output, "contact_gap", output->nowned, 1, &gap));
-  PetscCall(VecSet(pressure, 0.0));
-  PetscCall(VecGetArray(pressure, &p));
-  PetscCall(VecGetArray(gap, &g));
-  for (PetscInt v = 0; v < output->nowned; ++v) g[v] = NAN;
+  for (PetscInt v = 0; v < output->nowned; ++v) gap[v] = NAN;
   for (PetscInt r = 0; r < state->nrows; ++r) {
     PetscInt v = 0;
 
     PetscCall(FieldsGetVertex(global, state->row_vertex[r], &v));
     v -= output->first;
     PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact row %" PetscInt_FMT " is at a vertex of another rank", r);
-    p[v] += state->pressure[r];
-    if (!(PetscRealPart(g[v]) <= state->gap[r])) g[v] = state->gap[r];
+    pressure[v] += state->pressure[r];
+    if (!(PetscRealPart(gap[v]) <= state->gap[r])) gap[v] = state->gap[r];
   }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, PetscViewer viewer)
+{
+  Vec            pressure, gap;
+  PetscScalar   *p, *g;
+  RankError      error;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(FieldsCreateVec(output, "contact_pressure", output->nowned, 1, &pressure));
+  PetscCall(FieldsCreateVec(output, "contact_gap", output->nowned, 1, &gap));
+  PetscCall(VecSet(pressure, 0.0));
+  PetscCall(VecGetArray(pressure, &p));
+  PetscCall(VecGetArray(gap, &g));
+  PetscCall(RankErrorBegin(&error));
+  ierr = FieldsFillContact(output, state, p, g);
+  PetscCall(RankErrorEnd(output->comm, ierr, &error));
+  PetscCheck(!error.code, output->comm, error.code, "%s", error.message);
   PetscCall(VecRestoreArray(gap, &g));
   PetscCall(VecRestoreArray(pressure, &p));
   PetscCall(FieldsWriteVec(&pressure, viewer));

@@ -2,40 +2,65 @@
 #include "sceneimpl.h"
 #include <stdarg.h>
 
-static char yaml_complaint[256];
-
-/* PETSc's YAML reader raises from deep inside; the sentence is kept for ours */
-static PetscErrorCode KeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+/* On the first rank: the whole file, ended by a zero */
+static PetscErrorCode SceneReadText(const char file[], PetscInt64 *length, char **text)
 {
-  (void)comm, (void)line, (void)function, (void)file, (void)ctx;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(yaml_complaint, message, sizeof(yaml_complaint));
-  return n;
+  FILE     *stream;
+  PetscBool exists;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(file, 'r', &exists));
+  stream = exists ? fopen(file, "r") : NULL;
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "there is no readable scene file \"%s\"", file);
+  PetscCheck(!fseek(stream, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read", file);
+  *length = (PetscInt64)ftell(stream);
+  rewind(stream);
+  PetscCheck(*length >= 0 && *length < PETSC_MPI_INT_MAX, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" is too long", file);
+  PetscCall(PetscCalloc1(*length + 1, text));
+  PetscCheck(fread(*text, 1, (size_t)*length, stream) == (size_t)*length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read", file);
+  (void)fclose(stream);
+  PetscFunctionReturn(0);
+}
+
+/* The text of the file on all ranks, to be freed */
+static PetscErrorCode SceneGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
+{
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = SceneReadText(file, length, text);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
+  if (rank) PetscCall(PetscCalloc1(*length + 1, text));
+  PetscCallMPI(MPI_Bcast(*text, (PetscMPIInt)*length, MPI_CHAR, 0, comm));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys)
 {
   SceneKeys      k;
-  PetscMPIInt    rank;
-  PetscBool      exists = PETSC_FALSE;
+  PetscInt64     length;
+  char          *text;
+  RankError      error;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) PetscCall(PetscTestFile(file, 'r', &exists));
-  PetscCallMPI(MPI_Bcast(&exists, 1, MPIU_BOOL, 0, comm));
-  PetscCheck(exists, comm, PETSC_ERR_FILE_OPEN, "there is no readable scene file \"%s\"", file);
-  if (rank == 0) PetscCall(SceneCheckYAML(file, sizeof(yaml_complaint), yaml_complaint));
-  PetscCallMPI(MPI_Bcast(yaml_complaint, sizeof(yaml_complaint), MPI_CHAR, 0, comm));
-  PetscCheck(!yaml_complaint[0], comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, yaml_complaint);
+  PetscCall(SceneGetText(comm, file, &length, &text));
   PetscCall(PetscNew(&k));
   k->comm = comm;
   k->file = file;
   PetscCall(PetscOptionsCreate(&k->options));
-  yaml_complaint[0] = 0;
-  PetscCall(PetscPushErrorHandler(KeepComplaint, NULL));
-  ierr = PetscOptionsInsertFileYAML(comm, k->options, file, PETSC_TRUE);
-  PetscCall(PetscPopErrorHandler());
-  PetscCheck(!ierr, comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, yaml_complaint);
+  PetscCall(RankErrorBegin(&error));
+  ierr = SceneCheckYAML((size_t)length, text);
+  if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
+  PetscCall(PetscFree(text));
   *keys = k;
   PetscFunctionReturn(0);
 }

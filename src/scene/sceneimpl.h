@@ -5,11 +5,12 @@
 #define SCENEIMPL_H
 
 #include <scene.h>
+#include <rankerror.h>
 
 /* formulation.c: the names that formulation.h declares */
 
-/* yaml.c. Not collective: what is wrong with a YAML file, in a sentence of so many characters, or "" */
-PETSC_INTERN PetscErrorCode SceneCheckYAML(const char file[], size_t length, char sentence[]);
+/* yaml.c. Not collective: an error if the text is no YAML that PETSc can read */
+PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[]);
 
 /*
    keys.c: the keys and values of a scene file. Every reader asks by full key (nested keys joined with _), so that what is left

@@ -1,9 +1,8 @@
 /*
-   Is a scene file YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias where it stands, so that an anchor which holds its own
+   Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias where it stands, so that an anchor which holds its own
    alias never ends, and anchors of aliases of anchors outgrow any memory. Anchored values of a scene therefore hold no aliases.
 */
 #include "sceneimpl.h"
-#include <stdio.h>
 #include <yaml.h>
 
 /* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored values */
@@ -31,29 +30,26 @@ static PetscBool IsNested(const yaml_event_t *event, PetscInt *anchored)
   return PETSC_FALSE;
 }
 
-/* Not collective. sentence: why the file is not YAML, or holds an alias where it may not; or "" */
-PetscErrorCode SceneCheckYAML(const char file[], size_t length, char sentence[])
+PetscErrorCode SceneCheckYAML(size_t length, const char text[])
 {
-  FILE         *stream;
   yaml_parser_t parser;
   yaml_event_t  event;
-  PetscInt      anchored = 0;
-  PetscBool     end      = PETSC_FALSE;
+  PetscInt      anchored      = 0;
+  PetscBool     end           = PETSC_FALSE;
+  char          sentence[256] = "";
 
   PetscFunctionBegin;
-  sentence[0] = 0;
-  PetscCall(PetscFOpen(PETSC_COMM_SELF, file, "r", &stream));
-  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory to parse %s", file);
-  yaml_parser_set_input_file(&parser, stream);
+  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to parse it");
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
   while (!end && !sentence[0]) {
     if (yaml_parser_parse(&parser, &event)) {
       end = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
-      if (IsNested(&event, &anchored)) PetscCall(PetscSNPrintf(sentence, length, "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1));
+      if (IsNested(&event, &anchored)) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1));
       yaml_event_delete(&event);
-    } else if (parser.error == YAML_READER_ERROR) PetscCall(PetscSNPrintf(sentence, length, "byte %zu: %s", parser.problem_offset + 1, parser.problem));
-    else PetscCall(PetscSNPrintf(sentence, length, "line %zu: %s", parser.problem_mark.line + 1, parser.problem ? parser.problem : "it cannot be read"));
+    } else if (parser.error == YAML_READER_ERROR) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "byte %zu: %s", parser.problem_offset + 1, parser.problem));
+    else PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: %s", parser.problem_mark.line + 1, parser.problem ? parser.problem : "it cannot be read"));
   }
   yaml_parser_delete(&parser);
-  PetscCall(PetscFClose(PETSC_COMM_SELF, stream));
+  PetscCheck(!sentence[0], PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s", sentence);
   PetscFunctionReturn(0);
 }

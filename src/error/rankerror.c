@@ -1,0 +1,84 @@
+/* Errors of one rank, told to all */
+#include <rankerror.h>
+#include <string.h>
+
+/* The call deepest inside, which raises the error, knows best what is wrong. For want of memory PETSc 3.18 gives the line of the
+   code and the function as number and message */
+static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+{
+  RankError  *error = (RankError *)ctx;
+  const char *text  = message;
+
+  (void)comm, (void)line, (void)file;
+  if (type != PETSC_ERROR_INITIAL) return n;
+  error->code = function && !strncmp(function, "PetscMalloc", 11) ? PETSC_ERR_MEM : n;
+  if (error->code == PETSC_ERR_MEM || !text || !text[0]) (void)PetscErrorMessage(error->code, &text, NULL);
+  (void)PetscStrncpy(error->message, text ? text : "unknown error", sizeof(error->message));
+  return n;
+}
+
+/*@
+   RankErrorBegin - Begins work that is not collective, and whose failure on one rank all ranks are to know
+
+   Not Collective
+
+   Output Parameter:
+.  error - keeps PETSc's errors until `RankErrorEnd()`; nothing is printed
+
+   Level: developer
+
+   Notes:
+   The ranks that have no such work call `RankErrorEnd()` at once, with code 0.
+
+.vb
+     PetscCall(RankErrorBegin(&error));
+     if (rank == 0) ierr = ReadFile(file);
+     PetscCall(RankErrorEnd(comm, ierr, &error));
+     PetscCheck(!error.code, comm, error.code, "%s", error.message);
+.ve
+
+.seealso: `RankErrorEnd()`
+@*/
+PetscErrorCode RankErrorBegin(RankError *error)
+{
+  PetscFunctionBegin;
+  error->code       = 0;
+  error->message[0] = 0;
+  PetscCall(PetscPushErrorHandler(RankErrorKeep, error));
+  PetscFunctionReturn(0);
+}
+
+/*@
+   RankErrorEnd - Ends work that is not collective, and tells every rank whether it failed on any
+
+   Collective
+
+   Input Parameters:
++  comm  - communicator
+-  code  - what the work returned on this rank; 0 for success, or where there was none
+
+   Output Parameter:
+.  error - code and message of the first rank that failed, the same on all ranks; code 0 if none did
+
+   Level: developer
+
+.seealso: `RankErrorBegin()`
+@*/
+PetscErrorCode RankErrorEnd(MPI_Comm comm, PetscErrorCode code, RankError *error)
+{
+  PetscMPIInt rank, size, first;
+  int         shared = code ? (int)(error->code ? error->code : code) : 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscPopErrorHandler());
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  first = code ? rank : size;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm));
+  if (first < size) {
+    PetscCallMPI(MPI_Bcast(&shared, 1, MPI_INT, first, comm));
+    PetscCallMPI(MPI_Bcast(error->message, (PetscMPIInt)sizeof(error->message), MPI_CHAR, first, comm));
+  }
+  error->code = (PetscErrorCode)shared;
+  PetscFunctionReturn(0);
+}
