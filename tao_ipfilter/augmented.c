@@ -70,12 +70,54 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
+/* Whether two matrices of one layout have the same nonzeros, on all ranks */
+static PetscErrorCode AugmentedSamePattern(Mat A, Mat B, PetscBool *same)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  *same = PETSC_TRUE;
+  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend && *same; i++) {
+    PetscInt        na, nb;
+    const PetscInt *a, *b;
+
+    PetscCall(MatGetRow(A, i, &na, &a, NULL));
+    PetscCall(MatGetRow(B, i, &nb, &b, NULL));
+    *same = (PetscBool)(na == nb);
+    if (*same) PetscCall(PetscArraycmp(a, b, na, same));
+    PetscCall(MatRestoreRow(B, i, &nb, &b, NULL));
+    PetscCall(MatRestoreRow(A, i, &na, &a, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)A)));
+  PetscFunctionReturn(0);
+}
+
+/* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else the matrix itself */
+static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
+{
+  PetscBool same = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (aug->K) PetscCall(AugmentedSamePattern(aug->K, *K, &same));
+  if (same) {
+    PetscCall(MatCopy(*K, aug->K, SAME_NONZERO_PATTERN));
+    PetscCall(MatDestroy(K));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(KSPReset(aug->ksp)); /* else the factor would be made anew without its settings */
+  PetscCall(MatDestroy(&aug->K));
+  PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
+  aug->K = *K;
+  PetscFunctionReturn(0);
+}
+
 /* K with A in its first block */
 static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug = &ip->aug;
-  Mat           blocks[4], nest;
+  Mat           blocks[4], nest, K;
   Vec           diagonal;
 
   PetscFunctionBegin;
@@ -88,12 +130,11 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   blocks[2] = ip->jac.equality;
   blocks[3] = aug->shift;
   PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
-  PetscCall(MatDestroy(&aug->K));
-  PetscCall(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, &aug->K));
-  PetscCall(MatSetOption(aug->K, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, &K));
   PetscCall(MatDestroy(&nest));
   PetscCall(MatDestroy(&blocks[0]));
   PetscCall(MatDestroy(&blocks[1]));
+  PetscCall(AugmentedTake(aug, &K));
   if (!aug->rhs) {
     PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
     PetscCall(VecDuplicate(aug->rhs, &aug->residual));
@@ -102,23 +143,40 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* One factorization, with the given percentage of work space beyond MUMPS's estimate; 0: its own choice */
-static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PetscInt relaxation, PCFailedReason *failed)
+/* One factorization; the percentage of work space beyond MUMPS's estimate is what the last ones have come to, 0: its own choice */
+static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
   PC  pc;
   Mat F;
 
   PetscFunctionBegin;
-  PetscCall(KSPReset(aug->ksp));
+  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored anew, be it with more work space alone */
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatFactorClearError(F));
   PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
-  if (relaxation) PetscCall(AMGFMumpsSetIcntl(F, 14, relaxation));
+  if (aug->relaxation) PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
   PetscCall(KSPSetUp(aug->ksp));
   PetscCall(PCGetFailedReason(pc, failed));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors, with more work space each time that MUMPS finds it too small */
+static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
+{
+  const PetscInt limit = 320; /* per cent of work space beyond the estimate */
+
+  PetscFunctionBegin;
+  PetscCall(AugmentedFactorOnce(aug, failed));
+  while (*failed == PC_FACTOR_OUTMEMORY && aug->relaxation < limit) {
+    aug->relaxation = aug->relaxation ? 2 * aug->relaxation : 40;
+    PetscCall(AugmentedFactorOnce(aug, failed));
+  }
+  /* a factorization that failed is not to be reused */
+  if (*failed != PC_NOERROR) PetscCall(KSPReset(aug->ksp));
   PetscFunctionReturn(0);
 }
 
@@ -126,11 +184,10 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PetscInt relaxatio
    memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
-  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  IPAugmented   *aug   = &ip->aug;
-  const PetscInt limit = 320; /* per cent of work space beyond the estimate */
+  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented   *aug = &ip->aug;
   PC             pc;
-  PCFailedReason failed = PC_FACTOR_OUTMEMORY;
+  PCFailedReason failed;
   Mat            F;
   PetscInt       negative, zero, positive, n;
   PetscReal      norm;
@@ -142,7 +199,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }
-  for (PetscInt relaxation = 0; failed == PC_FACTOR_OUTMEMORY && relaxation <= limit; relaxation = relaxation ? 2 * relaxation : 40) PetscCall(AugmentedFactorWithin(aug, relaxation, &failed));
+  PetscCall(AugmentedFactorWithin(aug, &failed));
   *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
   if (failed != PC_NOERROR) {

@@ -238,9 +238,10 @@ typedef struct {
 typedef struct {
   KSP       ksp;
   Mat       K;
-  Mat       shift;    /* -delta I */
-  PetscReal delta;    /* of restoration steps, or regularization of dependent constraints: */
-  PetscBool centered; /* about the present multipliers, instead of zero */
+  Mat       shift;      /* -delta I */
+  PetscReal delta;      /* of restoration steps, or regularization of dependent constraints: */
+  PetscBool centered;   /* about the present multipliers, instead of zero */
+  PetscInt  relaxation; /* per cent of work space that MUMPS has needed beyond its estimate; 0: its own choice */
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
 
