@@ -5,10 +5,8 @@ static char help[] = "Small problems whose solutions are known: Hock and Schittk
   -print_counts     the rows of tests/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts them in place\n\n";
 
 #include "ipfilter_problem.h"
-#include "ipfilter_expression.h"
-#include "ipfilter_nlp.h"
+#include "ipfilter_formulas.h"
 
-#define MAXM   16 /* constraints of one kind */
 #define NMODES 5
 
 static const struct {
@@ -45,18 +43,6 @@ static PetscInt Limit(PetscInt count)
   return count + count / 4 + 3;
 }
 
-/* Constraints of one kind; every rank evaluates with the whole x and sets the rows it owns */
-typedef struct {
-  PetscInt    n, m; /* unknowns, constraints */
-  const char *formula[MAXM];
-} Constraints;
-
-typedef struct {
-  const NLP  *p;
-  PetscInt    n;
-  Constraints ci, ce;
-} Context;
-
 /* What came of it */
 typedef struct {
   PetscBool          good; /* as the problem says it ends */
@@ -65,199 +51,6 @@ typedef struct {
   PetscReal          f, error, violation;
   Counts             counts;
 } Outcome;
-
-/* The formulas of a list separated by semicolons */
-static void Split(const char *list, PetscInt n, Constraints *c)
-{
-  c->n = n;
-  c->m = 0;
-  while (*list) {
-    c->formula[c->m++] = list;
-    list += strcspn(list, ";");
-    if (*list) list++;
-  }
-}
-
-/* Vector of the numbers in text, or bound k (0: lower, 1: upper) of each "lower:upper" in it */
-static PetscErrorCode VecFromText(MPI_Comm comm, PetscInt n, const char *text, PetscInt k, Vec *v)
-{
-  PetscInt lo, hi;
-
-  PetscFunctionBeginUser;
-  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, n, v));
-  PetscCall(VecGetOwnershipRange(*v, &lo, &hi));
-  for (PetscInt i = 0; i < n; i++) {
-    const char *entry, *end;
-    char       *stop;
-    PetscReal   value;
-
-    while (isspace((unsigned char)*text)) text++;
-    entry = text;
-    text = end = entry + strcspn(entry, " ");
-    if (k >= 0) {
-      const char *colon = *entry ? strchr(entry, ':') : entry;
-
-      if (k) entry = *entry ? colon + 1 : entry;
-      else end = colon;
-    }
-    value = strtod(entry, &stop);
-    if (entry == end || stop == entry) value = k == 1 ? PETSC_INFINITY : PETSC_NINFINITY;
-    if (i >= lo && i < hi) PetscCall(VecSetValue(*v, i, value, INSERT_VALUES));
-  }
-  PetscCall(VecAssemblyBegin(*v));
-  PetscCall(VecAssemblyEnd(*v));
-  PetscFunctionReturn(0);
-}
-
-/* All entries of a short vector on every rank */
-static PetscErrorCode Gather(Vec v, PetscReal a[])
-{
-  VecScatter         all;
-  Vec                whole;
-  PetscInt           n;
-  const PetscScalar *w;
-
-  PetscFunctionBeginUser;
-  PetscCall(VecScatterCreateToAll(v, &all, &whole));
-  PetscCall(VecScatterBegin(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(all, v, whole, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetSize(whole, &n));
-  PetscCall(VecGetArrayRead(whole, &w));
-  for (PetscInt i = 0; i < n; i++) a[i] = PetscRealPart(w[i]);
-  PetscCall(VecRestoreArrayRead(whole, &w));
-  PetscCall(VecScatterDestroy(&all));
-  PetscCall(VecDestroy(&whole));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
-{
-  Context  *ctx = (Context *)user;
-  PetscReal a[EXPRESSION_MAX];
-  PetscInt  lo, hi;
-  Jet       jet;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(Gather(x, a));
-  jet = ExpressionEvaluate(ctx->p->objective, a, NULL);
-  *f  = jet.v;
-  PetscCall(VecGetOwnershipRange(x, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(VecSetValue(g, i, jet.g[i], INSERT_VALUES));
-  PetscCall(VecAssemblyBegin(g));
-  PetscCall(VecAssemblyEnd(g));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode EvaluateConstraints(Tao tao, Vec x, Vec c, void *user)
-{
-  const Constraints *constraints = (const Constraints *)user;
-  PetscReal          a[EXPRESSION_MAX];
-  PetscInt           lo, hi;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  PetscCall(Gather(x, a));
-  PetscCall(VecGetOwnershipRange(c, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(VecSetValue(c, i, ExpressionEvaluate(constraints->formula[i], a, NULL).v, INSERT_VALUES));
-  PetscCall(VecAssemblyBegin(c));
-  PetscCall(VecAssemblyEnd(c));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode EvaluateJacobian(Tao tao, Vec x, Mat J, Mat Jpre, void *user)
-{
-  const Constraints *constraints = (const Constraints *)user;
-  PetscReal          a[EXPRESSION_MAX];
-  PetscInt           lo, hi;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)Jpre;
-  PetscCall(Gather(x, a));
-  PetscCall(MatGetOwnershipRange(J, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++) {
-    Jet jet = ExpressionEvaluate(constraints->formula[i], a, NULL);
-
-    for (PetscInt j = 0; j < constraints->n; j++) PetscCall(MatSetValue(J, i, j, jet.g[j], INSERT_VALUES));
-  }
-  PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-/* Adds the Hessians of the constraints times their multipliers */
-static PetscErrorCode AddConstraints(const Constraints *c, const PetscReal x[], PetscReal sign, Vec multipliers, Jet *sum)
-{
-  PetscReal y[MAXM];
-
-  PetscFunctionBeginUser;
-  if (!c->m) PetscFunctionReturn(0);
-  PetscCall(Gather(multipliers, y));
-  for (PetscInt i = 0; i < c->m; i++) {
-    Jet jet = ExpressionEvaluate(c->formula[i], x, NULL);
-
-    *sum = JetAdd(sum, sign * y[i], &jet);
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Hessian of f + DE^T c_E - DI^T c_I */
-static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
-{
-  Context  *ctx = (Context *)user;
-  Vec       DE, DI;
-  PetscReal a[EXPRESSION_MAX];
-  PetscInt  lo, hi;
-  Jet       sum;
-
-  PetscFunctionBeginUser;
-  (void)Hpre;
-  PetscCall(TaoGetDualVariables(tao, &DE, &DI));
-  PetscCall(Gather(x, a));
-  sum = ExpressionEvaluate(ctx->p->objective, a, NULL);
-  PetscCall(AddConstraints(&ctx->ce, a, 1.0, DE, &sum));
-  PetscCall(AddConstraints(&ctx->ci, a, -1.0, DI, &sum));
-  PetscCall(MatGetOwnershipRange(H, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++)
-    for (PetscInt j = 0; j < ctx->n; j++) PetscCall(MatSetValue(H, i, j, sum.h[i][j], INSERT_VALUES));
-  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-/* Full pattern, rows laid out as r, columns as c: AIJ, or dense where an option says so */
-static PetscErrorCode CreateFull(Vec r, Vec c, const char option[], Mat *A)
-{
-  PetscInt  m, n, M, N;
-  PetscBool dense = PETSC_FALSE;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, option, &dense, NULL));
-  PetscCall(VecGetLocalSize(r, &m));
-  PetscCall(VecGetLocalSize(c, &n));
-  PetscCall(VecGetSize(r, &M));
-  PetscCall(VecGetSize(c, &N));
-  if (dense) PetscCall(MatCreateDense(PetscObjectComm((PetscObject)r), m, n, M, N, NULL, A));
-  else PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)r), m, n, M, N, n, NULL, N - n, NULL, A));
-  PetscFunctionReturn(0);
-}
-
-/* Largest violation of constraints and bounds, evaluated here */
-static PetscErrorCode Violation(Context *ctx, Vec x, Vec xl, Vec xu, PetscReal *violation)
-{
-  PetscReal a[EXPRESSION_MAX], l[EXPRESSION_MAX], u[EXPRESSION_MAX];
-
-  PetscFunctionBeginUser;
-  *violation = 0.0;
-  PetscCall(Gather(xl, l));
-  PetscCall(Gather(xu, u));
-  PetscCall(Gather(x, a));
-  for (PetscInt i = 0; i < ctx->n; i++) *violation = PetscMax(*violation, PetscMax(l[i] - a[i], a[i] - u[i]));
-  for (PetscInt i = 0; i < ctx->ce.m; i++) *violation = PetscMax(*violation, PetscAbsReal(ExpressionEvaluate(ctx->ce.formula[i], a, NULL).v));
-  for (PetscInt i = 0; i < ctx->ci.m; i++) *violation = PetscMax(*violation, -ExpressionEvaluate(ctx->ci.formula[i], a, NULL).v);
-  PetscFunctionReturn(0);
-}
 
 /* Distance of f from an optimum, relative but for the smallest */
 static PetscReal RelativeError(PetscReal f, PetscReal optimum)
@@ -286,7 +79,7 @@ static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentenc
 }
 
 /* The known optimum at a feasible point; or it is said that there is none */
-static PetscErrorCode Judge(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, Outcome *o)
+static PetscErrorCode Judge(Tao tao, Formulas *ctx, Vec x, Vec xl, Vec xu, Outcome *o)
 {
   const NLP *p = ctx->p;
 
@@ -294,7 +87,7 @@ static PetscErrorCode Judge(Tao tao, Context *ctx, Vec x, Vec xl, Vec xu, Outcom
   PetscCall(TaoGetSolutionStatus(tao, &o->counts.steps, &o->f, NULL, NULL, NULL, &o->reason));
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &o->counts.evaluations));
   PetscCall(TaoIPFilterGetReason(tao, &o->sentence));
-  PetscCall(Violation(ctx, x, xl, xu, &o->violation));
+  PetscCall(FormulasViolation(ctx, x, xl, xu, PETSC_FALSE, &o->violation));
   o->error = ObjectiveError(p, o->f);
   if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
   else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
@@ -342,49 +135,28 @@ static PetscErrorCode ReportRow(const NLP *p, const Outcome *o)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetProblem(Tao tao, Context *ctx, Vec ci, Vec ce, Mat H, Mat Ji, Mat Je)
-{
-  PetscBool second = PETSC_TRUE;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-hessian", &second, NULL));
-  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, ctx));
-  if (second) PetscCall(TaoSetHessian(tao, H, H, Hessian, ctx));
-  if (ctx->ci.m) {
-    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, EvaluateConstraints, &ctx->ci));
-    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, EvaluateJacobian, &ctx->ci));
-  }
-  if (ctx->ce.m) {
-    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, EvaluateConstraints, &ctx->ce));
-    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, EvaluateJacobian, &ctx->ce));
-  }
-  PetscFunctionReturn(0);
-}
-
 /* tao: the solver after it, which has the sentence */
 static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *tao)
 {
-  Context ctx = {.p = p};
-  Vec     x, xl, xu, ci, ce;
-  Mat     H, Ji, Je;
+  Formulas ctx = {.p = p};
+  Vec      x, xl, xu, ci, ce;
+  Mat      H, Ji, Je;
 
   PetscFunctionBeginUser;
-  for (const char *s = p->start; *s; s++) ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
-  Split(p->inequalities, ctx.n, &ctx.ci);
-  Split(p->equalities, ctx.n, &ctx.ce);
-  PetscCall(VecFromText(comm, ctx.n, p->start, -1, &x));
-  PetscCall(VecFromText(comm, ctx.n, p->bounds, 0, &xl));
-  PetscCall(VecFromText(comm, ctx.n, p->bounds, 1, &xu));
+  FormulasRead(p, &ctx);
+  PetscCall(FormulasVector(comm, ctx.n, p->start, -1, &x));
+  PetscCall(FormulasVector(comm, ctx.n, p->bounds, 0, &xl));
+  PetscCall(FormulasVector(comm, ctx.n, p->bounds, 1, &xu));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ci.m, &ci));
   PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ce.m, &ce));
-  PetscCall(CreateFull(x, x, "-dense_hessian", &H));
-  PetscCall(CreateFull(ci, x, "-dense_jacobians", &Ji));
-  PetscCall(CreateFull(ce, x, "-dense_jacobians", &Je));
+  PetscCall(FormulasMatrix(x, x, "-dense_hessian", &H));
+  PetscCall(FormulasMatrix(ci, x, "-dense_jacobians", &Ji));
+  PetscCall(FormulasMatrix(ce, x, "-dense_jacobians", &Je));
   PetscCall(TaoCreate(comm, tao));
   PetscCall(TaoSetType(*tao, TAOIPFILTER));
   PetscCall(TaoSetSolution(*tao, x));
   PetscCall(TaoSetVariableBounds(*tao, xl, xu));
-  PetscCall(SetProblem(*tao, &ctx, ci, ce, H, Ji, Je));
+  PetscCall(FormulasSetProblem(*tao, &ctx, ci, ce, H, Ji, Je));
   PetscCall(TaoSetFromOptions(*tao));
   PetscCall(TaoSolve(*tao));
   PetscCall(Judge(*tao, &ctx, x, xl, xu, outcome));

@@ -1,65 +1,214 @@
-"""IPOPT beside TAOIPFILTER on the problems of tests/ipfilter_nlp.h: writes the table tests/stress/nlp.md.
+"""TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and nlp_profile.png.
 
-Usage: nlp.py IPFILTER_NLP NLP_IPOPT, the two programs (make nlp builds and runs them).
+The problems are those of tests/ipfilter_nlp.h and of nlp_problems.py; `make nlp` builds the programs and runs this.
 """
+import argparse
 import os
-import re
+import select
 import subprocess
-import sys
+import time
 
-ROW = re.compile(r"(.{12}) (good|BAD ) (\S+)\s+f\s+(\S+) error\s+\S+ violation\s+(\S+) steps\s+(\d+) evaluations\s+(\d+)  (.*)")
+from nlp_problems import DEGENERATE, INFEASIBLE, PROBLEMS, SOLVED, UNBOUNDED, Problem
+
 HERE = os.path.dirname(os.path.abspath(__file__))
-FAR = 1e-6
-SEVERAL = 3
+FAR = 1e-4  # relative error of the objective, and violation relative to the rows of the Jacobian: more is wrong
+FAR_DEGENERATE = 1e-2  # of the objective where no multipliers exist: it moves by the square root of what constraints are relaxed by
+LOOSE = 1e-6  # more is remarked
 
 
-def ours(program):
-    for line in subprocess.run([program, "-table"], capture_output=True, text=True, check=True).stdout.splitlines():
-        row = ROW.match(line)
-        if row:
-            status = row[8].split(":")[0] if row[3].startswith("CONVERGED") else row[8].split(":")[0].split(" reached")[0]
-            yield row[1].strip(), (status, float(row[4]), float(row[5]), int(row[6]), int(row[7]))
+class Solver:
+    """applies(problem): whether it can be asked"""
+
+    def __init__(self, name, command, applies=lambda problem: True):
+        self.name, self.command, self.applies = name, command, applies
 
 
-def ipopt(program):
-    for line in subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines():
-        name, status, f, violation, steps, evaluations = line.split("|")
-        yield name, (status, float(f), float(violation), int(steps), int(evaluations))
+class Result:
+    def __init__(self, status, objective=float("nan"), violation=float("nan"), iterations=0, points=0, seconds=0.0, sentence=""):
+        self.status, self.sentence = status, sentence
+        self.objective, self.violation, self.iterations, self.points, self.seconds = float(objective), float(violation), int(iterations), int(points), float(seconds)
+        self.verdict = self.error = None
 
 
-def remark(a, b):
-    """a: ours, b: IPOPT's"""
-    found = a[0] in ("converged", "acceptable")
-    if b[0] not in ("solved", "acceptable"):
-        return "IPOPT fails" if found else ""
-    if not found:
-        return "ours fails"
-    far = abs(a[1] - b[1]) > FAR * max(1.0, abs(a[1]), abs(b[1]))
-    remarks = ["" if not far else ("IPOPT's is lower" if b[1] < a[1] else "ours is lower")]
-    if a[4] > SEVERAL * b[4]:
-        remarks.append("many evaluations")
-    return ", ".join(r for r in remarks if r)
+def solvers(folder):
+    tao, ipopt = os.path.join(folder, "tao"), os.path.join(folder, "ipopt")
+
+    def solver_of_tao(name, options, applies=lambda problem: True):
+        return Solver(name, lambda path, first: [tao, "-problems", path, "-first", str(first), *options], applies)
+
+    def bounds_only(problem):
+        return not problem.inequalities and not problem.equalities
+
+    return [solver_of_tao("ipfilter", []), solver_of_tao("ipfilter, scaling none", ["-tao_ipfilter_scaling", "none"]), Solver("IPOPT", lambda path, first: [ipopt, path, str(first)]),
+            solver_of_tao("tron", ["-tao_type", "tron"], bounds_only), solver_of_tao("bnls", ["-tao_type", "bnls"], bounds_only),
+            solver_of_tao("almm", ["-tao_type", "almm"], lambda problem: not bounds_only(problem))]
 
 
-NOTES = """
-- HS16: exception. Both ends are local minima; IPOPT's larger first mu leads it out of the valley that both start in.
-- HS13 has no multipliers. IPOPT relaxes constraints by 1e-8, which moves this minimum by 5e-3; ours ends within 3e-5 of it, "acceptable".
-- MPCC has no interior: ours relaxes such constraints once it has seen that; twice IPOPT's evaluations.
-- large: the same relaxation by 1e-8 in a row of size 1e-8 is IPOPT's lower objective; ours is the optimum.
+def shipped(folder):
+    """The problems of tests/ipfilter_nlp.h"""
+    lines = subprocess.run([os.path.join(folder, "tao")], capture_output=True, text=True, check=True).stdout.split("\n")
+    for name, optimum, end, others, objective, inequalities, equalities, bounds, start in zip(*[iter(lines)] * 9):
+        yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds, others=map(float, others.split()), end=int(end))
+
+
+def write(path, problems):
+    with open(path, "w") as file:
+        for p in problems:
+            file.write("\n".join([p.name, p.objective, p.inequalities, p.equalities, p.bounds, p.start]) + "\n")
+
+
+def lines_until(process, limit):
+    """The lines that a process prints, until it takes longer than the limit for one"""
+    pending, stop = b"", time.monotonic() + limit
+    while select.select([process.stdout], [], [], max(0.0, stop - time.monotonic()))[0]:
+        text = os.read(process.stdout.fileno(), 65536)
+        if not text:
+            return
+        *lines, pending = (pending + text).split(b"\n")
+        for line in lines:
+            stop = time.monotonic() + limit
+            yield line.decode()
+    process.kill()
+
+
+def run(solver, problems, folder, limit):
+    """One result a problem; where the program ends or hangs, a new one begins with the next problem"""
+    path, results = os.path.join(folder, "problems.txt"), []
+    write(path, problems)
+    while len(results) < len(problems):
+        with open(os.path.join(folder, "said"), "w+") as said, subprocess.Popen(solver.command(path, len(results)), stdout=subprocess.PIPE, stderr=said) as process:
+            for line in lines_until(process, limit):
+                name, *fields = line.split("|")
+                if len(fields) == 7 and name == problems[len(results)].name:
+                    results.append(Result(*fields))
+            process.wait()
+            if len(results) < len(problems):
+                said.seek(0)
+                errors = [line.split("ERROR: ")[-1].strip() for line in said if "ERROR: " in line]
+                results.append(Result("hung" if process.returncode == -9 else "crashed", sentence=f"no end after {limit} s" if process.returncode == -9 else " ".join(errors[:2])))
+    return dict(zip((p.name for p in problems), results))
+
+
+def relative_error(objective, optimum):
+    """Absolute for an optimum of zero; what is below 1e-3 has its own size"""
+    return abs(objective - optimum) / max(abs(optimum), min(1.0, 1e3 * abs(optimum)) or 1.0)
+
+
+def judge(problem, result):
+    """right; wrong: it claims to have converged, or what is not so; failed: it says so"""
+    result.error = min(relative_error(result.objective, value) for value in (problem.optimum, *problem.others)) if problem.end in (SOLVED, DEGENERATE) else 0.0
+    claims = result.status in ("converged", "acceptable")
+    if problem.end in (INFEASIBLE, UNBOUNDED):
+        said = "infeasible" if problem.end == INFEASIBLE else "unbounded"
+        return "right" if result.status == said else "wrong" if claims or result.status in ("infeasible", "unbounded") else "failed"
+    if result.status in ("infeasible", "unbounded"):
+        return "failed"
+    if not claims:
+        return "failed"
+    return "right" if result.error < (FAR_DEGENERATE if problem.end == DEGENERATE else FAR) and result.violation < FAR else "wrong"
+
+
+def cell(result):
+    if result is None:
+        return "| | | | | | "
+    status = f"**{result.verdict}**" if result.verdict != "right" else result.status
+    return f"| {status} | {result.objective:.8e} | {result.violation:.0e} | {result.iterations} | {result.points} "
+
+
+def table(problems, results, names):
+    """A row a problem: what each solver came to"""
+    yield "| problem | optimum " + "".join(f"| {name} | f | violation | its | points " for name in names) + "|"
+    yield "|" + " --- |" * (2 + 5 * len(names))
+    for p in problems:
+        optimum = {INFEASIBLE: "infeasible", UNBOUNDED: "unbounded"}.get(p.end, f"{p.optimum:.8e}")
+        yield f"| {p.name} | {optimum} " + "".join(cell(results[name].get(p.name)) for name in names) + "|"
+
+
+def counts(results):
+    """A row a solver"""
+    yield "| solver | problems | right | wrong | failed | right to 1e-6 | iterations | points | seconds |"
+    yield "|" + " --- |" * 9
+    for name, found in results.items():
+        good = [r for r in found.values() if r.verdict == "right"]
+        yield (f"| {name} | {len(found)} | {len(good)} | {sum(r.verdict == 'wrong' for r in found.values())} | {sum(r.verdict == 'failed' for r in found.values())} "
+               f"| {sum(r.error < LOOSE and not r.violation > LOOSE for r in good)} | {sum(r.iterations for r in good)} | {sum(r.points for r in good)} | {sum(r.seconds for r in good):.1f} |")
+
+
+def common(problems, results, names):
+    """Sums over the problems that all of these solvers have right"""
+    both = [p.name for p in problems if all(p.name in results[name] and results[name][p.name].verdict == "right" for name in names)]
+    yield f"On the {len(both)} problems that {' and '.join(names)} have right: " + "; ".join(
+        f"{name} {sum(results[name][p].iterations for p in both)} iterations, {sum(results[name][p].points for p in both)} points" for name in names) + "."
+
+
+def differences(problems, results, left, right):
+    """Problems that left has not right and right has"""
+    for p in problems:
+        a, b = results[left][p.name], results[right][p.name]
+        if a.verdict != "right" and b.verdict == "right":
+            sentence = a.sentence.replace("|", "/")
+            yield f"| {p.name} | {a.verdict} | {a.objective:.6e} | {p.optimum:.6e} | {a.violation:.0e} | {a.iterations} | {sentence} |"
+
+
+def profile(problems, results, path):
+    """Performance profiles (Dolan and More 2002): the share of problems solved within a multiple of what the best solver took"""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    names = list(results)[:3]
+    figure, axes = pyplot.subplots(1, 3, figsize=(13, 4), sharey=True)
+    for axis, measure in zip(axes, ("iterations", "points", "seconds")):
+        took = {name: {p: max(getattr(r, measure), 1e-5) for p, r in results[name].items() if r.verdict == "right"} for name in names}
+        best = {p.name: min((took[name][p.name] for name in names if p.name in took[name]), default=None) for p in problems}
+        for name in names:
+            ratios = sorted(value / best[p] for p, value in took[name].items())
+            axis.step([1.0, *ratios, 100.0], [0.0, *((k + 1) / len(problems) for k in range(len(ratios))), len(ratios) / len(problems)], where="post", label=name)
+        axis.set(xscale="log", xlim=(1, 100), ylim=(0, 1), xlabel=f"{measure}, multiple of the least")
+        axis.grid(alpha=0.3)
+    axes[0].set_ylabel(f"share of {len(problems)} problems solved")
+    axes[0].legend(loc="lower right")
+    figure.tight_layout()
+    figure.savefig(path, dpi=80)
+
+
+HEADER = """# Nonlinear programs: TAOIPFILTER beside IPOPT and other solvers of TAO
+
+`make stress STRESS=nlp` writes this (tests/stress/nlp.py). Same formulas, derivatives and starts, default options; the time limit is %d s a problem.
+right: said to have converged (or to be acceptable), the objective within %g of an optimum or of a local minimum from the literature, relative, and
+constraints violated by less than %g, relative to the rows of the Jacobian; or said to be infeasible or unbounded where it is. wrong: said to have converged, and
+it is not so, or said to be infeasible where it is unbounded. failed: the solver says that it has. Points: at which the objective or its gradient was asked for. Sums are
+over the problems that a solver has right.
 """
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--folder", required=True, help="of the programs, and for what they are given")
+    parser.add_argument("--limit", type=float, default=10.0, help="of one problem [s]")
+    parser.add_argument("--out", default=HERE, help="folder for nlp.md and nlp_profile.png")
+    return parser.parse_args()
 
 
 def main():
-    left, right = dict(ours(sys.argv[1])), dict(ipopt(sys.argv[2]))
-    lines = ["# Nonlinear programs: TAOIPFILTER and IPOPT", "",
-             "Same formulas, derivatives and starts; both with their defaults (tests/stress/nlp.py). Evaluations: of the objective plus of its gradient.", "",
-             "| problem | ours | f | violation | its | evals | IPOPT | f | violation | its | evals | |", "|" + "---|" * 12]
-    for name, a in left.items():
-        b = right[name]
-        lines.append("| %s | %s | %.8e | %.0e | %d | %d | %s | %.8e | %.0e | %d | %d | %s |" % ((name,) + a + b + (remark(a, b),)))
-    lines.append("| sum | | | | %d | %d | | | | %d | %d | |" % tuple(sum(t[name][k] for name in left) for t in (left, right) for k in (3, 4)))
-    with open(os.path.join(HERE, "nlp.md"), "w") as out:
-        out.write("\n".join(lines) + "\n" + NOTES)
+    args = parse()
+    problems, results = [*shipped(args.folder), *PROBLEMS], {}
+    for solver in solvers(args.folder):
+        results[solver.name] = run(solver, [p for p in problems if solver.applies(p)], args.folder, args.limit)
+        for p in problems:
+            if p.name in results[solver.name]:
+                results[solver.name][p.name].verdict = judge(p, results[solver.name][p.name])
+    ours, none, ipopt = list(results)[:3]
+    lines = [HEADER % (args.limit, FAR, FAR), *counts(results), "", *common(problems, results, (ours, ipopt))]
+    for left, right in ((ours, ipopt), (ipopt, ours)):
+        lines += ["", f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right)]
+    lines += ["", "## All", "", *table(problems, results, (ours, none, ipopt))]
+    with open(os.path.join(args.out, "nlp.md"), "w") as out:
+        out.write("\n".join(lines) + "\n")
+    profile(problems, results, os.path.join(args.out, "nlp_profile.png"))
+    print("\n".join(counts(results)))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,19 +1,19 @@
 /*
-   IPOPT beside TAOIPFILTER: the problems of tests/ipfilter_nlp.h, from the same formulas and starts, with IPOPT's defaults.
-   One line a problem: name, IPOPT's status, objective, violation, iterations, evaluations of f and of its gradient.
+   IPOPT beside TAOIPFILTER: the problems of a file that nlp.py wrote, from the same formulas and starts, with IPOPT's defaults.
+   Arguments: the file, the number of the first problem to solve, and if need be a tolerance. One line a problem, as nlp_tao.c.
    A program of its own, without PETSc's library: IPOPT brings another MUMPS, and another MPI, than PETSc.
 */
+#include "nlp_read.h"
 #include "../ipfilter_expression.h"
-#include "../ipfilter_nlp.h"
 #include <IpStdCInterface.h>
-
-#define MAXM 32
+#include <time.h>
 
 typedef struct {
   const NLP  *p;
   int         n, mi, m;
-  const char *c[MAXM]; /* inequalities, then equalities */
-  int         iterations, evaluations;
+  const char *c[FORMULAS_MAX];      /* inequalities, then equalities */
+  int         iterations, npoints;  /* npoints: at which the objective or its gradient was asked for */
+  double      last[EXPRESSION_MAX]; /* of them */
 } Context;
 
 /* Appends where each formula of a list separated by semicolons begins */
@@ -47,24 +47,35 @@ static void Read(const char *text, int n, double lower[], double upper[])
   }
 }
 
+static void CountPoint(Context *ctx, const double x[])
+{
+  const size_t size = (size_t)ctx->n * sizeof(*x);
+
+  if (!ctx->npoints || memcmp(x, ctx->last, size)) ctx->npoints++;
+  memcpy(ctx->last, x, size);
+}
+
 static Bool Objective(Index n, Number *x, Bool fresh, Number *f, UserDataPtr user)
 {
   Context *ctx = user;
+  Jet      jet;
 
   (void)n;
   (void)fresh;
-  ctx->evaluations++;
-  *f = ExpressionEvaluate(ctx->p->objective, x, NULL).v;
+  CountPoint(ctx, x);
+  ExpressionEvaluate(ctx->p->objective, x, NULL, &jet);
+  *f = jet.v;
   return isfinite(*f) ? TRUE : FALSE;
 }
 
 static Bool Gradient(Index n, Number *x, Bool fresh, Number *g, UserDataPtr user)
 {
   Context *ctx = user;
-  Jet      jet = ExpressionEvaluate(ctx->p->objective, x, NULL);
+  Jet      jet;
 
   (void)fresh;
-  ctx->evaluations++;
+  CountPoint(ctx, x);
+  ExpressionEvaluate(ctx->p->objective, x, NULL, &jet);
   memcpy(g, jet.g, (size_t)n * sizeof(*g));
   return TRUE;
 }
@@ -76,7 +87,10 @@ static Bool Constraints(Index n, Number *x, Bool fresh, Index m, Number *c, User
   (void)n;
   (void)fresh;
   for (int i = 0; i < m; i++) {
-    c[i] = ExpressionEvaluate(ctx->c[i], x, NULL).v;
+    Jet jet;
+
+    ExpressionEvaluate(ctx->c[i], x, NULL, &jet);
+    c[i] = jet.v;
     if (!isfinite(c[i])) return FALSE;
   }
   return TRUE;
@@ -91,7 +105,7 @@ static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, In
   for (int i = 0; i < m; i++) {
     Jet jet;
 
-    if (v) jet = ExpressionEvaluate(ctx->c[i], x, NULL);
+    if (v) ExpressionEvaluate(ctx->c[i], x, NULL, &jet);
     for (int j = 0; j < n; j++) {
       if (v) v[i * n + j] = jet.g[j];
       else {
@@ -107,19 +121,18 @@ static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, In
 static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda, Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
 {
   Context *ctx = user;
-  Jet      sum = JetConstant(0.0);
+  Jet      sum, jet;
 
   (void)fresh;
   (void)fresh_lambda;
   (void)nonzeros;
   if (v) {
-    Jet f = ExpressionEvaluate(ctx->p->objective, x, NULL);
-
-    sum = JetAdd(&sum, factor, &f);
+    JetConstant(0.0, &sum);
+    ExpressionEvaluate(ctx->p->objective, x, NULL, &jet);
+    JetAdd(&sum, factor, &jet);
     for (int i = 0; i < m; i++) {
-      Jet c = ExpressionEvaluate(ctx->c[i], x, NULL);
-
-      sum = JetAdd(&sum, lambda[i], &c);
+      ExpressionEvaluate(ctx->c[i], x, NULL, &jet);
+      JetAdd(&sum, lambda[i], &jet);
     }
   }
   for (int i = 0, k = 0; i < n; i++) {
@@ -148,6 +161,15 @@ static Bool Count(Index mode, Index iteration, Number f, Number inf_pr, Number i
   (void)trials;
   ((Context *)user)->iterations = iteration;
   return TRUE;
+}
+
+/* How it ended, in the words of nlp.py */
+static const char *Ending(enum ApplicationReturnStatus status)
+{
+  if (status == Solve_Succeeded) return "converged";
+  if (status == Solved_To_Acceptable_Level) return "acceptable";
+  if (status == Infeasible_Problem_Detected) return "infeasible";
+  return status == Diverging_Iterates ? "unbounded" : "failed";
 }
 
 static const char *Name(enum ApplicationReturnStatus status)
@@ -180,23 +202,69 @@ static const char *Name(enum ApplicationReturnStatus status)
   }
 }
 
+/* Largest violation of bounds and constraints, relative to the bounds and to the rows of the Jacobian where those are above 1 */
 static double Violation(const Context *ctx, const double x[], const double lower[], const double upper[])
 {
   double violation = 0.0;
 
-  for (int i = 0; i < ctx->n; i++) violation = fmax(violation, fmax(lower[i] - x[i], x[i] - upper[i]));
-  for (int i = 0; i < ctx->m; i++) {
-    const double c = ExpressionEvaluate(ctx->c[i], x, NULL).v;
+  for (int i = 0; i < ctx->n; i++) {
+    const double bound = lower[i] > x[i] ? lower[i] : upper[i];
 
-    violation = fmax(violation, i < ctx->mi ? -c : fabs(c));
+    violation = fmax(violation, fmax(lower[i] - x[i], x[i] - upper[i]) / fmax(1.0, fabs(bound)));
+  }
+  for (int i = 0; i < ctx->m; i++) {
+    Jet    jet;
+    double size = 1.0;
+
+    ExpressionEvaluate(ctx->c[i], x, NULL, &jet);
+    for (int j = 0; j < ctx->n; j++) size = fmax(size, fabs(jet.g[j]));
+    violation = isfinite(jet.v) ? fmax(violation, (i < ctx->mi ? -jet.v : fabs(jet.v)) / size) : INFINITY;
   }
   return violation;
 }
 
-static int Solve(const NLP *p, int limit)
+static double Seconds(void)
+{
+  struct timespec now;
+
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* f: at x */
+static void Report(Context *ctx, enum ApplicationReturnStatus status, const double x[], const double lower[], const double upper[], double seconds)
+{
+  Jet f;
+
+  ExpressionEvaluate(ctx->p->objective, x, NULL, &f);
+  printf("%s|%s|%.12e|%.1e|%d|%d|%.5f|%s\n", ctx->p->name, Ending(status), f.v, Violation(ctx, x, lower, upper), ctx->iterations, ctx->npoints, seconds, Name(status));
+  fflush(stdout);
+}
+
+static IpoptProblem CreateProblem(Context *ctx, double lower[], double upper[], double tolerance)
+{
+  double       least[FORMULAS_MAX], most[FORMULAS_MAX];
+  IpoptProblem problem;
+
+  for (int i = 0; i < ctx->m; i++) {
+    least[i] = 0.0;
+    most[i]  = i < ctx->mi ? 2e19 : 0.0;
+  }
+  problem = CreateIpoptProblem(ctx->n, lower, upper, ctx->m, least, most, ctx->m * ctx->n, ctx->n * (ctx->n + 1) / 2, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
+  AddIpoptIntOption(problem, "print_level", 0);
+  AddIpoptStrOption(problem, "sb", "yes");
+  if (tolerance > 0.0) {
+    AddIpoptNumOption(problem, "tol", tolerance);
+    AddIpoptNumOption(problem, "bound_relax_factor", 0.0);
+  }
+  SetIntermediateCallback(problem, Count);
+  return problem;
+}
+
+static void Solve(const NLP *p, double tolerance)
 {
   Context                      ctx = {.p = p};
-  double                       x[EXPRESSION_MAX], lower[EXPRESSION_MAX], upper[EXPRESSION_MAX], least[MAXM], most[MAXM], f = 0.0;
+  double                       x[EXPRESSION_MAX], lower[EXPRESSION_MAX], upper[EXPRESSION_MAX], f, begin;
   IpoptProblem                 problem;
   enum ApplicationReturnStatus status;
 
@@ -206,28 +274,26 @@ static int Solve(const NLP *p, int limit)
   for (const char *s = p->start; *s; s++) ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
   Read(p->start, ctx.n, x, NULL);
   Read(p->bounds, ctx.n, lower, upper);
-  for (int i = 0; i < ctx.m; i++) {
-    least[i] = 0.0;
-    most[i]  = i < ctx.mi ? 2e19 : 0.0;
-  }
-  problem = CreateIpoptProblem(ctx.n, lower, upper, ctx.m, least, most, ctx.m * ctx.n, ctx.n * (ctx.n + 1) / 2, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
-  if (!problem) return 1;
-  AddIpoptIntOption(problem, "print_level", 0);
-  AddIpoptStrOption(problem, "sb", "yes");
-  AddIpoptIntOption(problem, "max_iter", limit);
-  SetIntermediateCallback(problem, Count);
-  status = IpoptSolve(problem, x, NULL, &f, NULL, NULL, NULL, &ctx);
+  problem = CreateProblem(&ctx, lower, upper, tolerance);
+  begin   = Seconds();
+  status  = IpoptSolve(problem, x, NULL, &f, NULL, NULL, NULL, &ctx);
+  Report(&ctx, status, x, lower, upper, Seconds() - begin);
   FreeIpoptProblem(problem);
-  f = ExpressionEvaluate(p->objective, x, NULL).v;
-  printf("%s|%s|%.12e|%.1e|%d|%d\n", p->name, Name(status), f, Violation(&ctx, x, lower, upper), ctx.iterations, ctx.evaluations);
-  return 0;
 }
 
 int main(int argc, char **argv)
 {
-  const int limit  = argc > 1 ? atoi(argv[1]) : 500;
-  int       failed = 0;
+  FILE        *file      = argc > 1 ? fopen(argv[1], "r") : NULL;
+  const int    first     = argc > 2 ? atoi(argv[2]) : 0;
+  const double tolerance = argc > 3 ? strtod(argv[3], NULL) : 0.0;
+  NLP          p;
 
-  for (size_t k = 0; k < sizeof(problems) / sizeof(problems[0]); k++) failed |= Solve(&problems[k], limit);
-  return failed;
+  if (!file) return 1;
+  for (int k = 0; NLPRead(file, &p); k++) {
+    if (k >= first) Solve(&p, tolerance);
+    NLPFree(&p);
+  }
+  NLPFree(&p);
+  fclose(file);
+  return 0;
 }
