@@ -15,9 +15,9 @@
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
-/* Are the shape's parameters sound, or does the mesh file have the volume? */
+/* Are the shape's parameters sound, or does the mesh file have the volume? Are the faces that the body cuts out of others sound? */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
-/* Names of a body's faces, without the body's. For a Gmsh body, the physical surfaces of its file */
+/* Names of a body's faces, without the body's: the shape's, or the physical surfaces of the Gmsh file; then those that it cuts out of them */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
 /* Do the faces that a scene refers to have facets, and is every body held by displacements or contact? */
@@ -28,7 +28,7 @@ PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's vertices that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 8 vertices of a hexahedron in the tensor order of src/elasticity, or the 4 of a facet, outward orientation */
+/* The 4 vertices of a facet, counterclockwise seen from outside the body; the 8 of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 /* Reference coordinates of local vertices [length] */

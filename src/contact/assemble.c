@@ -108,7 +108,7 @@ static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row,
 }
 
 /* kept[k]: local rows whose 1-norm, divided by the mass, is not below row_drop of the largest of all ranks */
-static PetscErrorCode KeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
+static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
@@ -140,7 +140,7 @@ static PetscErrorCode KeepRows(Contact contact, const Coupling *coupling, PetscI
 }
 
 /* One row of J; entries that are zero but for rounding are left out */
-static PetscErrorCode ExpandRow(const CouplingRow *r, PetscInt *n, PetscInt column[], PetscScalar entry[])
+static PetscErrorCode CouplingExpandRow(const CouplingRow *r, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
   PetscReal largest = 0.0;
 
@@ -163,7 +163,7 @@ static PetscErrorCode ExpandRow(const CouplingRow *r, PetscInt *n, PetscInt colu
 }
 
 /* Longest row of the coupling */
-static PetscErrorCode LongestRow(Mat coupling, PetscInt *longest)
+static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
 {
   PetscInt rstart, rend;
 
@@ -181,7 +181,7 @@ static PetscErrorCode LongestRow(Mat coupling, PetscInt *longest)
 }
 
 /* J of the kept rows: counts the entries of each row first, then puts them in */
-static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, PetscInt nkept, const PetscInt kept[], Mat *J)
+static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, PetscInt nkept, const PetscInt kept[], Mat *J)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
@@ -192,7 +192,7 @@ static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, 
   PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
   PetscCall(MatGetOwnershipRangeColumn(coupling->mat[0], &cstart, &cend));
   nlocal = 3 * (cend - cstart);
-  PetscCall(LongestRow(coupling->mat[0], &longest));
+  PetscCall(CouplingLongestRow(coupling->mat[0], &longest));
   PetscCall(PetscMalloc4(3 * longest, &column, 3 * longest, &entry, nkept, &diagonal, nkept, &offdiagonal));
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   PetscCall(MatCreate(contact->comm, J));
@@ -209,7 +209,7 @@ static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, 
       CouplingRow    r = {0};
 
       PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
-      PetscCall(ExpandRow(&r, &n, column, entry));
+      PetscCall(CouplingExpandRow(&r, &n, column, entry));
       PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
       if (pass) PetscCall(MatSetValues(*J, 1, &row, n, column, entry, INSERT_VALUES));
       else {
@@ -227,7 +227,7 @@ static PetscErrorCode CreateJacobian(Contact contact, const Coupling *coupling, 
 }
 
 /* Gap and mass of the kept rows, and where they stand */
-static PetscErrorCode FillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[], ContactLinearization lin)
+static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[], ContactLinearization lin)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass, *gap;
@@ -271,9 +271,9 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
-  PetscCall(KeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  PetscCall(CreateJacobian(contact, &coupling, (*lin)->nlocal, kept, &(*lin)->J));
-  PetscCall(FillRows(contact, as, kept, *lin));
+  PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
+  PetscCall(CouplingCreateJacobian(contact, &coupling, (*lin)->nlocal, kept, &(*lin)->J));
+  PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));

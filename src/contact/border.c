@@ -2,7 +2,7 @@
 #include <petscsf.h>
 #include "contactimpl.h"
 
-static PetscErrorCode ReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
+static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
 {
   PetscInt nroots;
 
@@ -17,7 +17,7 @@ static PetscErrorCode ReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
 }
 
 /* The mesh's edge between two vertices of it */
-static PetscErrorCode FindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
+static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
   const PetscInt *edges;
@@ -44,14 +44,14 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscCall(PetscMalloc1(4 * s->nfacets, &edge));
   PetscCall(PetscCalloc1(s->nfacets, &s->border));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    PetscCall(FindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
+    PetscCall(BorderFindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
     ++count[edge[i]];
   }
-  PetscCall(ReduceAndShare(sf, MPI_SUM, count));
+  PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     if (count[edge[i]] == 1) count[s->vertex[i]] = count[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
   }
-  PetscCall(ReduceAndShare(sf, MPI_MAX, count));
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     if (count[edge[i]] == 1) s->border[i / 4] |= 1 << (i % 4);
     if (count[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);

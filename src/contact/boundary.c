@@ -4,7 +4,7 @@
 #include "contactimpl.h"
 
 /* Marks the facets that bound the bodies: one cell here, and no copy on another rank */
-static PetscErrorCode MarkBoundary(DM dm, PetscInt start, PetscInt end, PetscBool boundary[])
+static PetscErrorCode BoundaryMarkFacets(DM dm, PetscInt start, PetscInt end, PetscBool boundary[])
 {
   PetscSF         sf;
   PetscInt        nroots, nleaves;
@@ -34,7 +34,7 @@ static PetscErrorCode MarkBoundary(DM dm, PetscInt start, PetscInt end, PetscBoo
 }
 
 /* Number of bodies, on all ranks */
-static PetscErrorCode CountBodies(DM dm, PetscInt *nbodies)
+static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
   DMLabel  label;
@@ -61,10 +61,10 @@ PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
   PetscFunctionBegin;
   b->comm = PetscObjectComm((PetscObject)dm);
   b->n    = 0;
-  PetscCall(CountBodies(dm, &b->nbodies));
+  PetscCall(BoundaryCountBodies(dm, &b->nbodies));
   PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
   PetscCall(PetscMalloc1(end - start, &boundary));
-  PetscCall(MarkBoundary(dm, start, end, boundary));
+  PetscCall(BoundaryMarkFacets(dm, start, end, boundary));
   for (PetscInt f = start; f < end; ++f) b->n += boundary[f - start];
   PetscCall(PetscMalloc2(b->n, &b->body, 12 * b->n, &b->x));
   b->n = 0;
@@ -143,7 +143,7 @@ PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
 }
 
 /* Solid angle that the triangle p, q, r is seen under from the origin, positive from behind (Van Oosterom and Strackee 1983) */
-static PetscReal SolidAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
+static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
 {
   const PetscReal triple = p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
   PetscReal       pp = 0.0, qq = 0.0, rr = 0.0, pq = 0.0, qr = 0.0, rp = 0.0;
@@ -172,7 +172,7 @@ PetscReal ContactBoundarySolidAngle(const ContactBoundary *b, PetscInt body, con
 
     if (b->body[f] != body) continue;
     for (PetscInt i = 0; i < 12; ++i) x[i / 3][i % 3] = b->x[12 * f + i] - from[i % 3];
-    sum += SolidAngle(x[0], x[1], x[2]) + SolidAngle(x[0], x[2], x[3]);
+    sum += BoundaryTriangleAngle(x[0], x[1], x[2]) + BoundaryTriangleAngle(x[0], x[2], x[3]);
   }
   return sum;
 }

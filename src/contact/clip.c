@@ -11,7 +11,7 @@ PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 }
 
 /* Twice the signed area of the triangle (a, b, p): positive where p is left of the line a -> b */
-static PetscReal LeftOf(const PetscReal a[2], const PetscReal b[2], const PetscReal p[2])
+static PetscReal ClipLeftOf(const PetscReal a[2], const PetscReal b[2], const PetscReal p[2])
 {
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
@@ -40,10 +40,10 @@ PetscInt ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, c
       in[i][1] = out[i][1];
     }
     n    = 0;
-    last = LeftOf(a, b, in[nin - 1]);
+    last = ClipLeftOf(a, b, in[nin - 1]);
     for (PetscInt i = 0; i < nin; ++i) {
       const PetscReal *p = in[(i + nin - 1) % nin], *q = in[i];
-      const PetscReal  d = LeftOf(a, b, q);
+      const PetscReal  d = ClipLeftOf(a, b, q);
 
       if ((d >= 0.0) != (last >= 0.0)) {
         const PetscReal t = last / (last - d);

@@ -26,6 +26,11 @@ PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscRe
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
 
+static inline PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* frame.c: the plane a nonmortar facet is projected to */
 typedef struct {
   PetscReal origin[3], axis[3][3];

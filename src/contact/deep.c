@@ -7,7 +7,7 @@ typedef struct {
 } DeepRow;
 #define DEEP_REALS ((PetscMPIInt)(sizeof(DeepRow) / sizeof(PetscReal)))
 
-static PetscBool BoxHolds(const PetscReal box[6], const PetscReal x[3])
+static PetscBool DeepBoxHolds(const PetscReal box[6], const PetscReal x[3])
 {
   for (PetscInt c = 0; c < 3; ++c) {
     if (x[c] < box[c] || x[c] > box[3 + c]) return PETSC_FALSE;
@@ -16,7 +16,7 @@ static PetscBool BoxHolds(const PetscReal box[6], const PetscReal x[3])
 }
 
 /* The length of the diagonal of all boxes if those of any pair's bodies overlap in more than a face, else 0 */
-static PetscReal FarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
+static PetscReal DeepFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
 {
   PetscReal low[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, high[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, diagonal = 0.0;
   PetscBool any = PETSC_FALSE;
@@ -41,7 +41,7 @@ static PetscReal FarthestApart(Contact contact, PetscInt nbodies, const PetscRea
 }
 
 /* The rows of `wide` that `usual` has not, deeper than their pair looks, where a body's box holds the other's point; free `deep` */
-static PetscErrorCode FindDeepRows(Contact contact, const PetscReal box[], ContactLinearization usual, ContactLinearization wide, PetscInt *n, DeepRow **deep)
+static PetscErrorCode DeepFindRows(Contact contact, const PetscReal box[], ContactLinearization usual, ContactLinearization wide, PetscInt *n, DeepRow **deep)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *g;
@@ -66,14 +66,14 @@ static PetscErrorCode FindDeepRows(Contact contact, const PetscReal box[], Conta
       row.x[c] = rows->x[3 * i + c];
       row.y[c] = row.x[c] + gap * rows->normal[3 * i + c];
     }
-    if (BoxHolds(&box[6 * pair->mortar.body], row.x) || BoxHolds(&box[6 * pair->nonmortar.body], row.y)) (*deep)[(*n)++] = row;
+    if (DeepBoxHolds(&box[6 * pair->mortar.body], row.x) || DeepBoxHolds(&box[6 * pair->nonmortar.body], row.y)) (*deep)[(*n)++] = row;
   }
   PetscCall(VecRestoreArrayRead(wide->g, &g));
   PetscFunctionReturn(0);
 }
 
 /* All ranks' rows on every rank; replaces `deep` */
-static PetscErrorCode GatherDeepRows(MPI_Comm comm, PetscInt *n, DeepRow **deep)
+static PetscErrorCode DeepGatherRows(MPI_Comm comm, PetscInt *n, DeepRow **deep)
 {
   PetscMPIInt size, mine = DEEP_REALS * (PetscMPIInt)*n, *count, *start;
   DeepRow    *all;
@@ -94,7 +94,7 @@ static PetscErrorCode GatherDeepRows(MPI_Comm comm, PetscInt *n, DeepRow **deep)
 }
 
 /* The deepest row where one body's point is inside the other body, not only behind its face; of depth 0: none */
-static PetscErrorCode FindDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n, const DeepRow deep[], DeepRow *deepest)
+static PetscErrorCode DeepPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n, const DeepRow deep[], DeepRow *deepest)
 {
   PetscReal *angle;
 
@@ -115,7 +115,7 @@ static PetscErrorCode FindDeepest(Contact contact, const ContactBoundary *bounda
 }
 
 /* The deepest row that a search over this distance finds and `usual` does not have */
-static PetscErrorCode SearchDeepest(Contact contact, const ContactBoundary *boundary, const PetscReal box[], PetscReal distance, ContactLinearization usual, DeepRow *deepest)
+static PetscErrorCode DeepSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[], PetscReal distance, ContactLinearization usual, DeepRow *deepest)
 {
   ContactLinearization wide;
   DeepRow             *deep;
@@ -129,10 +129,10 @@ static PetscErrorCode SearchDeepest(Contact contact, const ContactBoundary *boun
   PetscCall(ContactLinearize(contact, zero, &wide));
   PetscCall(ContactSetReach(contact, 0.0, 0.0));
   PetscCall(DMRestoreGlobalVector(contact->dm, &zero));
-  PetscCall(FindDeepRows(contact, box, usual, wide, &n, &deep));
+  PetscCall(DeepFindRows(contact, box, usual, wide, &n, &deep));
   PetscCall(ContactLinearizationDestroy(&wide));
-  PetscCall(GatherDeepRows(contact->comm, &n, &deep));
-  PetscCall(FindDeepest(contact, boundary, n, deep, deepest));
+  PetscCall(DeepGatherRows(contact->comm, &n, &deep));
+  PetscCall(DeepPickDeepest(contact, boundary, n, deep, deepest));
   PetscCall(PetscFree(deep));
   PetscFunctionReturn(0);
 }
@@ -165,8 +165,8 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(ContactBoundaryCreate(contact->dm, &boundary));
   PetscCall(PetscMalloc1(6 * boundary.nbodies, &box));
   PetscCall(ContactBoundaryBoxes(&boundary, box));
-  distance = FarthestApart(contact, boundary.nbodies, box);
-  if (distance > 0.0) PetscCall(SearchDeepest(contact, &boundary, box, distance, usual, &deepest));
+  distance = DeepFarthestApart(contact, boundary.nbodies, box);
+  if (distance > 0.0) PetscCall(DeepSearch(contact, &boundary, box, distance, usual, &deepest));
   PetscCall(PetscFree(box));
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];

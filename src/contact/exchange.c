@@ -11,7 +11,7 @@ typedef struct {
 } Outgoing;
 
 /* Counts the facets for each rank, or packs them once out->x is there */
-static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[], Outgoing *out)
+static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[], Outgoing *out)
 {
   PetscFunctionBegin;
   out->n      = 0;
@@ -41,7 +41,7 @@ static PetscErrorCode PackFacets(const ContactSurface *s, PetscMPIInt size, cons
 }
 
 /* The star forest from the facets that go out (roots) to those that come in (leaves), by rank they come from */
-static PetscErrorCode CreateForest(MPI_Comm comm, const Outgoing *out, PetscInt *nincoming, PetscSF *sf)
+static PetscErrorCode ExchangeCreateForest(MPI_Comm comm, const Outgoing *out, PetscInt *nincoming, PetscSF *sf)
 {
   PetscMPIInt  nfrom, *from;
   PetscInt    *range, *order, n = 0;
@@ -72,7 +72,7 @@ static PetscErrorCode CreateForest(MPI_Comm comm, const Outgoing *out, PetscInt 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Broadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit, const void *out, void *in)
+static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit, const void *out, void *in)
 {
   MPI_Datatype type;
 
@@ -98,14 +98,14 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
-  PetscCall(PackFacets(s, size, boxes, &out));
+  PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(PetscMalloc3(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border));
-  if (out.n) PetscCall(PackFacets(s, size, boxes, &out));
-  PetscCall(CreateForest(comm, &out, &in->n, &sf));
+  if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
+  PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
   PetscCall(PetscMalloc3(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border));
-  PetscCall(Broadcast(sf, 12, MPIU_REAL, out.x, in->x));
-  PetscCall(Broadcast(sf, 4, MPIU_INT, out.node, in->node));
-  if (nborder) PetscCall(Broadcast(sf, 1, MPIU_INT, out.border, in->border));
+  PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
+  PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
+  if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
   PetscCall(PetscSFDestroy(&sf));
   PetscCall(PetscFree3(out.x, out.node, out.border));
   PetscCall(PetscFree3(boxes, out.rank, out.range));

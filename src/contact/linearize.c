@@ -29,11 +29,11 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
 {
   PetscViewer       viewer;
   PetscViewerFormat format;
-  PetscBool         flag;
+  PetscBool         wanted;
 
   PetscFunctionBegin;
-  PetscCall(PetscOptionsGetViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &flag));
-  if (!flag) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsGetViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
+  if (!wanted) PetscFunctionReturn(0);
   PetscCall(PetscViewerPushFormat(viewer, format));
   PetscCall(ContactView(contact, viewer));
   PetscCall(PetscViewerPopFormat(viewer));

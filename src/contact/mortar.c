@@ -26,7 +26,7 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
 }
 
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
-static PetscErrorCode MortarFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
+static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
   const PetscReal *x1      = &pair->nonmortar.x[12 * f];
   const PetscInt  *row     = &pair->row[4 * f];
@@ -93,7 +93,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
     if (!n) continue;
     PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
     for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a) (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
-    PetscCall(MortarFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly, &pair->nfacing));
+    PetscCall(MortarAddFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly, &pair->nfacing));
   }
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactNearDestroy(&near));

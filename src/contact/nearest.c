@@ -2,7 +2,7 @@
 #include "contactimpl.h"
 
 /* Squared distance of a point from a box */
-static PetscReal BoxDistance(const PetscReal box[6], const PetscReal x[3])
+static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3])
 {
   PetscReal sum = 0.0;
 
@@ -11,7 +11,7 @@ static PetscReal BoxDistance(const PetscReal box[6], const PetscReal x[3])
 }
 
 /* Keeps the facet if it faces the vertex and is nearer than the nearest so far */
-static void TryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
+static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
 {
   PetscReal n[3], xi[2], y[3], d;
 
@@ -37,9 +37,9 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
     const PetscInt         self = stack[--depth];
     const ContactTreeNode *node = &t->node[self];
 
-    if (BoxDistance(node->box, x) > distance * distance) continue;
+    if (NearestBoxDistance(node->box, x) > distance * distance) continue;
     if (node->second) { /* the nearer child is looked at first */
-      const PetscBool swap = (PetscBool)(BoxDistance(t->node[node->second].box, x) < BoxDistance(t->node[self + 1].box, x));
+      const PetscBool swap = (PetscBool)(NearestBoxDistance(t->node[node->second].box, x) < NearestBoxDistance(t->node[self + 1].box, x));
 
       stack[depth++] = swap ? self + 1 : node->second;
       stack[depth++] = swap ? node->second : self + 1;
@@ -48,7 +48,7 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
     for (PetscInt i = node->first; i < node->last; ++i) {
       const PetscInt f = t->order[i];
 
-      if (BoxDistance(&t->box[6 * f], x) <= distance * distance) TryFacet(facets, f, cosine, x, normal, nearest, &distance);
+      if (NearestBoxDistance(&t->box[6 * f], x) <= distance * distance) NearestTryFacet(facets, f, cosine, x, normal, nearest, &distance);
     }
   }
 }

@@ -5,7 +5,7 @@
 #define BORDER_MARGIN 0.05
 
 /* Whether the closest point is on the border of the mortar face */
-static PetscBool OnBorder(PetscInt border, const PetscReal xi[2])
+static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
 {
   static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* at (xi, eta) = (-1 or 1, -1 or 1) */
   const PetscInt        i = xi[0] >= 1.0, j = xi[1] >= 1.0;
@@ -17,12 +17,12 @@ static PetscBool OnBorder(PetscInt border, const PetscReal xi[2])
 }
 
 /* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not along the facet's normal there */
-static PetscBool BesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
+static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
 {
   const PetscReal *facet = &mortar->x[12 * nearest->facet];
   PetscReal        t1[3], t2[3], n[3], r[3], area = 0.0, height = 0.0, beside = 0.0;
 
-  if (!OnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
+  if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
   ContactFacetTangents(facet, nearest->xi, t1, t2);
   for (PetscInt c = 0; c < 3; ++c) {
     const PetscInt d = (c + 1) % 3, e = (c + 2) % 3;
@@ -54,7 +54,7 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
 }
 
 /* gap = (y - x).n, its coupling N2_B(xi) - 1; both times the mass that the assembly divides by */
-static PetscErrorCode AddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass, const ContactCandidates *mortar, const ContactNearest *nearest, PetscReal gap, ContactAssembly *assembly)
+static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass, const ContactCandidates *mortar, const ContactNearest *nearest, PetscReal gap, ContactAssembly *assembly)
 {
   const PetscScalar weighted = mass * gap;
   PetscSection      global;
@@ -94,10 +94,10 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
     PetscReal        gap = 0.0;
 
     ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
-    if (nearest.facet < 0 || BesideFace(mortar, &nearest, x)) continue;
+    if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
     for (PetscInt c = 0; c < 3; ++c) gap += (nearest.y[c] - x[c]) * n[c];
     if (gap > pair->distance || gap < -pair->depth) continue;
-    PetscCall(AddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, gap, assembly));
+    PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, gap, assembly));
     ++pair->nfacing;
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));

@@ -5,7 +5,7 @@
   Convex parts of a quadrilateral, counterclockwise: itself, or two triangles where a corner is reflex. Where its edges cross
   (two reflex corners, if only by rounding) one of the triangles is clockwise: it is reversed, and counts negatively.
 */
-static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2], PetscReal sign[2])
+static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2], PetscReal sign[2])
 {
   PetscInt reflex = -1;
 
@@ -34,7 +34,7 @@ static PetscInt ConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal
 }
 
 /* Adds the points of the fan of triangles about the polygon's first vertex, with this sign */
-static void AddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2], const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
@@ -61,7 +61,7 @@ static void AddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, cons
 }
 
 /* Height of the mortar facet over the nonmortar one, averaged over the overlap */
-static PetscReal MeanGap(const ContactOverlap *o, const PetscReal h1[4], const PetscReal h2[4])
+static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], const PetscReal h2[4])
 {
   PetscReal gap = 0.0;
 
@@ -96,14 +96,14 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     reversed[a][1] = p2[3 - a][1];
   }
   smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(4, reversed)));
-  nparts  = ConvexParts(p1, size, part, sign);
+  nparts  = OverlapConvexParts(p1, size, part, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
     PetscReal      polygon[CONTACT_MAX_POLYGON][2];
     const PetscInt n = ContactClip(4, reversed, size[k], part[k], polygon);
 
-    if (n && PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller) AddPolygon(rule, sign[k], n, polygon, p1, p2, o);
+    if (n && PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller) OverlapAddPolygon(rule, sign[k], n, polygon, p1, p2, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
-  gap = MeanGap(o, h1, h2);
+  gap = OverlapMeanGap(o, h1, h2);
   return (PetscBool)(gap <= limits->distance && gap >= -limits->depth);
 }

@@ -3,7 +3,7 @@
 #include "contactimpl.h"
 
 /* marked[v] = 1 for the vertices of this rank's facets, and for those it owns on facets of other ranks; 0 elsewhere */
-static PetscErrorCode MarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints, PetscInt marked[])
+static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints, PetscInt marked[])
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(marked, npoints));
@@ -16,7 +16,7 @@ static PetscErrorCode MarkVertices(PetscSF sf, PetscBool parallel, const Contact
 }
 
 /* Appends the marked vertices that this rank owns to rows->vertex, which has space for size */
-static PetscErrorCode AppendRows(PetscSection global, PetscInt npoints, const PetscInt marked[], ContactRows *rows, PetscInt *size)
+static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const PetscInt marked[], ContactRows *rows, PetscInt *size)
 {
   PetscFunctionBegin;
   for (PetscInt v = 0; v < npoints; ++v) {
@@ -35,7 +35,7 @@ static PetscErrorCode AppendRows(PetscSection global, PetscInt npoints, const Pe
 }
 
 /* Global rows of the facets' vertices from the local numbers of the owned ones */
-static PetscErrorCode ShareRows(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p, ContactPairData *pair, PetscInt npoints, PetscInt number[])
+static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p, ContactPairData *pair, PetscInt npoints, PetscInt number[])
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(number, npoints));
@@ -50,7 +50,7 @@ static PetscErrorCode ShareRows(PetscSF sf, PetscBool parallel, PetscInt rstart,
 }
 
 /* The lumped boundary mass of the undeformed nonmortar faces */
-static PetscErrorCode CreateMass(Contact contact)
+static PetscErrorCode RowsCreateMass(Contact contact)
 {
   ContactRows *rows = &contact->rows;
 
@@ -93,16 +93,16 @@ PetscErrorCode ContactRowsCreate(Contact contact)
   PetscCall(PetscMalloc1(npoints, &number));
   PetscCall(PetscCalloc1(contact->npairs + 1, &rows->first));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
-    PetscCall(MarkVertices(sf, parallel, &contact->pairs[p].nonmortar, npoints, number));
-    PetscCall(AppendRows(global, npoints, number, rows, &size));
+    PetscCall(RowsMarkVertices(sf, parallel, &contact->pairs[p].nonmortar, npoints, number));
+    PetscCall(RowsAppend(global, npoints, number, rows, &size));
     rows->first[p + 1] = rows->nlocal;
   }
   PetscCallMPI(MPI_Scan(&rows->nlocal, &rstart, 1, MPIU_INT, MPI_SUM, contact->comm));
   rstart -= rows->nlocal;
-  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(ShareRows(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
+  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(RowsShare(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
   PetscCall(PetscFree(number));
   PetscCall(PetscMalloc2(3 * rows->nlocal, &rows->normal, 3 * rows->nlocal, &rows->x));
-  PetscCall(CreateMass(contact));
+  PetscCall(RowsCreateMass(contact));
   PetscFunctionReturn(0);
 }
 

@@ -45,7 +45,7 @@ static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
 }
 
 /* Number of facets whose boxes meet the prism; those are put into found unless it is NULL */
-static PetscInt TreeQuery(const ContactTree *t, const Prism *prism, PetscInt found[])
+static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt found[])
 {
   PetscInt stack[CONTACT_TREE_DEPTH], depth = 0, n = 0;
 
@@ -83,7 +83,7 @@ PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscR
   for (PetscInt pass = 0; pass < 2; ++pass) {
     for (PetscInt f = 0; f < s->nfacets; ++f) {
       const PetscBool has = PrismCreate(&s->x[12 * f], distance, depth, &prism);
-      const PetscInt  n   = has ? TreeQuery(&tree, &prism, pass ? near->facet + near->offset[f] : NULL) : 0;
+      const PetscInt  n   = has ? SearchTree(&tree, &prism, pass ? near->facet + near->offset[f] : NULL) : 0;
 
       near->offset[f + 1] = near->offset[f] + n;
     }

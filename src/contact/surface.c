@@ -3,7 +3,7 @@
 #include "contactimpl.h"
 
 /* Number of a vertex among those of all ranks; the mesh lays out 3 rows a vertex, owned ones as they are, others encoded */
-static PetscErrorCode VertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
+static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
 {
   PetscInt offset;
 
@@ -14,7 +14,7 @@ static PetscErrorCode VertexNode(PetscSection global, PetscInt vertex, PetscInt 
 }
 
 /* x = values of a local vector of 3 components a vertex at n vertices */
-static PetscErrorCode GatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[], PetscReal x[])
+static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[], PetscReal x[])
 {
   const PetscScalar *a;
 
@@ -31,7 +31,7 @@ static PetscErrorCode GatherVertices(PetscSection section, Vec local, PetscInt n
 }
 
 /* The body these facets belong to, on all ranks */
-static PetscErrorCode SurfaceBody(DM dm, PetscInt nfacets, const PetscInt facet[], PetscInt *body)
+static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt facet[], PetscInt *body)
 {
   PetscInt mine = -1;
 
@@ -68,15 +68,15 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < s->nfacets; ++i) {
     PetscCall(MeshGetFacetVertices(dm, f[i], &s->vertex[4 * i]));
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(VertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));
+    for (PetscInt a = 0; a < 4; ++a) PetscCall(SurfaceVertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));
   }
-  PetscCall(SurfaceBody(dm, s->nfacets, f, &s->body));
+  PetscCall(SurfaceFindBody(dm, s->nfacets, f, &s->body));
   s->thickness = thickness[s->body];
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &coordsection));
-  PetscCall(GatherVertices(coordsection, coordinates, 4 * s->nfacets, s->vertex, s->reference));
+  PetscCall(SurfaceGatherVertices(coordsection, coordinates, 4 * s->nfacets, s->vertex, s->reference));
   for (PetscInt i = 0; i < s->nfacets; ++i) area += ContactFacetMass(&s->reference[12 * i], mass);
   PetscCallMPI(MPI_Allreduce(&area, &s->area, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
@@ -94,8 +94,8 @@ PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscI
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &coordsection));
   PetscCall(PetscMalloc1(3 * n, &reference));
-  PetscCall(GatherVertices(coordsection, coordinates, n, vertex, reference));
-  PetscCall(GatherVertices(section, ulocal, n, vertex, x));
+  PetscCall(SurfaceGatherVertices(coordsection, coordinates, n, vertex, reference));
+  PetscCall(SurfaceGatherVertices(section, ulocal, n, vertex, x));
   for (PetscInt i = 0; i < 3 * n; ++i) x[i] += reference[i];
   PetscCall(PetscFree(reference));
   PetscFunctionReturn(0);
@@ -108,12 +108,12 @@ PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(dm, &section));
-  PetscCall(GatherVertices(section, ulocal, 4 * s->nfacets, s->vertex, s->x));
+  PetscCall(SurfaceGatherVertices(section, ulocal, 4 * s->nfacets, s->vertex, s->x));
   for (PetscInt i = 0; i < 12 * s->nfacets; ++i) s->x[i] += s->reference[i];
   PetscFunctionReturn(0);
 }
 
-static void Normalize(PetscInt n, PetscReal normal[])
+static void SurfaceNormalize(PetscInt n, PetscReal normal[])
 {
   for (PetscInt i = 0; i < n; ++i) {
     PetscReal      *v      = &normal[3 * i];
@@ -152,12 +152,12 @@ PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal n
   PetscCall(VecRestoreArray(local, &a));
   PetscCall(DMLocalToGlobal(dm, local, ADD_VALUES, global));
   PetscCall(DMGlobalToLocal(dm, global, INSERT_VALUES, local));
-  PetscCall(GatherVertices(section, local, 4 * s->nfacets, s->vertex, normal));
-  PetscCall(GatherVertices(section, local, n, vertex, vertexnormal));
+  PetscCall(SurfaceGatherVertices(section, local, 4 * s->nfacets, s->vertex, normal));
+  PetscCall(SurfaceGatherVertices(section, local, n, vertex, vertexnormal));
   PetscCall(DMRestoreGlobalVector(dm, &global));
   PetscCall(DMRestoreLocalVector(dm, &local));
-  Normalize(4 * s->nfacets, normal);
-  Normalize(n, vertexnormal);
+  SurfaceNormalize(4 * s->nfacets, normal);
+  SurfaceNormalize(n, vertexnormal);
   PetscFunctionReturn(0);
 }
 

@@ -1,24 +1,24 @@
 /* A static tree of bounding boxes of facets: built and asked in O(N log N) */
 #include "contactimpl.h"
 
-#define LEAF_SIZE 4
+#define TREE_LEAF_SIZE 4
 
 /* Twice the centre of a facet's box along an axis */
-static inline PetscReal Centre(const ContactTree *t, PetscInt facet, PetscInt axis)
+static inline PetscReal TreeCentre(const ContactTree *t, PetscInt facet, PetscInt axis)
 {
   return t->box[6 * facet + axis] + t->box[6 * facet + 3 + axis];
 }
 
 /* Hoare's selection: orders order[lo..hi] so that nothing before position k has a larger centre than anything after it */
-static void SelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
+static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
 {
   while (lo < hi) {
-    const PetscReal pivot = Centre(t, t->order[lo + (hi - lo) / 2], axis);
+    const PetscReal pivot = TreeCentre(t, t->order[lo + (hi - lo) / 2], axis);
     PetscInt        i = lo, j = hi;
 
     while (i <= j) {
-      while (Centre(t, t->order[i], axis) < pivot) ++i;
-      while (Centre(t, t->order[j], axis) > pivot) --j;
+      while (TreeCentre(t, t->order[i], axis) < pivot) ++i;
+      while (TreeCentre(t, t->order[j], axis) > pivot) --j;
       if (i <= j) {
         const PetscInt swap = t->order[i];
 
@@ -41,23 +41,23 @@ static void TreeBuild(ContactTree *t, PetscInt first, PetscInt last)
 
   *node = (ContactTreeNode){.first = first, .last = last, .second = 0};
   for (PetscInt c = 0; c < 3; ++c) {
-    lower[c] = upper[c] = Centre(t, t->order[first], c);
+    lower[c] = upper[c] = TreeCentre(t, t->order[first], c);
     node->box[c]        = t->box[6 * t->order[first] + c];
     node->box[3 + c]    = t->box[6 * t->order[first] + 3 + c];
     for (PetscInt i = first + 1; i < last; ++i) {
       const PetscInt f = t->order[i];
 
-      lower[c]         = PetscMin(lower[c], Centre(t, f, c));
-      upper[c]         = PetscMax(upper[c], Centre(t, f, c));
+      lower[c]         = PetscMin(lower[c], TreeCentre(t, f, c));
+      upper[c]         = PetscMax(upper[c], TreeCentre(t, f, c));
       node->box[c]     = PetscMin(node->box[c], t->box[6 * f + c]);
       node->box[3 + c] = PetscMax(node->box[3 + c], t->box[6 * f + 3 + c]);
     }
     if (upper[c] - lower[c] > upper[axis] - lower[axis]) axis = c;
   }
-  if (last - first > LEAF_SIZE) {
+  if (last - first > TREE_LEAF_SIZE) {
     const PetscInt middle = first + (last - first) / 2;
 
-    SelectMedian(t, axis, first, last - 1, middle);
+    TreeSelectMedian(t, axis, first, last - 1, middle);
     TreeBuild(t, first, middle);
     t->node[self].second = t->nnodes;
     TreeBuild(t, middle, last);

@@ -6,7 +6,7 @@
    own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform pressure. At finite strain the isochoric
    tangent may be indefinite; no error is negative.
 */
-static PetscReal EnergyNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELASTICITY_RECOVERED])
+static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELASTICITY_RECOVERED])
 {
   const PetscReal volumetric = BulkModulus(m) * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
@@ -19,7 +19,7 @@ static PetscReal EnergyNormSquared(const BodyMaterial *m, const PetscReal H[9], 
   return PetscMax(isochoric, 0) + volumetric;
 }
 
-static PetscReal CellErrorSquared(const HexBasis *basis, const Body *body, PetscReal X[3][8], PetscReal U[3][8], const PetscReal *const recovered[8])
+static PetscReal EstimateCellSquared(const HexBasis *basis, const Body *body, PetscReal X[3][8], PetscReal U[3][8], const PetscReal *const recovered[8])
 {
   const BodyMaterial *m = &body->material;
   PetscReal           w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELASTICITY_RECOVERED], G[3][8], C[9];
@@ -40,7 +40,7 @@ static PetscReal CellErrorSquared(const HexBasis *basis, const Body *body, Petsc
     for (int a = 0; a < 8; ++a) {
       for (int k = 0; k < ELASTICITY_RECOVERED; ++k) error[k] += basis->N[q][a] * recovered[a][k];
     }
-    sum += w[q] * EnergyNormSquared(m, H[q], error);
+    sum += w[q] * EstimateNormSquared(m, H[q], error);
   }
   return sum;
 }
@@ -57,7 +57,7 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
     for (int a = 0; a < 8; ++a) values[a] = recovered[nodes[a]].value;
     ElasticityGatherCell(nodes, x, X);
     ElasticityGatherCell(nodes, u, U);
-    error = CellErrorSquared(&e->basis, &e->bodies[b], X, U, values);
+    error = EstimateCellSquared(&e->basis, &e->bodies[b], X, U, values);
     bodies[b] += error;
     if (cells) cells[c] = error;
   }

@@ -89,7 +89,7 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
 }
 
 /* F[a][d] = int N_a n dA of a bilinear facet, n dA = dX/ds x dX/dt; of degree 2 in s and in t, so 2 x 2 Gauss points are exact */
-static void FacetNormals(PetscReal X[4][3], PetscReal F[4][3])
+static void ElasticityFacetNormals(PetscReal X[4][3], PetscReal F[4][3])
 {
   const PetscReal gauss[2] = {0.5 - PetscSqrtReal(3) / 6, 0.5 + PetscSqrtReal(3) / 6};
 
@@ -161,7 +161,7 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
       PetscCall(PetscSectionGetOffset(section, vertices[a], &offset[a]));
       for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(x[offset[a] + d]);
     }
-    FacetNormals(X, F);
+    ElasticityFacetNormals(X, F);
     for (PetscInt a = 0; a < 4; ++a) {
       for (PetscInt d = 0; d < 3; ++d) l[offset[a] + d] -= pressure * F[a][d];
     }

@@ -1,7 +1,7 @@
 /* Stress of the cells */
 #include "elasticityimpl.h"
 
-static PetscReal VonMises(const PetscReal s[6])
+static PetscReal StressVonMises(const PetscReal s[6])
 {
   return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
@@ -40,7 +40,7 @@ PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
 
     ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
     ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
-    if (body->element->cauchy(&e->basis, &body->material, X, U, s)) s[6] = VonMises(s);
+    if (body->element->cauchy(&e->basis, &body->material, X, U, s)) s[6] = StressVonMises(s);
     else {
       for (int k = 0; k < 7; ++k) s[k] = PETSC_INFINITY;
     }

@@ -117,7 +117,7 @@ static PetscErrorCode MeshSetSection(DM dm)
 
   Bodies never share vertices, also where they come from one Gmsh file and touch there.
 
-  It is an error if there are more ranks than cells, and if a cell is inverted or flat.
+  It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is inverted or flat.
 
 .seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`, `ElasticityCreate()`
 @*/

@@ -10,7 +10,7 @@
 /* A quadrilateral of a cell: its nodes in ascending order, and the one across from the first */
 typedef struct {
   PetscInt64 nodes[4], across, element;
-} Facet;
+} GmshFacet;
 
 typedef struct {
   GmshStream in;
@@ -18,10 +18,10 @@ typedef struct {
   PetscInt64 first, nnodes;              /* numbers of the nodes lie in [first, first + nnodes) */
   PetscBT    nodes;                      /* those that exist */
   PetscInt64 nfacets, maxfacets;
-  Facet     *facets; /* quadrilaterals of all cells */
+  GmshFacet *facets; /* quadrilaterals of all cells */
 } GmshCheck;
 
-static PetscBool CheckFormat(GmshCheck *check)
+static PetscBool GmshCheckFormat(GmshCheck *check)
 {
   char   words[3][GMSH_WORD], rest;
   double version;
@@ -46,7 +46,7 @@ static PetscBool CheckFormat(GmshCheck *check)
 }
 
 /* A number, then a dimension, a tag and a name in quotes for each */
-static PetscBool CheckNames(GmshCheck *check)
+static PetscBool GmshCheckNames(GmshCheck *check)
 {
   PetscInt64 count = 0;
   char       words[2][GMSH_WORD], name[GMSH_WORD], rest;
@@ -68,7 +68,7 @@ static PetscBool CheckNames(GmshCheck *check)
   return GmshExpectNext(&check->in, "$EndPhysicalNames");
 }
 
-static PetscBool CheckEntity(GmshCheck *check, int dim, PetscInt *entity)
+static PetscBool GmshCheckEntity(GmshCheck *check, int dim, PetscInt *entity)
 {
   PetscInt64 number = 0, ntags, tag;
 
@@ -84,7 +84,7 @@ static PetscBool CheckEntity(GmshCheck *check, int dim, PetscInt *entity)
   return PETSC_TRUE;
 }
 
-static PetscErrorCode CheckEntities(GmshCheck *check, PetscBool *sound)
+static PetscErrorCode GmshCheckEntities(GmshCheck *check, PetscBool *sound)
 {
   PetscInt64 counts[4];
 
@@ -93,7 +93,7 @@ static PetscErrorCode CheckEntities(GmshCheck *check, PetscBool *sound)
   for (int dim = 0; dim < 4 && *sound; ++dim) {
     PetscCall(PetscMalloc1(counts[dim], &check->entities[dim]));
     check->nentities[dim] = (PetscInt)counts[dim];
-    for (PetscInt i = 0; i < check->nentities[dim] && *sound; ++i) *sound = CheckEntity(check, dim, &check->entities[dim][i]);
+    for (PetscInt i = 0; i < check->nentities[dim] && *sound; ++i) *sound = GmshCheckEntity(check, dim, &check->entities[dim][i]);
     if (*sound) PetscCall(PetscSortInt(check->nentities[dim], check->entities[dim]));
   }
   if (*sound) *sound = GmshExpectNext(&check->in, "$EndEntities");
@@ -101,7 +101,7 @@ static PetscErrorCode CheckEntities(GmshCheck *check, PetscBool *sound)
 }
 
 /* The header of a block of nodes or elements in formats 4, whose entity must exist; last: its third number */
-static PetscErrorCode CheckBlock(GmshCheck *check, PetscInt64 *dim, PetscInt64 *last, PetscInt64 *count, PetscBool *sound)
+static PetscErrorCode GmshCheckBlock(GmshCheck *check, PetscInt64 *dim, PetscInt64 *last, PetscInt64 *count, PetscBool *sound)
 {
   PetscInt64 info[3], entity;
   PetscInt   at = PETSC_DECIDE;
@@ -118,7 +118,7 @@ static PetscErrorCode CheckBlock(GmshCheck *check, PetscInt64 *dim, PetscInt64 *
 }
 
 /* Marks a node's number; all numbers are known to lie in the range */
-static PetscErrorCode MarkNodes(GmshCheck *check, PetscInt64 n, const PetscInt64 numbers[], PetscBool *sound)
+static PetscErrorCode GmshMarkNodes(GmshCheck *check, PetscInt64 n, const PetscInt64 numbers[], PetscBool *sound)
 {
   PetscInt64 first = PETSC_MAX_INT, last = 0;
 
@@ -140,7 +140,7 @@ static PetscErrorCode MarkNodes(GmshCheck *check, PetscInt64 n, const PetscInt64
   PetscFunctionReturn(0);
 }
 
-static PetscBool GetNodesOfBlock(GmshCheck *check, PetscInt64 n, PetscInt64 numbers[])
+static PetscBool GmshGetNodesOfBlock(GmshCheck *check, PetscInt64 n, PetscInt64 numbers[])
 {
   if (check->in.version > 40) return GmshGetNumbers(&check->in, check->in.width, n, numbers) && GmshGetReals(&check->in, 3 * n) ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt64 i = 0; i < n; ++i) {
@@ -150,7 +150,7 @@ static PetscBool GetNodesOfBlock(GmshCheck *check, PetscInt64 n, PetscInt64 numb
 }
 
 /* Formats 4 count blocks and all that is in them; 4.1 gives also the least and the largest number, which PETSc relies on */
-static PetscErrorCode GetBlocks(GmshCheck *check, const char what[], PetscInt64 *nblocks, PetscInt64 *count, PetscInt64 range[2], PetscBool *sound)
+static PetscErrorCode GmshGetBlocks(GmshCheck *check, const char what[], PetscInt64 *nblocks, PetscInt64 *count, PetscInt64 range[2], PetscBool *sound)
 {
   PetscInt64 sizes[2];
 
@@ -172,20 +172,20 @@ static PetscErrorCode GmshCheckNodes(GmshCheck *check, PetscBool *sound)
   PetscInt64 nblocks, total, n = 0, *numbers, range[2] = {0, PETSC_MAX_INT};
 
   PetscFunctionBegin;
-  PetscCall(GetBlocks(check, "nodes", &nblocks, &total, range, sound));
+  PetscCall(GmshGetBlocks(check, "nodes", &nblocks, &total, range, sound));
   if (!*sound) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(total, &numbers));
   for (PetscInt64 b = 0; b < nblocks && *sound; ++b) {
     PetscInt64 dim, parametric = 0, count = total;
 
-    if (check->in.version >= 40) PetscCall(CheckBlock(check, &dim, &parametric, &count, sound));
+    if (check->in.version >= 40) PetscCall(GmshCheckBlock(check, &dim, &parametric, &count, sound));
     if (*sound && parametric) *sound = GmshWrong(&check->in, "its nodes have parametric coordinates, which are not read");
     if (*sound && n + count > total) *sound = GmshWrong(&check->in, "its blocks have more nodes than the %lld it announces", (long long)total);
-    if (*sound) *sound = GetNodesOfBlock(check, count, numbers + n);
+    if (*sound) *sound = GmshGetNodesOfBlock(check, count, numbers + n);
     n += count;
   }
   if (*sound && n != total) *sound = GmshWrong(&check->in, "it has %lld nodes, but announces %lld", (long long)n, (long long)total);
-  if (*sound) PetscCall(MarkNodes(check, total, numbers, sound));
+  if (*sound) PetscCall(GmshMarkNodes(check, total, numbers, sound));
   if (*sound && (range[0] > check->first || range[1] < check->first + check->nnodes - 1 || (check->in.version > 40 && range[1] - range[0] > 1000000 + 100 * total)))
     *sound = GmshWrong(&check->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld", (long long)check->first, (long long)(check->first + check->nnodes - 1), (long long)range[0], (long long)range[1]);
   PetscCall(PetscFree(numbers));
@@ -194,7 +194,7 @@ static PetscErrorCode GmshCheckNodes(GmshCheck *check, PetscBool *sound)
 }
 
 /* Dimension and number of nodes of the elements of first order, by Gmsh's number of their type */
-static PetscBool GetType(GmshCheck *check, PetscInt64 type, PetscInt64 *dim, PetscInt64 *nnodes)
+static PetscBool GmshGetType(GmshCheck *check, PetscInt64 type, PetscInt64 *dim, PetscInt64 *nnodes)
 {
   static const PetscInt64 types[16][2] = {[15] = {0, 1}, [1] = {1, 2}, [2] = {2, 3}, [3] = {2, 4}, [4] = {3, 4}, [5] = {3, 8}, [6] = {3, 6}, [7] = {3, 5}};
 
@@ -205,7 +205,7 @@ static PetscBool GetType(GmshCheck *check, PetscInt64 type, PetscInt64 *dim, Pet
   return PETSC_TRUE;
 }
 
-static PetscBool CheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n, const PetscInt64 nodes[])
+static PetscBool GmshCheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n, const PetscInt64 nodes[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
     const PetscInt64 at = nodes[i] - check->first;
@@ -219,7 +219,7 @@ static PetscBool CheckCorners(GmshCheck *check, PetscInt64 element, PetscInt64 n
 }
 
 /* The quadrilaterals of hexahedra, prisms and pyramids, in the corners' order of Gmsh */
-static PetscErrorCode AddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 element, const PetscInt64 nodes[])
+static PetscErrorCode GmshAddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 element, const PetscInt64 nodes[])
 {
   static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
@@ -235,8 +235,8 @@ static PetscErrorCode AddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 el
     PetscCall(PetscRealloc((size_t)check->maxfacets * sizeof(*check->facets), &check->facets));
   }
   for (int f = 0; f < n; ++f) {
-    Facet *facet = &check->facets[check->nfacets++];
-    int    least = 0;
+    GmshFacet *facet = &check->facets[check->nfacets++];
+    int        least = 0;
 
     for (int a = 0; a < 4; ++a) {
       const PetscInt64 node = nodes[quadrilaterals[f][a]];
@@ -252,9 +252,9 @@ static PetscErrorCode AddFacets(GmshCheck *check, PetscInt64 type, PetscInt64 el
   PetscFunctionReturn(0);
 }
 
-static int CompareFacets(const void *a, const void *b)
+static int GmshCompareFacets(const void *a, const void *b)
 {
-  const PetscInt64 *x = ((const Facet *)a)->nodes, *y = ((const Facet *)b)->nodes;
+  const PetscInt64 *x = ((const GmshFacet *)a)->nodes, *y = ((const GmshFacet *)b)->nodes;
 
   for (int i = 0; i < 4; ++i) {
     if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
@@ -263,21 +263,21 @@ static int CompareFacets(const void *a, const void *b)
 }
 
 /* Cells that meet in four nodes must have the same facet there, and no more than two meet */
-static PetscBool CheckFacets(GmshCheck *check)
+static PetscBool GmshCheckFacets(GmshCheck *check)
 {
-  if (check->nfacets) qsort(check->facets, (size_t)check->nfacets, sizeof(*check->facets), CompareFacets);
+  if (check->nfacets) qsort(check->facets, (size_t)check->nfacets, sizeof(*check->facets), GmshCompareFacets);
   for (PetscInt64 i = 1; i < check->nfacets; ++i) {
-    const Facet *here = &check->facets[i], *before = here - 1;
+    const GmshFacet *here = &check->facets[i], *before = here - 1;
 
-    if (CompareFacets(here, before)) continue;
+    if (GmshCompareFacets(here, before)) continue;
     if (here->across != before->across) return GmshWrong(&check->in, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
-    if (i > 1 && !CompareFacets(here, here - 2)) return GmshWrong(&check->in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
+    if (i > 1 && !GmshCompareFacets(here, here - 2)) return GmshWrong(&check->in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
   }
   return PETSC_TRUE;
 }
 
 /* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them */
-static PetscErrorCode CheckElements2(GmshCheck *check, PetscInt64 total, PetscBool *sound)
+static PetscErrorCode GmshCheckElements2(GmshCheck *check, PetscInt64 total, PetscBool *sound)
 {
   PetscFunctionBegin;
   for (PetscInt64 c = 0; c < total && *sound;) {
@@ -286,21 +286,21 @@ static PetscErrorCode CheckElements2(GmshCheck *check, PetscInt64 total, PetscBo
     *sound = GmshGetNumbers(&check->in, 4, 3, head);
     type   = check->in.binary ? head[0] : head[1];
     count  = check->in.binary ? head[1] : 1;
-    if (*sound) *sound = GetType(check, type, &dim, &nnodes);
+    if (*sound) *sound = GmshGetType(check, type, &dim, &nnodes);
     if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS)) *sound = GmshWrong(&check->in, "an element has %lld tags", (long long)head[2]);
     if (*sound && (count < 1 || c + count > total)) *sound = GmshWrong(&check->in, "it has more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       const PetscInt64 *nodes = numbers + 1 + head[2];
 
       numbers[0] = head[0];
-      *sound     = GmshGetNumbers(&check->in, 4, (check->in.binary ? 1 : 0) + head[2] + nnodes, numbers + (check->in.binary ? 0 : 1)) && CheckCorners(check, numbers[0], nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
-      if (*sound) PetscCall(AddFacets(check, type, numbers[0], nodes));
+      *sound     = GmshGetNumbers(&check->in, 4, (check->in.binary ? 1 : 0) + head[2] + nnodes, numbers + (check->in.binary ? 0 : 1)) && GmshCheckCorners(check, numbers[0], nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
+      if (*sound) PetscCall(GmshAddFacets(check, type, numbers[0], nodes));
     }
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, PetscInt64 total, PetscBool *sound)
+static PetscErrorCode GmshCheckElements4(GmshCheck *check, PetscInt64 nblocks, PetscInt64 total, PetscBool *sound)
 {
   PetscInt64 c = 0;
 
@@ -308,51 +308,51 @@ static PetscErrorCode CheckElements4(GmshCheck *check, PetscInt64 nblocks, Petsc
   for (PetscInt64 b = 0; b < nblocks && *sound; ++b) {
     PetscInt64 type = 0, dim = 0, typedim = 0, nnodes = 0, count = 0;
 
-    PetscCall(CheckBlock(check, &dim, &type, &count, sound));
-    if (*sound) *sound = GetType(check, type, &typedim, &nnodes);
+    PetscCall(GmshCheckBlock(check, &dim, &type, &count, sound));
+    if (*sound) *sound = GmshGetType(check, type, &typedim, &nnodes);
     if (*sound && dim != typedim) *sound = GmshWrong(&check->in, "an entity of dimension %lld has elements of dimension %lld", (long long)dim, (long long)typedim);
     if (*sound && c + count > total) *sound = GmshWrong(&check->in, "its blocks have more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       PetscInt64 numbers[1 + 8];
 
-      *sound = GmshGetNumbers(&check->in, check->in.version == 40 ? 4 : check->in.width, 1 + nnodes, numbers) && CheckCorners(check, numbers[0], nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
-      if (*sound) PetscCall(AddFacets(check, type, numbers[0], numbers + 1));
+      *sound = GmshGetNumbers(&check->in, check->in.version == 40 ? 4 : check->in.width, 1 + nnodes, numbers) && GmshCheckCorners(check, numbers[0], nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
+      if (*sound) PetscCall(GmshAddFacets(check, type, numbers[0], numbers + 1));
     }
   }
   if (*sound && c != total) *sound = GmshWrong(&check->in, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckElements(GmshCheck *check, PetscBool *sound)
+static PetscErrorCode GmshCheckElements(GmshCheck *check, PetscBool *sound)
 {
   PetscInt64 nblocks, total, range[2];
 
   PetscFunctionBegin;
-  PetscCall(GetBlocks(check, "elements", &nblocks, &total, range, sound));
-  if (*sound && check->in.version < 40) PetscCall(CheckElements2(check, total, sound));
-  else if (*sound) PetscCall(CheckElements4(check, nblocks, total, sound));
-  if (*sound) *sound = CheckFacets(check);
+  PetscCall(GmshGetBlocks(check, "elements", &nblocks, &total, range, sound));
+  if (*sound && check->in.version < 40) PetscCall(GmshCheckElements2(check, total, sound));
+  else if (*sound) PetscCall(GmshCheckElements4(check, nblocks, total, sound));
+  if (*sound) *sound = GmshCheckFacets(check);
   if (*sound) *sound = GmshExpectNext(&check->in, "$EndElements");
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckSections(GmshCheck *check)
+static PetscErrorCode GmshCheckSections(GmshCheck *check)
 {
   char      word[GMSH_WORD];
   PetscBool sound;
 
   PetscFunctionBegin;
-  sound = CheckFormat(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
-  if (sound && !strcmp(word, "$PhysicalNames")) sound = CheckNames(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
+  sound = GmshCheckFormat(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound && !strcmp(word, "$PhysicalNames")) sound = GmshCheckNames(check) && GmshGetSection(&check->in, word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound && check->in.version >= 40) {
     sound = GmshExpect(&check->in, "$Entities", word);
-    if (sound) PetscCall(CheckEntities(check, &sound));
+    if (sound) PetscCall(GmshCheckEntities(check, &sound));
     if (sound) sound = GmshGetSection(&check->in, word);
   }
   if (sound) sound = GmshExpect(&check->in, "$Nodes", word);
   if (sound) PetscCall(GmshCheckNodes(check, &sound));
   if (sound) sound = GmshGetSection(&check->in, word) && GmshExpect(&check->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
-  if (sound) PetscCall(CheckElements(check, &sound));
+  if (sound) PetscCall(GmshCheckElements(check, &sound));
   PetscFunctionReturn(0);
 }
 
@@ -367,7 +367,7 @@ PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[])
   else {
     check.in.size = (PetscInt64)ftell(check.in.file);
     rewind(check.in.file);
-    PetscCall(CheckSections(&check));
+    PetscCall(GmshCheckSections(&check));
   }
   if (check.in.file) (void)fclose(check.in.file);
   for (int dim = 0; dim < 4; ++dim) PetscCall(PetscFree(check.entities[dim]));

@@ -2,7 +2,7 @@
 #include "meshimpl.h"
 
 /* Both sides of a block that are normal to direction d */
-static void BlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
+static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
 {
   const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
 
@@ -26,7 +26,7 @@ static void BlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
   }
 }
 
-static void BlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
+static void ShapeBlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
 {
   for (PetscInt k = 0; k < block->n[2]; ++k) {
     for (PetscInt j = 0; j < block->n[1]; ++j) {
@@ -56,8 +56,8 @@ PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], Pets
   grid->ncells    = 0;
   grid->nfacets   = 0;
   for (PetscInt b = 0; b < nblocks; ++b) {
-    BlockCells(&blocks[b], mirrored ? 1 : 0, grid);
-    for (PetscInt d = 0; d < 3; ++d) BlockFacets(&blocks[b], d, grid);
+    ShapeBlockCells(&blocks[b], mirrored ? 1 : 0, grid);
+    for (PetscInt d = 0; d < 3; ++d) ShapeBlockFacets(&blocks[b], d, grid);
   }
   PetscFunctionReturn(0);
 }
@@ -73,7 +73,7 @@ PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
 }
 
 /* Length of the first i cells: `even` of length 1, then growing by the ratio */
-static PetscReal GradedLength(PetscReal ratio, PetscInt even, PetscInt i)
+static PetscReal ShapeGradedLength(PetscReal ratio, PetscInt even, PetscInt i)
 {
   if (i <= even) return (PetscReal)i;
   return (PetscReal)even + ratio * (PetscPowReal(ratio, (PetscReal)(i - even)) - 1) / (ratio - 1);
@@ -87,7 +87,7 @@ PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
   if (grading == 0 || grading == 1 || n <= even || i == 0 || i == n) return (PetscReal)i / (PetscReal)n;
   if (grading < 1) return 1 - ShapeGraded(1 / grading, even, n, n - i);
   ratio = PetscPowReal(grading, 1 / (PetscReal)(n - even));
-  return GradedLength(ratio, even, i) / GradedLength(ratio, even, n);
+  return ShapeGradedLength(ratio, even, i) / ShapeGradedLength(ratio, even, n);
 }
 
 PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)

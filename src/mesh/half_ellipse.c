@@ -29,7 +29,7 @@ static const char *const *ShapeFaces_HalfEllipse(const SceneBody *body)
   return body->ellipse.half < 0 ? both : quarter;
 }
 
-static void HalfEllipseSetUp(const SceneBody *body, HalfEllipse *e)
+static void EllipseSetUp(const SceneBody *body, HalfEllipse *e)
 {
   const PetscInt halves = body->ellipse.half < 0 ? 2 : 1;
 
@@ -61,13 +61,13 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
   }
   PetscCall(ShapeCheckCount(comm, body, "along the axis (layers)", body->layers));
   PetscCall(ShapeCheckTotal(comm, body, halves * ((PetscReal)body->cells[0] + body->cells[2] + 1) * ((PetscReal)body->cells[1] + body->cells[2] + 1) * ((PetscReal)body->layers + 1)));
-  HalfEllipseSetUp(body, &e);
+  EllipseSetUp(body, &e);
   *ncells    = (PetscInt64)e.length * (e.core[0] * (e.middle + e.core[1]) + e.ring * (e.nring - 1));
   *nvertices = (PetscInt64)(e.length + 1) * e.nsection;
   PetscFunctionReturn(0);
 }
 
-static PetscInt CoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+static PetscInt EllipseCoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
 
@@ -75,40 +75,40 @@ static PetscInt CoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt
 }
 
 /* Vertex `layer` outside of the outline's vertex number `at`, counted with v growing */
-static PetscInt RingVertex(const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k)
+static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k)
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
 
   if (layer) return k * e->nsection + (e->core[0] + 1) * (across + 1) + (layer - 1) * e->nring + at;
-  if (at < below) return CoreVertex(e, at, 0, k);
-  if (at <= below + across) return CoreVertex(e, e->core[0], at - below, k);
-  return CoreVertex(e, e->core[0] - (at - below - across), across, k);
+  if (at < below) return EllipseCoreVertex(e, at, 0, k);
+  if (at <= below + across) return EllipseCoreVertex(e, e->core[0], at - below, k);
+  return EllipseCoreVertex(e, e->core[0] - (at - below - across), across, k);
 }
 
 /* The three sides of the ring, each right-handed */
-static PetscInt BelowVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
+static PetscInt EllipseBelowVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
 
-  return RingVertex(e, e->ring - layer, i, k);
+  return EllipseRingVertex(e, e->ring - layer, i, k);
 }
 
-static PetscInt CrownVertex(const void *context, PetscInt layer, PetscInt j, PetscInt k)
+static PetscInt EllipseCrownVertex(const void *context, PetscInt layer, PetscInt j, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
 
-  return RingVertex(e, layer, (e->middle ? e->core[0] : 0) + j, k);
+  return EllipseRingVertex(e, layer, (e->middle ? e->core[0] : 0) + j, k);
 }
 
-static PetscInt AboveVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
+static PetscInt EllipseAboveVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
 
-  return RingVertex(e, layer, e->nring - 1 - i, k);
+  return EllipseRingVertex(e, layer, e->nring - 1 - i, k);
 }
 
 /* Place of the core's vertex i along depth, or j across: counted from the plane of symmetry, on both sides */
-static PetscReal CoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
+static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
 {
   const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i));
 
@@ -116,37 +116,37 @@ static PetscReal CoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
 }
 
 /* u, v of an outline's vertex */
-static void OutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
+static void EllipseOutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
 
   uv[0] = uv[1] = 1;
   if (at < below) {
-    uv[0] = CoreParameter(body, 0, at);
+    uv[0] = EllipseCoreParameter(body, 0, at);
     uv[1] = -1;
-  } else if (at <= below + across) uv[1] = CoreParameter(body, 1, at - below - e->middle);
-  else uv[0] = CoreParameter(body, 0, e->core[0] - (at - below - across));
+  } else if (at <= below + across) uv[1] = EllipseCoreParameter(body, 1, at - below - e->middle);
+  else uv[0] = EllipseCoreParameter(body, 0, e->core[0] - (at - below - across));
 }
 
-static void SectionCoordinates(const SceneBody *body, const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
+static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
 {
   const PetscReal w = (PetscReal)k / e->length;
 
   for (PetscInt j = 0; j <= e->middle + e->core[1]; ++j) {
     for (PetscInt i = 0; i <= e->core[0]; ++i) {
-      PetscReal *p = grid->coordinates + 3 * CoreVertex(e, i, j, k);
+      PetscReal *p = grid->coordinates + 3 * EllipseCoreVertex(e, i, j, k);
 
-      p[0] = CoreParameter(body, 0, i);
-      p[1] = CoreParameter(body, 1, j - e->middle);
+      p[0] = EllipseCoreParameter(body, 0, i);
+      p[1] = EllipseCoreParameter(body, 1, j - e->middle);
       p[2] = w;
     }
   }
   for (PetscInt layer = 1; layer <= e->ring; ++layer) {
     for (PetscInt at = 0; at < e->nring; ++at) {
       const PetscReal m = 1 + ShapeGraded(body->grading[2], body->even[2], e->ring, layer);
-      PetscReal      *p = grid->coordinates + 3 * RingVertex(e, layer, at, k), uv[2];
+      PetscReal      *p = grid->coordinates + 3 * EllipseRingVertex(e, layer, at, k), uv[2];
 
-      OutlineParameters(body, e, at, uv);
+      EllipseOutlineParameters(body, e, at, uv);
       p[0] = m * uv[0];
       p[1] = m * uv[1];
       p[2] = w;
@@ -170,26 +170,26 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
   HalfEllipse e;
 
   PetscFunctionBegin;
-  HalfEllipseSetUp(body, &e);
+  EllipseSetUp(body, &e);
   {
     const PetscInt   across   = e.middle + e.core[1];
     const PetscInt   symmetry = e.middle ? PETSC_DECIDE : ELLIPSE_SYMMETRY;
     const ShapeBlock blocks[] = {
-      {{e.core[0], across, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, CoreVertex},
-      {{e.ring, across, e.length}, {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, CrownVertex},
-      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, AboveVertex},
-      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, BelowVertex},
+      {{e.core[0], across, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseCoreVertex},
+      {{e.ring, across, e.length}, {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseCrownVertex},
+      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseAboveVertex},
+      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseBelowVertex},
     };
 
     PetscCall(ShapeGridCreate(e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
   }
-  for (PetscInt k = 0; k <= e.length; ++k) SectionCoordinates(body, &e, k, grid);
+  for (PetscInt k = 0; k <= e.length; ++k) EllipseSectionCoordinates(body, &e, k, grid);
   PetscFunctionReturn(0);
 }
 
 /* Length of the arc from the crown to the angle, measured at the auxiliary circle: 4 panels of 8 Gauss points reach rounding
    for ratios of the semi-axes up to about 5, and stay monotone beyond, where the arc is cut into not quite equal parts */
-static PetscReal ArcLength(const PetscReal semi_axes[2], PetscReal angle)
+static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
 {
   static const PetscReal point[4]  = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
   static const PetscReal weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
@@ -207,14 +207,14 @@ static PetscReal ArcLength(const PetscReal semi_axes[2], PetscReal angle)
 }
 
 /* Point (depth, across) of the quarter arc at a fraction of its length from the crown */
-static void ArcPoint(const PetscReal semi_axes[2], PetscReal fraction, PetscReal point[2])
+static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, PetscReal point[2])
 {
-  const PetscReal target = fraction * ArcLength(semi_axes, PETSC_PI / 2);
+  const PetscReal target = fraction * EllipseArcLength(semi_axes, PETSC_PI / 2);
   PetscReal       low = 0, high = PETSC_PI / 2, angle = fraction * PETSC_PI / 2;
 
   /* Newton, kept in the bracket */
   for (PetscInt i = 0; i < 50; ++i) {
-    const PetscReal excess = ArcLength(semi_axes, angle) - target;
+    const PetscReal excess = EllipseArcLength(semi_axes, angle) - target;
     const PetscReal slope  = PetscSqrtReal(PetscSqr(semi_axes[0] * PetscSinReal(angle)) + PetscSqr(semi_axes[1] * PetscCosReal(angle)));
     const PetscReal next   = angle - excess / slope;
 
@@ -228,7 +228,7 @@ static void ArcPoint(const PetscReal semi_axes[2], PetscReal fraction, PetscReal
 }
 
 /* From (u, v) with v >= 0 to (depth, across) */
-static void SectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal place[2])
+static void EllipseSectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal place[2])
 {
   const PetscReal *a       = body->ellipse.semi_axes;
   const PetscReal  ring    = body->cells[2];
@@ -238,13 +238,13 @@ static void SectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal p
   const PetscReal  q[2] = {uv[0] / scale, uv[1] / scale};
   PetscReal        corner[2], arc[2];
 
-  ArcPoint(a, body->cells[1] / total, corner);
+  EllipseArcPoint(a, body->cells[1] / total, corner);
   /* The core: bilinear, its corner below that of the arc by the mean thickness of the ring */
   for (PetscInt d = 0; d < 2; ++d) corner[d] *= (edge[0] + edge[1]) / 2;
   place[0] = q[0] * (1 - q[1]) * edge[0] * a[0] + q[0] * q[1] * corner[0];
   place[1] = q[1] * (1 - q[0]) * edge[1] * a[1] + q[0] * q[1] * corner[1];
   if (m <= 1) return;
-  ArcPoint(a, (q[1] < 1 ? q[1] * body->cells[1] : body->cells[1] + (1 - q[0]) * body->cells[0]) / total, arc);
+  EllipseArcPoint(a, (q[1] < 1 ? q[1] * body->cells[1] : body->cells[1] + (1 - q[0]) * body->cells[0]) / total, arc);
   for (PetscInt d = 0; d < 2; ++d) place[d] = (2 - m) * place[d] + (m - 1) * arc[d];
 }
 
@@ -257,7 +257,7 @@ static PetscErrorCode ShapeMap_HalfEllipse(const SceneBody *body, const PetscRea
   PetscReal               place[2];
 
   PetscFunctionBegin;
-  SectionMap(body, uv, place);
+  EllipseSectionMap(body, uv, place);
   x[depth]   = e->center[depth] + (e->depth >= 3 ? -place[0] : place[0]);
   x[across]  = e->center[across] + side * place[1];
   x[e->axis] = (1 - w) * e->extent[0] + w * e->extent[1];

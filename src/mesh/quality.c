@@ -26,7 +26,7 @@ static PetscReal CellQuality(PetscReal x[8][3])
 }
 
 /* Is a before b along x, or else along y, or else along z? */
-static PetscBool IsBefore(const PetscReal a[3], const PetscReal b[3])
+static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
 {
   for (PetscInt d = 0; d < 3; ++d) {
     if (a[d] != b[d]) return a[d] < b[d] ? PETSC_TRUE : PETSC_FALSE;
@@ -35,7 +35,7 @@ static PetscBool IsBefore(const PetscReal a[3], const PetscReal b[3])
 }
 
 /* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are this rank's */
-static PetscErrorCode ReportBadCells(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[], PetscReal place[][3])
+static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[], PetscReal place[][3])
 {
   PetscInt *total;
 
@@ -92,11 +92,11 @@ PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[],
     }
     if (CellQuality(x) > 1e-12) continue;
     for (PetscInt i = 0; i < 24; ++i) center[i % 3] += x[i / 3][i % 3] / 8;
-    if (IsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
+    if (QualityIsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
     ++count[b];
   }
   PetscCall(VecRestoreArrayRead(coordinates, &array));
-  PetscCall(ReportBadCells(PetscObjectComm((PetscObject)dm), nbodies, bodies, count, place));
+  PetscCall(QualityRaise(PetscObjectComm((PetscObject)dm), nbodies, bodies, count, place));
   PetscCall(PetscFree2(count, place));
   PetscFunctionReturn(0);
 }

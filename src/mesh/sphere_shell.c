@@ -23,7 +23,7 @@ static void ShellDistances(const SceneBody *body, const PetscReal direction[3], 
   if (body->octant.cap.radius > 0) *outer = PetscMin(*outer, SphereDistance(body, &body->octant.cap, direction));
 }
 
-static PetscErrorCode CheckCornerInside(MPI_Comm comm, const SceneBody *body, const char what[], const SceneSphere *sphere)
+static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, const char what[], const SceneSphere *sphere)
 {
   PetscReal square = 0;
 
@@ -40,9 +40,9 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
 
   PetscFunctionBegin;
   PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the radius of the cap must be positive, or 0 for none, but is %g", body->name, (double)body->octant.cap.radius);
-  PetscCall(CheckCornerInside(comm, body, "inner", &body->octant.inner));
-  PetscCall(CheckCornerInside(comm, body, "outer", &body->octant.outer));
-  if (body->octant.cap.radius > 0) PetscCall(CheckCornerInside(comm, body, "cap", &body->octant.cap));
+  PetscCall(ShellCheckCorner(comm, body, "inner", &body->octant.inner));
+  PetscCall(ShellCheckCorner(comm, body, "outer", &body->octant.outer));
+  if (body->octant.cap.radius > 0) PetscCall(ShellCheckCorner(comm, body, "cap", &body->octant.cap));
   for (PetscInt i = 0; i < 3 * PetscSqr(samples + 1); ++i) {
     const PetscInt column = i / 3 % (samples + 1), row = i / 3 / (samples + 1);
     PetscReal      q[3], direction[3], inner, outer;

@@ -29,7 +29,7 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
 
 /* Is the centroid of a facet's corners within the bounds, or on them but for rounding? Where the body is curved, its vertices
    are still parameters */
-static PetscErrorCode FacetIsInside(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
+static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
 {
   const Shape *shape;
   PetscReal    x[4][3], centroid[3] = {0, 0, 0}, size = 0;
@@ -69,7 +69,7 @@ PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *
       for (PetscInt a = 0; a < 4; ++a) corners[a] = first + grid->facets[4 * q + a];
       PetscCall(DMPlexGetFullJoin(dm, 4, corners, &njoin, &join));
       PetscCall(DMGetLabelValue(dm, whole, join[0], &value));
-      PetscCall(FacetIsInside(body, subface, grid, q, &inside));
+      PetscCall(SubfaceHoldsFacet(body, subface, grid, q, &inside));
       if (value == 1 && inside) {
         PetscCall(DMSetLabelValue(dm, name, join[0], 1));
         ++nselected;

@@ -159,7 +159,7 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
 }
 
 /* Takes the component along a unit vector out of a row */
-static void Orthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
+static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
 {
   PetscReal dot = 0;
 
@@ -184,7 +184,7 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
       PetscReal norm = 0;
 
       /* Twice, for orthogonality to rounding */
-      for (PetscInt q = 0; q < 2 * rank; ++q) Orthogonalize(n, gram + (q % rank) * n, gram + r * n);
+      for (PetscInt q = 0; q < 2 * rank; ++q) SupportOrthogonalize(n, gram + (q % rank) * n, gram + r * n);
       for (PetscInt i = 0; i < n; ++i) norm += PetscSqr(gram[r * n + i]);
       if (norm > largest) {
         for (PetscInt i = 0; r != rank && i < n; ++i) {
@@ -230,7 +230,7 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
 }
 
 /* A surface of a Gmsh file need not bound the body whose face it is said to be */
-static PetscErrorCode CheckFacets(DM dm, const char what[], const char owner[], const char face[])
+static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
 {
   IS       facets;
   PetscInt n, total;
@@ -266,11 +266,11 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   PetscReal *outside;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(CheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
-  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(CheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    PetscCall(CheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
-    PetscCall(CheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
+    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
+    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
   }
   PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
   PetscCall(SupportMeasureBodies(&support));

@@ -40,7 +40,7 @@ static PetscErrorCode BodyMeshAddCell(DM dm, Vec coordinates, PetscInt cell, Pet
 }
 
 /* Bounds that are 0 up to rounding are printed as 0 */
-static void CleanBounds(BodyMesh *mesh)
+static void BodyMeshCleanBounds(BodyMesh *mesh)
 {
   for (PetscInt i = 0; i < 3; ++i) {
     const PetscReal tiny = 1e-12 * (mesh->upper[i] - mesh->lower[i]);
@@ -50,7 +50,7 @@ static void CleanBounds(BodyMesh *mesh)
   }
 }
 
-static PetscErrorCode MeasureBodies(DM dm, PetscInt nbodies, BodyMesh meshes[])
+static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshes[])
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
   PetscInt start, end, vstart, vend, body;
@@ -76,7 +76,7 @@ static PetscErrorCode MeasureBodies(DM dm, PetscInt nbodies, BodyMesh meshes[])
     meshes[b].nvertices = counts[1];
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
-    CleanBounds(&meshes[b]);
+    BodyMeshCleanBounds(&meshes[b]);
   }
   PetscFunctionReturn(0);
 }
@@ -88,7 +88,7 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &meshes));
-  PetscCall(MeasureBodies(dm, scene->nbodies, meshes));
+  PetscCall(BodyMeshMeasureAll(dm, scene->nbodies, meshes));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Bodies, refined %" PetscInt_FMT " times\n", scene->refine));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
@@ -105,7 +105,7 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode MeasureFace(DM dm, const char face[], PetscInt *nfacets, PetscReal *area)
+static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nfacets, PetscReal *area)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
   IS              facets;
@@ -117,10 +117,10 @@ static PetscErrorCode MeasureFace(DM dm, const char face[], PetscInt *nfacets, P
   PetscCall(ISGetLocalSize(facets, nfacets));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < *nfacets; ++i) {
-    PetscReal part;
+    PetscReal facet;
 
-    PetscCall(DMPlexComputeCellGeometryFVM(dm, f[i], &part, NULL, NULL));
-    *area += part;
+    PetscCall(DMPlexComputeCellGeometryFVM(dm, f[i], &facet, NULL, NULL));
+    *area += facet;
   }
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
@@ -147,7 +147,7 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
   PetscCall(PetscSortStrWithPermutation(n, faces, order));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscCall(MeasureFace(dm, faces[order[i]], &nfacets, &area));
+    PetscCall(DescribeMeasureFace(dm, faces[order[i]], &nfacets, &area));
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
   }
   PetscCall(PetscFree2(faces, order));
@@ -225,12 +225,12 @@ static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const 
   PetscFunctionReturn(0);
 }
 
-static PetscBool BodyIsFinite(const SceneBody *body)
+static PetscBool DescribeIsFinite(const SceneBody *body)
 {
   return body->material.type == MATERIAL_LINEAR ? PETSC_FALSE : PETSC_TRUE;
 }
 
-static PetscBool BodyIsBbar(const SceneBody *body)
+static PetscBool DescribeIsBbar(const SceneBody *body)
 {
   return body->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
 }
@@ -248,14 +248,14 @@ static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
   PetscBool finite = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || BodyIsFinite(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || DescribeIsFinite(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, "no contact; one linear solve a step where every body is linear"));
   if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations", scene->contact_updates));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", BodyIsFinite, "every material is linear"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, "every material is linear"));
   if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", BodyIsBbar, "every element is full"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, "every element is full"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));

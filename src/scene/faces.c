@@ -46,11 +46,11 @@ static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneAddSubface(SceneBody *body, SceneSubface *part)
+static PetscErrorCode SceneAddSubface(SceneBody *body, SceneSubface *subface)
 {
   PetscFunctionBegin;
-  PetscCall(PetscRealloc((body->nsubfaces + 1) * sizeof(*part), &body->subfaces));
-  body->subfaces[body->nsubfaces++] = *part;
+  PetscCall(PetscRealloc((body->nsubfaces + 1) * sizeof(*subface), &body->subfaces));
+  body->subfaces[body->nsubfaces++] = *subface;
   PetscFunctionReturn(0);
 }
 
@@ -64,18 +64,18 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
   for (PetscInt f = 0; f < n; ++f) {
     const char  *text, *face = "";
     PetscInt     body;
-    SceneSubface part = {NULL, NULL, {0, 0, 0}, {0, 0, 0}};
+    SceneSubface subface = {NULL, NULL, {0, 0, 0}, {0, 0, 0}};
 
     PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "faces_%s_of", names[f]));
-    PetscCall(SceneReadBounds(keys, names[f], "lower", PETSC_NINFINITY, part.lower));
-    PetscCall(SceneReadBounds(keys, names[f], "upper", PETSC_INFINITY, part.upper));
+    PetscCall(SceneReadBounds(keys, names[f], "lower", PETSC_NINFINITY, subface.lower));
+    PetscCall(SceneReadBounds(keys, names[f], "upper", PETSC_INFINITY, subface.upper));
     body = text ? SceneFindBody(scene, text, &face) : PETSC_DECIDE;
     if (body < 0) {
       if (text) PetscCall(SceneKeysComplain(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>", names[f], text));
     } else {
-      PetscCall(PetscStrallocpy(names[f], &part.name));
-      PetscCall(PetscStrallocpy(face, &part.of));
-      PetscCall(SceneAddSubface(&scene->bodies[body], &part));
+      PetscCall(PetscStrallocpy(names[f], &subface.name));
+      PetscCall(PetscStrallocpy(face, &subface.of));
+      PetscCall(SceneAddSubface(&scene->bodies[body], &subface));
     }
     PetscCall(PetscFree(names[f]));
   }
@@ -84,20 +84,20 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
 }
 
 /* As SceneReadBounds() sets it: PETSC_INFINITY is a finite number in some releases */
-static PetscBool IsInfinite(PetscReal bound)
+static PetscBool SceneBoundIsInfinite(PetscReal bound)
 {
   return PetscAbsReal(bound) >= PETSC_INFINITY ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* A bound that is infinite all over is not shown */
-static PetscErrorCode ViewBounds(PetscViewer viewer, const char which[], const PetscReal bounds[3])
+static PetscErrorCode SceneViewBounds(PetscViewer viewer, const char which[], const PetscReal bounds[3])
 {
   PetscFunctionBegin;
-  if (IsInfinite(bounds[0]) && IsInfinite(bounds[1]) && IsInfinite(bounds[2])) PetscFunctionReturn(0);
+  if (SceneBoundIsInfinite(bounds[0]) && SceneBoundIsInfinite(bounds[1]) && SceneBoundIsInfinite(bounds[2])) PetscFunctionReturn(0);
   PetscCall(PetscViewerASCIIPrintf(viewer, ", %s: [", which));
   for (PetscInt d = 0; d < 3; ++d) {
     if (d) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
-    if (IsInfinite(bounds[d])) PetscCall(PetscViewerASCIIPrintf(viewer, bounds[d] < 0 ? "-inf" : "inf"));
+    if (SceneBoundIsInfinite(bounds[d])) PetscCall(PetscViewerASCIIPrintf(viewer, bounds[d] < 0 ? "-inf" : "inf"));
     else PetscCall(SceneViewReal(viewer, bounds[d]));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
@@ -115,12 +115,12 @@ PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     for (PetscInt s = 0; s < scene->bodies[b].nsubfaces; ++s) {
-      const SceneSubface *part = &scene->bodies[b].subfaces[s];
+      const SceneSubface *subface = &scene->bodies[b].subfaces[s];
 
-      PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {of: %s.%s", part->name, scene->bodies[b].name, part->of));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {of: %s.%s", subface->name, scene->bodies[b].name, subface->of));
       PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-      PetscCall(ViewBounds(viewer, "lower", part->lower));
-      PetscCall(ViewBounds(viewer, "upper", part->upper));
+      PetscCall(SceneViewBounds(viewer, "lower", subface->lower));
+      PetscCall(SceneViewBounds(viewer, "upper", subface->upper));
       PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
       PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
     }

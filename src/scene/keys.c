@@ -3,7 +3,7 @@
 #include <stdarg.h>
 
 /* On the first rank: the whole file, ended by a zero */
-static PetscErrorCode SceneReadText(const char file[], PetscInt64 *length, char **text)
+static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
 {
   FILE     *stream;
   PetscBool exists;
@@ -23,7 +23,7 @@ static PetscErrorCode SceneReadText(const char file[], PetscInt64 *length, char 
 }
 
 /* The text of the file on all ranks, to be freed */
-static PetscErrorCode SceneGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
+static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
 {
   RankError      error;
   PetscErrorCode ierr = 0;
@@ -32,7 +32,7 @@ static PetscErrorCode SceneGetText(MPI_Comm comm, const char file[], PetscInt64 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = SceneReadText(file, length, text);
+  if (rank == 0) ierr = SceneKeysReadText(file, length, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
@@ -50,7 +50,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(SceneGetText(comm, file, &length, &text));
+  PetscCall(SceneKeysGetText(comm, file, &length, &text));
   PetscCall(PetscNew(&k));
   k->comm = comm;
   k->file = file;
@@ -110,7 +110,7 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
 }
 
 /* Levenshtein distance */
-static PetscErrorCode EditDistance(const char a[], const char b[], size_t *distance)
+static PetscErrorCode SceneKeysEditDistance(const char a[], const char b[], size_t *distance)
 {
   size_t na, nb, *row;
 
@@ -142,7 +142,7 @@ static PetscErrorCode SceneKeysNearest(SceneKeys keys, const char key[], const c
   PetscFunctionBegin;
   *nearest = "";
   for (PetscInt i = 0; i < keys->nasked; ++i) {
-    PetscCall(EditDistance(key, keys->asked[i], &distance));
+    PetscCall(SceneKeysEditDistance(key, keys->asked[i], &distance));
     if (distance < best) {
       best     = distance;
       *nearest = keys->asked[i];

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <ctype.h>
 
-static PetscBool IsEnd(const char *s)
+static PetscBool SceneParseAtEnd(const char *s)
 {
   while (isspace((unsigned char)*s)) ++s;
   return *s ? PETSC_FALSE : PETSC_TRUE;
@@ -22,7 +22,7 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
     divisor = strtod(start, &end);
     if (end == start) end = (char *)text;
   }
-  if (end == text || !IsEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
+  if (end == text || !SceneParseAtEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
   else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a finite number", key, text));
   else *value = (PetscReal)(number / divisor);
   PetscFunctionReturn(0);
@@ -34,7 +34,7 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   long long number = strtoll(text, &end, 10);
 
   PetscFunctionBegin;
-  if (end == text || !IsEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
+  if (end == text || !SceneParseAtEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
   else if (number > PETSC_MAX_INT || number < PETSC_MIN_INT) PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);

@@ -93,7 +93,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
    Every error is raised on all ranks: PETSC_ERR_FILE_OPEN and PETSC_ERR_FILE_READ for a file that is not there or no
    YAML, PETSC_ERR_USER_INPUT for what it says.
 
-.seealso: `SceneView()`, `SceneDestroy()`, `PetscOptionsInsertFileYAML()`
+.seealso: `SceneView()`, `SceneDestroy()`, `PetscOptionsInsertStringYAML()`
 @*/
 PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
 {

@@ -213,7 +213,7 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
 }
 
 /* Optional keys that were not given are 0 all over, or the default below */
-static PetscBool IsDefault(const ShapeKey *key, const SceneBody *body)
+static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *body)
 {
   const void *value = (const char *)body + key->offset;
 
@@ -234,7 +234,7 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
     const void     *value = (const char *)body + k->offset;
     const PetscInt *n     = (const PetscInt *)value;
 
-    if (IsDefault(k, body)) continue;
+    if (SceneShapeKeyIsDefault(k, body)) continue;
     if (k->type == KEY_REALS && k->n > 1) PetscCall(SceneViewReals(viewer, k->name, k->n, (const PetscReal *)value));
     else {
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", k->name));

@@ -8,38 +8,38 @@
 
 static const char *const axes[] = {"x", "y", "z", "Axis", "", NULL};
 
-static PetscBool IsOneOf(const char name[], const char a[], const char b[])
+static PetscBool SymmetryIsOneOf(const char name[], const char a[], const char b[])
 {
   return !strcmp(name, a) || !strcmp(name, b) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* xmin, xmax, x0, ymin, ... */
-static PetscInt BoxOrOctantAxis(const char face[])
+static PetscInt SymmetryAxisOfBox(const char face[])
 {
   if (face[0] < 'x' || face[0] > 'z') return PETSC_DECIDE;
-  return IsOneOf(face + 1, "min", "max") || !strcmp(face + 1, "0") ? face[0] - 'x' : PETSC_DECIDE;
+  return SymmetryIsOneOf(face + 1, "min", "max") || !strcmp(face + 1, "0") ? face[0] - 'x' : PETSC_DECIDE;
 }
 
-static PetscInt TubeArcAxis(const SceneTubeArc *tube, const char face[])
+static PetscInt SymmetryAxisOfTubeArc(const SceneTubeArc *tube, const char face[])
 {
   PetscReal quarters;
 
-  if (IsOneOf(face, "lmin", "lmax")) return tube->axis;
-  if (!IsOneOf(face, "amin", "amax")) return PETSC_DECIDE;
+  if (SymmetryIsOneOf(face, "lmin", "lmax")) return tube->axis;
+  if (!SymmetryIsOneOf(face, "amin", "amax")) return PETSC_DECIDE;
   quarters = tube->angles[!strcmp(face, "amax")] / 90;
   if (quarters != PetscFloorReal(quarters)) return PETSC_DECIDE;
   return (tube->axis + (PetscFmodReal(quarters, 2) == 0 ? 2 : 1)) % 3;
 }
 
-static PetscInt HalfEllipseAxis(const SceneHalfEllipse *ellipse, const char face[])
+static PetscInt SymmetryAxisOfHalfEllipse(const SceneHalfEllipse *ellipse, const char face[])
 {
-  if (IsOneOf(face, "lmin", "lmax")) return ellipse->axis;
+  if (SymmetryIsOneOf(face, "lmin", "lmax")) return ellipse->axis;
   if (!strcmp(face, "flat")) return ellipse->depth % 3;
   return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
 }
 
 /* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
-static PetscInt SceneFaceAxis(Scene scene, const char face[])
+static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
 {
   const char      *name;
   const PetscInt   b = SceneFindBody(scene, face, &name);
@@ -47,15 +47,15 @@ static PetscInt SceneFaceAxis(Scene scene, const char face[])
 
   if (b < 0) return PETSC_DECIDE;
   body = &scene->bodies[b];
-  if (body->shape == SHAPE_TUBE_ARC) return TubeArcAxis(&body->tube, name);
-  if (body->shape == SHAPE_HALF_ELLIPSE) return HalfEllipseAxis(&body->ellipse, name);
-  return body->shape == SHAPE_GMSH ? PETSC_DECIDE : BoxOrOctantAxis(name);
+  if (body->shape == SHAPE_TUBE_ARC) return SymmetryAxisOfTubeArc(&body->tube, name);
+  if (body->shape == SHAPE_HALF_ELLIPSE) return SymmetryAxisOfHalfEllipse(&body->ellipse, name);
+  return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);
 }
 
 /* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis is unknown */
 static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
 {
-  const PetscInt axis = SceneFaceAxis(scene, face);
+  const PetscInt axis = SymmetryAxisOfFace(scene, face);
   char           name[SCENE_KEY_LENGTH];
 
   PetscFunctionBegin;

@@ -4,7 +4,7 @@
 
 #define SceneRequire(cond, ...) PetscCheck(cond, comm, PETSC_ERR_USER_INPUT, __VA_ARGS__)
 
-static PetscErrorCode ValidateBodies(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -22,7 +22,7 @@ static PetscErrorCode ValidateBodies(MPI_Comm comm, const char file[], Scene sce
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ValidateDisplacements(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscBool same;
 
@@ -42,14 +42,14 @@ static PetscErrorCode ValidateDisplacements(MPI_Comm comm, const char file[], Sc
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ValidatePressures(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SceneValidateFace(comm, file, scene, "pressure", scene->pressures[p].name, scene->pressures[p].face));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ValidateContact(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
@@ -80,9 +80,9 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   SceneRequire(scene->refine >= 0, "%s: refine = %" PetscInt_FMT ", which must be at least 0", file, scene->refine);
   SceneRequire(!scene->displacement_bounds || (scene->displacement_bounds >= 2 && scene->displacement_bounds <= scene->nsteps), "%s: displacement_bounds = %" PetscInt_FMT "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and at most the last, %" PetscInt_FMT, file, scene->displacement_bounds, scene->nsteps);
   SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file, scene->contact_updates);
-  PetscCall(ValidateBodies(comm, file, scene));
-  PetscCall(ValidateDisplacements(comm, file, scene));
-  PetscCall(ValidatePressures(comm, file, scene));
-  PetscCall(ValidateContact(comm, file, scene));
+  PetscCall(SceneValidateBodies(comm, file, scene));
+  PetscCall(SceneValidateDisplacements(comm, file, scene));
+  PetscCall(SceneValidatePressures(comm, file, scene));
+  PetscCall(SceneValidateContact(comm, file, scene));
   PetscFunctionReturn(0);
 }

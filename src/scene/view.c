@@ -2,7 +2,7 @@
 #include "sceneimpl.h"
 #include <petscviewer.h>
 
-static PetscErrorCode ViewBody(Scene scene, PetscViewer viewer, PetscInt b)
+static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
   const SceneBody *body        = &scene->bodies[b];
   const PetscReal  constants[] = {body->material.young, body->material.poisson};
@@ -28,7 +28,7 @@ static PetscErrorCode ViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 }
 
 /* The end of an entry: the ramp it follows if that is not the load itself, and its bracket */
-static PetscErrorCode ViewRampName(Scene scene, PetscViewer viewer, PetscInt ramp)
+static PetscErrorCode SceneViewRampName(Scene scene, PetscViewer viewer, PetscInt ramp)
 {
   PetscFunctionBegin;
   if (ramp) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[ramp].name));
@@ -36,7 +36,7 @@ static PetscErrorCode ViewRampName(Scene scene, PetscViewer viewer, PetscInt ram
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewDisplacement(Scene scene, PetscViewer viewer, PetscInt d)
+static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, PetscInt d)
 {
   const SceneDisplacement *displacement = &scene->displacements[d];
 
@@ -49,12 +49,12 @@ static PetscErrorCode ViewDisplacement(Scene scene, PetscViewer viewer, PetscInt
     else PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
-  PetscCall(ViewRampName(scene, viewer, displacement->ramp));
+  PetscCall(SceneViewRampName(scene, viewer, displacement->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewPressure(Scene scene, PetscViewer viewer, PetscInt p)
+static PetscErrorCode SceneViewPressure(Scene scene, PetscViewer viewer, PetscInt p)
 {
   const ScenePressure *pressure = &scene->pressures[p];
 
@@ -62,12 +62,12 @@ static PetscErrorCode ViewPressure(Scene scene, PetscViewer viewer, PetscInt p)
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: ", pressure->name, pressure->face));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   PetscCall(SceneViewReal(viewer, pressure->value));
-  PetscCall(ViewRampName(scene, viewer, pressure->ramp));
+  PetscCall(SceneViewRampName(scene, viewer, pressure->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewBodyForce(Scene scene, PetscViewer viewer, PetscInt f)
+static PetscErrorCode SceneViewBodyForce(Scene scene, PetscViewer viewer, PetscInt f)
 {
   const SceneBodyForce *force = &scene->forces[f];
 
@@ -77,12 +77,12 @@ static PetscErrorCode ViewBodyForce(Scene scene, PetscViewer viewer, PetscInt f)
   if (force->body >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %s, ", scene->bodies[force->body].name));
   PetscCall(PetscViewerASCIIPrintf(viewer, "value: "));
   PetscCall(SceneViewList(viewer, 3, force->value));
-  PetscCall(ViewRampName(scene, viewer, force->ramp));
+  PetscCall(SceneViewRampName(scene, viewer, force->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewPair(Scene scene, PetscViewer viewer, PetscInt p)
+static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
 {
   const SceneContactPair *pair = &scene->pairs[p];
 
@@ -98,7 +98,7 @@ static PetscErrorCode ViewPair(Scene scene, PetscViewer viewer, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
+static PetscErrorCode SceneViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {factors: ", scene->ramps[1 + r].name));
@@ -110,7 +110,7 @@ static PetscErrorCode ViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
 }
 
 /* In double quotes: a value may hold what YAML takes for its own */
-static PetscErrorCode ViewOption(Scene scene, PetscViewer viewer, PetscInt o)
+static PetscErrorCode SceneViewOption(Scene scene, PetscViewer viewer, PetscInt o)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s: \"", scene->options[o].name));
@@ -121,7 +121,7 @@ static PetscErrorCode ViewOption(Scene scene, PetscViewer viewer, PetscInt o)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ViewEntries(Scene scene, PetscViewer viewer, const char key[], PetscInt n, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
+static PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const char key[], PetscInt n, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
 {
   PetscFunctionBegin;
   if (!n) PetscFunctionReturn(0);
@@ -149,21 +149,21 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "problem: %s\n", scene->name));
-  PetscCall(ViewEntries(scene, viewer, "bodies", scene->nbodies, ViewBody));
+  PetscCall(SceneViewEntries(scene, viewer, "bodies", scene->nbodies, SceneViewBody));
   PetscCall(SceneViewFaces(scene, viewer));
-  PetscCall(ViewEntries(scene, viewer, "displacements", scene->ndisplacements, ViewDisplacement));
-  PetscCall(ViewEntries(scene, viewer, "pressures", scene->npressures, ViewPressure));
-  PetscCall(ViewEntries(scene, viewer, "body_forces", scene->nforces, ViewBodyForce));
-  PetscCall(ViewEntries(scene, viewer, "contact", scene->npairs, ViewPair));
+  PetscCall(SceneViewEntries(scene, viewer, "displacements", scene->ndisplacements, SceneViewDisplacement));
+  PetscCall(SceneViewEntries(scene, viewer, "pressures", scene->npressures, SceneViewPressure));
+  PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
+  PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(SceneViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));
   PetscCall(PetscViewerASCIIPopTab(viewer));
-  PetscCall(ViewEntries(scene, viewer, "ramps", scene->nramps - 1, ViewRamp));
+  PetscCall(SceneViewEntries(scene, viewer, "ramps", scene->nramps - 1, SceneViewRamp));
   PetscCall(PetscViewerASCIIPrintf(viewer, "refine: %" PetscInt_FMT "\n", scene->refine));
   PetscCall(PetscViewerASCIIPrintf(viewer, "model: %s\n", StepModels[scene->model]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "contact_updates: %" PetscInt_FMT "\n", scene->contact_updates));
   if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "displacement_bounds: %" PetscInt_FMT "\n", scene->displacement_bounds));
-  PetscCall(ViewEntries(scene, viewer, "solver", scene->noptions, ViewOption));
+  PetscCall(SceneViewEntries(scene, viewer, "solver", scene->noptions, SceneViewOption));
   PetscFunctionReturn(0);
 }

@@ -6,7 +6,7 @@
 #include <yaml.h>
 
 /* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored values */
-static PetscBool IsNested(const yaml_event_t *event, PetscInt *anchored)
+static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
 {
   const yaml_char_t *anchor = NULL;
 
@@ -44,7 +44,7 @@ PetscErrorCode SceneCheckYAML(size_t length, const char text[])
   while (!end && !sentence[0]) {
     if (yaml_parser_parse(&parser, &event)) {
       end = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
-      if (IsNested(&event, &anchored)) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1));
+      if (YAMLIsNested(&event, &anchored)) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1));
       yaml_event_delete(&event);
     } else if (parser.error == YAML_READER_ERROR) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "byte %zu: %s", parser.problem_offset + 1, parser.problem));
     else PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: %s", parser.problem_mark.line + 1, parser.problem ? parser.problem : "it cannot be read"));
