@@ -156,6 +156,7 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatFactorClearError(F));
+  PetscCall(AMGFMumpsSetIcntl(F, 6, 0));  /* nothing of the analysis is to depend on values, which change */
   PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
   if (aug->relaxation) PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
   PetscCall(KSPSetUp(aug->ksp));
