@@ -155,15 +155,14 @@ typedef struct {
   PetscReal x;
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
-  PetscReal floor;             /* what rounding leaves of the gradient */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */
 typedef struct {
   Vec       rho;    /* pressure per length that resists each constraint */
   PetscReal mean;   /* harmonic mean of rho, weighted */
-  Vec       hdiag;  /* |diagonal of H| */
-  PetscReal hscale; /* its mean */
+  Vec       hdiag;  /* |diagonal of H|, now */
+  PetscReal hscale; /* its mean at the start */
 } IPStiffness;
 
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
@@ -423,7 +422,8 @@ PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
 
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
-PETSC_INTERN PetscErrorCode IPRoundingFloor(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
+PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 
 /* scale.c */
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);

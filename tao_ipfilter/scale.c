@@ -45,24 +45,40 @@ static PetscErrorCode EqualityScale(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Forces: those that cancel in the gradient; where none do, what the gradient was at the start, but no more than its terms are now, lest
+   a start far off make every gradient look small. Below ten roundings of its terms no gradient is of any meaning. */
+static PetscErrorCode DualScale(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscBool limited  = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+  const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       norm, terms, stiffness;
+  const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  PetscCall(IPStiffnessTerms(tao, &terms));
+  PetscCall(VecNorm(ip->stiff.hdiag, NORM_2, &stiffness));
+  ip->scale.dual = Within(first, PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
+  if (limited) ip->scale.dual = PetscMax(ip->scale.dual, norm);
+  ip->scale.dual = PetscMax(ip->scale.dual, rounding * terms / ip->tol);
+  PetscFunctionReturn(0);
+}
+
 /* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
    forces against the forces that cancel, constraints against their largest value, products t z against length times
    pressure. Where these vanish, small fractions of first values, and of the stiffness's pressure, take their place. */
 PetscErrorCode IPComputeScale(Tao tao)
 {
-  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscBool limited = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
-  PetscReal       norm, floor, xsize, z;
-  IPScale        *s = &ip->scale;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     xsize, z;
+  IPScale      *s = &ip->scale;
 
   PetscFunctionBegin;
   *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
   if (ip->opt.scaling == IP_SCALING_NONE || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){0.0, 0.0, 0.0, 0.0, 0.0};
-  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
-  PetscCall(IPRoundingFloor(tao, &floor));
-  s->dual = PetscMax(norm, (limited ? IP_VANISHING : 1.0) * ip->first.gradient);
-  s->dual = PetscMax(s->dual, Within(floor / ip->tol, PetscMax(ip->first.gradient, ip->first.floor / ip->tol)));
+  PetscCall(DualScale(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first.x), ip->first.x);
   if (ip->mi) PetscCall(InequalityScale(tao, xsize));

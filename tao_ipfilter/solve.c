@@ -223,6 +223,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPRelax(tao));
   PetscCall(IPBarrierUpdate(tao));
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
   if (!ok) {

@@ -2,7 +2,7 @@
 #include "ipfilterimpl.h"
 
 /* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times this */
-PetscErrorCode IPRoundingFloor(Tao tao, PetscReal *floor)
+PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           terms;
@@ -10,9 +10,8 @@ PetscErrorCode IPRoundingFloor(Tao tao, PetscReal *floor)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));
   PetscCall(VecPointwiseMult(terms, ip->stiff.hdiag, tao->solution));
-  PetscCall(VecNorm(terms, NORM_2, floor));
+  PetscCall(VecNorm(terms, NORM_2, size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &terms));
-  *floor *= 10.0 * PETSC_MACHINE_EPSILON;
   PetscFunctionReturn(0);
 }
 
@@ -90,6 +89,17 @@ static PetscErrorCode ConstraintStiffness(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* The present Hessian's diagonal, which the sizes of gradients follow from */
+PetscErrorCode IPStiffnessUpdate(Tao tao)
+{
+  Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(tao->hessian, hdiag));
+  PetscCall(VecAbs(hdiag));
+  PetscFunctionReturn(0);
+}
+
 /* Fills ip->stiff from the Hessian and the Jacobian at the starting point */
 PetscErrorCode IPComputeStiffness(Tao tao)
 {
@@ -99,12 +109,10 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(MatGetDiagonal(tao->hessian, s->hdiag));
-  PetscCall(VecAbs(s->hdiag));
+  PetscCall(IPStiffnessUpdate(tao));
   PetscCall(VecSum(s->hdiag, &sum));
   PetscCall(VecGetSize(s->hdiag, &n));
   s->hscale = PetscRealPart(sum) > 0.0 ? PetscRealPart(sum) / n : 1.0;
-  PetscCall(IPRoundingFloor(tao, &ip->first.floor));
   if (ip->mi) PetscCall(ConstraintStiffness(tao));
   PetscFunctionReturn(0);
 }
