@@ -172,10 +172,12 @@ static PetscErrorCode RestoreTakeTrial(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path */
-static PetscErrorCode RestoreChooseSlacks(Tao tao)
+/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path, but no further from the
+   constraint's value than a violation well below theta0 allows */
+static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
 {
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal    limit = 0.1 * theta0 / PetscSqrtReal(ip->pair[IP_SLACK].weight);
   const PetscScalar *c, *rho;
   PetscScalar       *s;
   PetscInt           n;
@@ -190,7 +192,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao)
   PetscCall(VecGetArrayRead(ip->stiff.rho, &rho));
   PetscCall(VecGetArray(ip->trial.s, &s));
   for (PetscInt i = 0; i < n; i++) {
-    const PetscReal central = PetscSqrtReal(ip->mu / PetscRealPart(rho[i]));
+    const PetscReal central = PetscMin(limit, PetscSqrtReal(ip->mu / PetscRealPart(rho[i])));
 
     if (PetscRealPart(c[i]) >= 0.1 * central) s[i] = c[i];
     else s[i] = PetscMin(PetscRealPart(s[i]), central);
@@ -209,7 +211,7 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscReal       theta, phi;
 
   PetscFunctionBegin;
-  if (ip->mi) PetscCall(RestoreChooseSlacks(tao));
+  if (ip->mi) PetscCall(RestoreChooseSlacks(tao, theta0));
   PetscCall(IPIterateCopyPoint(&ip->at, &ip->trial));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_TRUE));
   PetscCall(IPMeritMeasureTrial(tao, &theta, &phi));

@@ -41,7 +41,7 @@ static PetscErrorCode EqualityScale(Tao tao)
   PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
   PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
-  ip->scale.equality = PetscMax(ip->first.equality, norm);
+  ip->scale.equality = PetscMax(ip->first.equality, Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
   PetscFunctionReturn(0);
 }
 
