@@ -64,10 +64,11 @@ fuzz:
 	    -artifact_prefix=build/fuzz/found-$$target- -max_len=4096 -timeout=20 -rss_limit_mb=2000 -malloc_limit_mb=1000 -fork=1 -max_total_time=$(FUZZ_TIME) || exit 1; \
 	done
 
-# The nonlinear programs beside IPOPT (coinor-libipopt-dev), a program of its own because IPOPT brings another MUMPS; run `make check
-# TESTS=ipfilter_nlp*` first. The table goes to tests/stress/nlp.md
-nlp:
+# The nonlinear programs beside IPOPT (coinor-libipopt-dev), a program of its own because IPOPT brings another MUMPS. The table goes to
+# tests/stress/nlp.md, the performance profile beside it
+nlp: all
 	@mkdir -p build/nlp
-	$(CC) -std=c11 -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) -c tests/stress/nlp_ipopt.c -o build/nlp/ipopt.o
+	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/stress/nlp_tao.c -o build/nlp/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
+	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) -c tests/stress/nlp_ipopt.c -o build/nlp/ipopt.o
 	gcc build/nlp/ipopt.o -o build/nlp/ipopt $(shell pkg-config --libs ipopt) -lm
-	$(PYTHON) tests/stress/nlp.py build/tests/tests/ipfilter_nlp build/nlp/ipopt
+	$(PYTHON) -B tests/stress/nlp.py --folder build/nlp

@@ -1,7 +1,6 @@
 static char help[] = "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly scaled ones.\n\
   -mode NAME        solver options by their name below, for which steps and evaluations are held\n\
   -problems A,B     some problems only\n\
-  -table            a line a problem with all figures, nothing held: for tests/stress/nlp.py\n\
   -print_counts     the rows of tests/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts them in place\n\n";
 
 #include "ipfilter_problem.h"
@@ -128,13 +127,6 @@ static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReportRow(const NLP *p, const Outcome *o)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%-12s %s %-24s f %16.9e error %8.1e violation %8.1e steps %4" PetscInt_FMT " evaluations %4" PetscInt_FMT "  %s\n", p->name, o->good ? "good" : "BAD ", TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->counts.steps, o->counts.evaluations, o->sentence));
-  PetscFunctionReturn(0);
-}
-
 /* tao: the solver after it, which has the sentence */
 static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *tao)
 {
@@ -250,7 +242,7 @@ static PetscErrorCode Wanted(const NLP *p, PetscInt mode, PetscInt nonly, char *
 }
 
 /* mode: negative for the options of the command line */
-static PetscErrorCode SolveAll(PetscInt mode, PetscBool table)
+static PetscErrorCode SolveAll(PetscInt mode)
 {
   char        *only[8];
   PetscInt     nonly = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(only);
@@ -267,8 +259,7 @@ static PetscErrorCode SolveAll(PetscInt mode, PetscBool table)
     PetscCall(Wanted(&problems[k], mode, nonly, only, &wanted));
     if (!wanted) continue;
     PetscCall(Solve(PETSC_COMM_WORLD, &problems[k], &outcome, &tao));
-    if (table) PetscCall(ReportRow(&problems[k], &outcome));
-    else PetscCall(ReportVerdict(&problems[k], mode, &outcome));
+    PetscCall(ReportVerdict(&problems[k], mode, &outcome));
     PetscCall(TaoDestroy(&tao));
   }
   if (mode >= 0) PetscCall(PopMode(&options));
@@ -280,17 +271,16 @@ int main(int argc, char **argv)
 {
   const char *names[NMODES];
   PetscInt    mode  = -1;
-  PetscBool   table = PETSC_FALSE, print = PETSC_FALSE, given;
+  PetscBool   print = PETSC_FALSE, given;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
   for (PetscInt i = 0; i < NMODES; i++) names[i] = modes[i].name;
   PetscCall(PetscOptionsGetEList(NULL, NULL, "-mode", names, NMODES, &mode, &given));
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-table", &table, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-print_counts", &print, NULL));
   if (print) PetscCall(PrintCounts());
-  else PetscCall(SolveAll(given ? mode : -1, table));
+  else PetscCall(SolveAll(given ? mode : -1));
   PetscCall(PetscFinalize());
   return 0;
 }

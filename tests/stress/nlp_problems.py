@@ -61,7 +61,7 @@ HS57_A = numbers("8 8 10 10 10 10 12 12 12 12 14 14 14 16 16 16 18 18 20 20 20 2
 HS57_B = numbers(".49 .49 .48 .47 .48 .47 .46 .46 .45 .43 .45 .43 .43 .44 .43 .43 .46 .45 .42 .42 .43 .41 .41 .40 .42 .40 .40 .41 .40 .41 .41 .40 .40 .40 .38 .41 .40 .40 .41 .38 .40 .40 .39 .39")
 add("HS57", total(f"({b!r}-x1-(0.49-x1)*exp(-x2*{a - 8!r}))^2" for a, b in zip(HS57_A, HS57_B)), 0.02845966972, "0.42 5", ge=["0.49*x2-x1*x2-0.09"], bounds="0.4: -4:", others=(0.03064631,))
 add("HS59", "-75.196+3.8112*x1-0.12694*x1^2+0.0020567*x1^3-1.0345e-5*x1^4+6.8306*x2-0.030234*x1*x2+1.28134e-3*x2*x1^2+2.266e-7*x1^4*x2-0.25645*x2^2+0.0034604*x2^3-1.3514e-5*x2^4+28.106/(x2+1)"
-    "+5.2375e-6*x1^2*x2^2+6.3e-8*x1^3*x2^2-7e-10*x1^3*x2^3-3.405e-4*x1*x2^2+1.6638e-6*x1*x2^3+2.8673*exp(0.0005*x1*x2)-3.5256e-5*x1^3*x2", -7.804226324, "90 10",
+    "+5.2375e-6*x1^2*x2^2+6.3e-8*x1^3*x2^2-7e-10*x1^3*x2^3-3.405e-4*x1*x2^2+1.6638e-6*x1*x2^3+2.8673*exp(0.0005*x1*x2)-3.5256e-5*x1^3*x2", -7.80278947, "90 10",
     ge=["x1*x2-700", "x2-x1^2/125", "(x2-50)^2-5*(x1-55)"], bounds="0:75 0:65", others=(-6.749505,))
 add("HS62", "-32.174*(255*log((x1+x2+x3+0.03)/(0.09*x1+x2+x3+0.03))+280*log((x2+x3+0.03)/(0.07*x2+x3+0.03))+290*log((x3+0.03)/(0.13*x3+0.03)))", -26272.51448, "0.7 0.2 0.1",
     eq=["x1+x2+x3-1"], bounds="3*0:1")
@@ -166,7 +166,7 @@ def hs114():
 
 
 hs114()
-add("HS116", "x11+x12+x13", 97.588409, "0.5 0.8 0.9 0.1 0.14 0.5 489 80 650 450 150 150 150", bounds="3*0.1:1 0.0001:0.1 2*0.1:0.9 2*0.1:1000 500:1000 0.1:500 1:150 2*0.0001:150",
+add("HS116", "x11+x12+x13", 97.58750956, "0.5 0.8 0.9 0.1 0.14 0.5 489 80 650 450 150 150 150", bounds="3*0.1:1 0.0001:0.1 2*0.1:0.9 2*0.1:1000 500:1000 0.1:500 1:150 2*0.0001:150",
     ge=["x3-x2", "x2-x1", "1-0.002*x7+0.002*x8", "x11+x12+x13-50", "250-x11-x12-x13", "x13-1.262626*x10+1.231059*x3*x10", "x5-0.03475*x2-0.975*x2*x5+0.00975*x2^2",
         "x6-0.03475*x3-0.975*x3*x6+0.00975*x3^2", "x5*x7-x1*x8-x4*x7+x4*x8", "1-0.002*(x2*x9+x5*x8-x1*x8-x6*x9)-x5-x6", "x2*x9-x3*x10-x6*x9-500*x2+500*x6+x2*x10",
         "x2-0.9-0.002*(x2*x10-x3*x10)", "x4-0.03475*x1-0.975*x1*x4+0.00975*x1^2", "x11-1.262626*x8+1.231059*x1*x8", "x12-1.262626*x9+1.231059*x2*x9"])
@@ -197,7 +197,7 @@ add("S211", "100*(x2-x1^3)^2+(1-x1)^2", 0.0, "-1.2 1")
 add("S212", "(4*(x1+x2))^2+(4*(x1+x2)+(x1-x2)*((x1-2)^2+x2^2-1))^2", 0.0, "2 0")
 add("S213", "(10*(x1-x2)^2+(x1-1)^2)^4", 0.0, "-1.2 1", end=DEGENERATE)
 add("S215", "x2", 0.0, "1 1", ge=["x2-x1^2"], bounds="0: :")
-add("S216", "100*(x1^2-x2)^2+(x1-1)^2", 1.0, "-1.2 1", eq=["x1*(x1-4)-2*x2+12"], bounds="-3:10 -3:10")
+add("S216", "100*(x1^2-x2)^2+(x1-1)^2", 0.999375293, "-1.2 1", eq=["x1*(x1-4)-2*x2+12"], bounds="-3:10 -3:10")
 add("S217", "-x2", -0.8, "10 10", ge=["1+x1-2*x2"], eq=["x1^2+x2^2-1"], bounds="0: :")
 add("S218", "x2", 0.0, "9 100", ge=["x2-x1^2"], bounds="-100:100 0:100")
 add("S219", "-x1", -1.0, "4*10", eq=["x2-x1^3-x3^2", "x1^2-x2-x4^2"])
@@ -258,10 +258,9 @@ for name, n in (("S300", 20), ("S301", 50)):
 for name, n in (("S303", 20), ("S304", 50)):
     half = total(f"{i / 2!r}*x{i}" for i in range(1, n + 1))
     add(name, total(f"x{i}^2" for i in range(1, n + 1)) + f"+({half})^2+({half})^4", 0.0, [0.1] * n)
-add("S306", "-exp(-x1-x2)*(2*x1^2+3*x2^2)", -3 * math.exp(-1) * 1.0, "1 1", others=(-12 * math.exp(-2), -8 * math.exp(-2)))
 add("S307", total(f"({2 + 2 * i}-exp({i}*x1)-exp({i}*x2))^2" for i in range(1, 11)), 124.362182, "0.3 0.4", others=(2020.0,))
 add("S308", "(x1^2+x1*x2+x2^2)^2+sin(x1)^2+cos(x2)^2", 0.77319906, "3 0.1")
-add("S309", "1.41*x1^4-12.76*x1^3+39.91*x1^2-51.93*x1+24.37+(x2-3.9)^2", -3.98717, "0 0")
+add("S309", "1.41*x1^4-12.76*x1^3+39.91*x1^2-51.93*x1+24.37+(x2-3.9)^2", -3.98717, "0 0", others=(0.2891491748,))
 add("S311", "(x1^2+x2-11)^2+(x1+x2^2-7)^2", 0.0, "1 1")
 add("S315", "-x2", -0.8, "-0.1 -0.9", ge=["1-2*x2+x1", "x1^2+x2^2", "1-x1^2-x2^2"])
 for name, axis, optimum in (("S316", 100, (20 * math.sqrt(2) - 10) ** 2), ("S317", 64, 372.466606), ("S318", 36, 412.750053), ("S319", 16, 452.404444), ("S320", 4, 485.531463), ("S321", 1, 496.112368),
@@ -336,3 +335,304 @@ def chebyquad(n):
 
 add("chebyquad6", chebyquad(6), 0.0, [i / 7 for i in range(1, 7)])
 add("chebyquad8", chebyquad(8), 3.51687e-3, [i / 9 for i in range(1, 9)])
+
+
+# ---- Boggs and Tolle 1989: equality constraints ----
+
+add("BT1", "100*x1^2+100*x2^2-x1-100", -1.0, "0.08 0.06", eq=["x1^2+x2^2-1"])
+add("BT2", "(x1-1)^2+(x1-x2)^2+(x2-x3)^4", 0.032568200, "3*10", eq=["x1*(1+x2^2)+x3^4-4-3*sqrt(2)"])
+add("BT3", "(x1-x2)^2+(x2+x3-2)^2+(x4-1)^2+(x5-1)^2", 4.09302326, "20 4*2", eq=["x1+3*x2", "x3+x4-2*x5", "x2-x5"])
+add("BT5", "1000-x1^2-2*x2^2-x3^2-x1*x2-x1*x3", 961.715172, "3*2", eq=["x1^2+x2^2+x3^2-25", "8*x1+14*x2+7*x3-56"])
+add("BT7", ROSENBROCK, 306.5, "-2 1 1 1 1", eq=["x1*x2-1-x3^2", "x2^2+x1-x4^2", "x1+x5^2-0.5"], others=(360.379767,))
+add("BT8", "x1^2+x2^2+x3^2", 1.0, "1 1 1 0 0", eq=["x1-1-x4^2+x2^2", "x1^2+x2^2-1-x5^2"], end=DEGENERATE)
+add("BT10", "-x1", -1.0, "2 2", eq=["x2-x1^3", "x1^2-x2"])
+add("BT12", "0.01*x1^2+x2^2", 6.188119, "15.811 1.5811 0 15.083 3.7164", eq=["x1+x2-x3^2-25", "x1^2+x2^2-x4^2-25", "x1-x5^2-2"])
+add("maratos", "-x1+10*(x1^2+x2^2-1)", -1.0, "1.1 0.1", eq=["x1^2+x2^2-1"])
+add("maratos on the circle", "2*(x1^2+x2^2-1)-x1", -1.0, [math.cos(1), math.sin(1)], eq=["x1^2+x2^2-1"])
+
+
+# ---- Minimax problems as programs in one unknown more: Charalambous and Conn, Demyanov and Malozemov, Madsen, Polak ----
+
+def minimax(name, functions, optimum, start, **rest):
+    n = len(start) + 1
+    add(name, f"x{n}", optimum, [*start, 0.0], ge=[f"x{n}-({f})" for f in functions], **rest)
+
+
+minimax("CB2", ["x1^2+x2^4", "(2-x1)^2+(2-x2)^2", "2*exp(x2-x1)"], 1.9522245, [2, 2])
+minimax("CB3", ["x1^4+x2^2", "(2-x1)^2+(2-x2)^2", "2*exp(x2-x1)"], 2.0, [2, 2])
+minimax("demyanov malozemov", ["5*x1+x2", "-5*x1+x2", "x1^2+x2^2+4*x2"], -3.0, [1, 1])
+minimax("madsen", [s + f for f in ("(x1^2+x2^2+x1*x2)", "sin(x1)", "cos(x2)") for s in ("", "-")], 0.616432436, [3, 1])
+minimax("mifflin", ["-x1-x2", "-x1-x2+x1^2+x2^2-1"], -math.sqrt(2), [1, 1])
+ROSEN_SUZUKI = "x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4"
+ROSEN_SUZUKI_ROWS = ["0", "10*(x1^2+x2^2+x3^2+x4^2+x1-x2+x3-x4-8)", "10*(x1^2+2*x2^2+x3^2+2*x4^2-x1-x4-10)", "10*(2*x1^2+x2^2+x3^2+2*x1-x2-x4-5)"]
+minimax("rosen suzuki", [f"{ROSEN_SUZUKI}+{row}" for row in ROSEN_SUZUKI_ROWS], -44.0, [0, 0, 0, 0])
+WONG1 = "(x1-10)^2+5*(x2-12)^2+x3^4+3*(x4-11)^2+10*x5^6+7*x6^2+x7^4-4*x6*x7-10*x6-8*x7"
+WONG1_ROWS = ["0", "10*(2*x1^2+3*x2^4+x3+4*x4^2+5*x5-127)", "10*(7*x1+3*x2+10*x3^2+x4-x5-282)", "10*(23*x1+x2^2+6*x6^2-8*x7-196)", "10*(4*x1^2+x2^2-3*x1*x2+2*x3^2+5*x6-11*x7)"]
+minimax("wong1", [f"{WONG1}+{row}" for row in WONG1_ROWS], 680.630057, [1, 2, 0, 4, 0, 1, 1])
+add("makela1", "x3", -math.sqrt(2), "0 0 0", ge=["x3+x1+x2", "x3+x1+x2-x1^2-x2^2+1"])
+add("makela2", "x3", 7.2, "-1 5 0", ge=["x3-x1^2-x2^2", "x3+40*x1+10*x2-x1^2-x2^2-40", "x3+10*x1+20*x2-x1^2-x2^2-60"])
+add("makela3", "x21", 0.0, [*range(1, 11), *range(-11, -21, -1), 0], ge=[f"x21-x{i}^2" for i in range(1, 21)])
+add("makela4", "x21", 0.0, [*range(1, 11), *range(-11, -21, -1), 0], ge=[row for i in range(1, 21) for row in (f"x21-x{i}", f"x21+x{i}")])
+
+
+# ---- Complementarity constraints (MacMPEC, Leyffer): a >= 0, b >= 0, a b <= 0 has no interior ----
+
+def complementary(name, objective, optimum, start, pairs, ge=(), **rest):
+    rows = [row for a, b in pairs for row in (a, b, f"-({a})*({b})")]
+    add(name, objective, optimum, start, ge=[*ge, *rows], end=DEGENERATE, **rest)
+
+
+complementary("bard1", "(x1-5)^2+(2*x2+1)^2", 17.0, "5*0", [("3*x1-x2-3", "x3"), ("-x1+0.5*x2+4", "x4"), ("-x1-x2+7", "x5")], eq=["2*(x2-1)-1.5*x1+x3-0.5*x4+x5"], bounds="2*0: 3*:")
+complementary("jr1", "(x1-1)^2+x2^2", 0.5, "0 0", [("x2", "x2-x1")])
+complementary("jr2", "(x2-1)^2+x1^2", 0.5, "0 0", [("x2", "x2-x1")])
+complementary("ralph1", "2*x1-x2", 0.0, "1 0", [("x2", "x2-x1")], bounds="0: :")
+complementary("ralph2", "x1^2+x2^2-4*x1*x2", 0.0, "1 1", [("x1", "x2")])
+complementary("scale1", "(100*x1-1)^2+(x2-1)^2", 1.0, "0.01 1", [("x1", "x2")])
+complementary("scale2", "(x1-1)^2+(100*x2-1)^2", 1.0, "1 0.01", [("x1", "x2")])
+complementary("scale4", "(100*x1-1)^2+(100*x2-1)^2", 1.0, "0.01 0.01", [("x1", "x2")])
+complementary("kth1", "x1+x2", 0.0, "1 1", [("x1", "x2")])
+complementary("kth2", "x1+(x2-1)^2", 0.0, "0 0", [("x1", "x2")], others=(1.0,))
+complementary("kth3", "0.5*(x1-1)^2+(x2-1)^2", 0.5, "0 0", [("x1", "x2")], others=(1.0,))
+complementary("gauvin", "x1^2+(x2-10)^2", 20.0, "7 7 7", [("20-x1-x2", "x3")], eq=["4*(x1+2*x2-30)+x3"], bounds="0:15 0: :")
+complementary("df1", "(x1-1-x2)^2", 0.0, "1 1", [("x2", "x2-x1^2+1")], ge=["2-x1^2", "3-(x1-1)^2-(x2-1)^2"], bounds="-1:2 :")
+complementary("scholtes1", "(x1-1)^2+(x2-1)^2+x3^2-x3", 0.75, "1 1 1", [("x1", "x2")], bounds=": : 0:")
+complementary("scholtes3", "0.5*((x1-1)^2+(x2-1)^2)", 0.5, "1.1 1.1", [("x1", "x2")])
+complementary("scholtes4", "x1+x2-x3", 0.0, "0 1 0.5", [("x1", "x2")], ge=["4*x1-x3", "4*x2-x3"])
+complementary("stackelberg", "0.5*x1^2+0.5*x1*x2-95*x1", -3266.66666667, "0 0 0", [("x2", "x3")], eq=["2*x2+0.5*x1-100-x3"], bounds="0:200 : :")
+
+
+# ---- Degenerate ----
+
+add("x^2=0", "x1", 0.0, "1", eq=["x1^2"], end=DEGENERATE)
+add("x^2=0 and y", "(x1-1)^2+(x2-2)^2", 1.0, "1 1", eq=["x1^2"], end=DEGENERATE)
+add("x^2<=0", "x1+x2^2", 0.0, "1 1", ge=["-x1^2"], end=DEGENERATE)
+add("tangent circles", "x1", 0.0, "0.5 0.5", ge=["1-(x1-1)^2-x2^2", "1-(x1+1)^2-x2^2"], end=DEGENERATE)
+add("point by two squares", "x1+x2", 2.0, "0 0", eq=["(x1-1)^2+(x2-1)^2"], end=DEGENERATE)
+add("circle by two inequalities", "x1+x2", -math.sqrt(2), "1 0.5", ge=["x1^2+x2^2-1", "1-x1^2-x2^2"])
+add("line by two inequalities", "x1^2+x2^2", 0.5, "2 0", ge=["x1+x2-1", "1-x1-x2"])
+add("row stated four times", "(x1-2)^2+x2^2", 1.0, "0 1", ge=["1-x1", "2-2*x1", "1-x1", "10-10*x1"])
+add("more active rows than unknowns", "-x1-x2", -2.0, "0 0", ge=["1-x1", "1-x2", "2-x1-x2", "3-2*x1-x2", "3-x1-2*x2"])
+add("equality stated three times", "x1^2+x2^2+x3^2", 1 / 3, "3 -1 2", eq=["x1+x2+x3-1", "2*x1+2*x2+2*x3-2", "-x1-x2-x3+1"])
+add("plane through the start", "(x1-1)^2+(x2-1)^2+(x3-1)^2", 0.09 / 0.59, "0 0 0", eq=["0.1*x1+0.3*x2-0.7*x3"])
+add("plane through the start, no curvature", "x1^2+x2^2+x3^2", 0.0, "0 0 0", eq=["0.1*x1+0.3*x2-0.7*x3"])
+add("constant objective, box", "0", 0.0, "3 -4", ge=["1-x1", "1+x1", "1-x2", "1+x2"])
+add("constant objective, disc", "0", 0.0, "3 4", ge=["1-x1^2-x2^2"])
+add("constant objective, disc and line", "7", 7.0, "3 4", ge=["1-x1^2-x2^2"], eq=["x1-x2"])
+add("constant objective, feasible start", "1", 1.0, "0.5 0.5", ge=["x1", "x2", "2-x1-x2"])
+add("nothing to do", "x1^2+x2^2", 0.0, "0 0")
+add("linear on a point", "x1-x2", -1.0, "1 1", eq=["x1+x2-1", "x1-x2+1"])
+add("quartic", "x1^4", 0.0, "1")
+add("sixth power", "(x1-1)^6+(x2+1)^4", 0.0, "3 3")
+add("flat valley", "(x1-x2)^4", 0.0, "2 -1")
+add("singular Hessian on a face", "(x1+x2-1)^2", 0.0, "2 2", bounds="0: 0:")
+add("zero multiplier", "x1^2+(x2-1)^2", 0.0, "2 2", ge=["x1", "x2-1"])
+add("bound active with zero multiplier", "x1^2+x2^2", 0.0, "1 1", bounds="0: 0:")
+add("LP with a face of solutions", "-x1-x2", -1.0, "0.1 0.2", ge=["1-x1-x2"], bounds="2*0:")
+add("LP, degenerate vertex", "-x1", -1.0, "0.1 0.1", ge=["1-x1-x2", "1-x1+x2", "1-x1"], bounds="2*0:")
+add("Beale's cycling LP", "-0.75*x1+150*x2-0.02*x3+6*x4", -0.05, "4*0", ge=["-0.25*x1+60*x2+0.04*x3-9*x4", "-0.5*x1+90*x2+0.02*x3-3*x4", "1-x3"], bounds="4*0:")
+add("Klee Minty 3", "-100*x1-10*x2-x3", -10000.0, "3*0", ge=["1-x1", "100-20*x1-x2", "10000-200*x1-20*x2-x3"], bounds="3*0:")
+add("cusp", "-x1", -1.0, "0 0", ge=["(1-x1)^3-x2"], bounds="0: 0:", end=DEGENERATE)
+add("Robinson, no multiplier set bounded", "x1", 0.0, "1 1", ge=["x1-x2^2", "x1+x2^2"])
+add("fully fixed", "x1^2+x2", 5.0, "2 1", bounds="2:2 1:1")
+add("one free unknown of three", "(x1-3)^2+x2*x3", 4.0, "1 2 2", bounds="0:10 2:2 2:2")
+add("Gould saddle", "x1^3-3*x1+x2^2", -2.0, "0.5 1", bounds="-1.5:3 :")
+add("log barrier of its own", "-log(x1)-log(1-x1)+x1", -math.log((3 - math.sqrt(5)) / 2) - math.log((math.sqrt(5) - 1) / 2) + (3 - math.sqrt(5)) / 2, "0.9", bounds="0:1")
+
+
+# ---- Badly scaled ----
+
+add("bounds of 1e9 that mean none", "x1^2+x2^2+x1*x2-x1", -1 / 3, "10 -20", bounds="2*-1e9:1e9")
+add("bounds of 1e7 that mean none", "x1^2+x1", -0.25, "18", bounds="-1e7:1e7")
+add("bounds of 1e9 that mean none, one unknown", "x1^2+x1", -0.25, "18", bounds="-1e9:1e9")
+add("far upper bounds", "(x1+1)^2+(x2+1)^2+(x3-1)^2", 2.0, "100 100 100", bounds="3*0:1e9")
+add("far rows", "(x1-1)^2+(x2+1)^2", 0.0, "5 5", ge=["1e9-x1-x2", "1e9+x1-x2"])
+add("gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", -0.5 - (1e-3 - 0.5e-6), "0.0005 1", bounds="0:0.001 0:1e6")
+add("rows with gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", -0.5 - (1e-3 - 0.5e-6), "0 0", ge=["0.001-x1", "1e6-x2", "x1+1e6", "x2"])
+add("rosenbrock from afar", ROSENBROCK, 0.0, "-1e3 1e3")
+add("rosenbrock from afar, bounded", ROSENBROCK, 0.0, "-1e3 1e3", bounds="2*-1e4:1e4")
+add("rosenbrock in millions", "100*(1e-6*x2-1e-12*x1^2)^2+(1-1e-6*x1)^2", 0.0, "-1.2e6 1e6")
+add("rosenbrock in millionths", "100*(1e6*x2-1e12*x1^2)^2+(1-1e6*x1)^2", 0.0, "-1.2e-6 1e-6")
+add("mixed units, QP", "(1e6*x1-3)^2+(1e-6*x2-2)^2", 2.0, "0 0", ge=["3-1e6*x1-1e-6*x2"])
+add("mixed units, HS35", "9-8e6*x1-6*x2-4e-6*x3+2e12*x1^2+2*x2^2+1e-12*x3^2+2e6*x1*x2+2*x1*x3", 1 / 9, "0.5e-6 0.5 0.5e6", ge=["3-1e6*x1-x2-2e-6*x3"], bounds="3*0:")
+add("mixed units, HS71", "1e6*x1*x4*(1e6*x1+x2+1e-6*x3)+1e-6*x3", 17.0140173, "1e-6 5 5e6 1", ge=["x1*x2*x3*x4-25"],
+    eq=["1e12*x1^2+x2^2+1e-12*x3^2+x4^2-40"], bounds="1e-6:5e-6 1:5 1e6:5e6 1:5")
+add("rows in mixed units, HS43", "x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4", -44.0, "4*0",
+    ge=["1e6*(8-x1^2-x2^2-x3^2-x4^2-x1+x2-x3+x4)", "10-x1^2-2*x2^2-x3^2-2*x4^2+x1+x4", "1e-6*(5-2*x1^2-x2^2-x3^2-2*x1+x2+x4)"])
+add("objective in 1e10, HS43", "1e10*(x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4)", -44e10, "4*0",
+    ge=["8-x1^2-x2^2-x3^2-x4^2-x1+x2-x3+x4", "10-x1^2-2*x2^2-x3^2-2*x4^2+x1+x4", "5-2*x1^2-x2^2-x3^2-2*x1+x2+x4"])
+add("objective in 1e-10, HS43", "1e-10*(x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4)", -44e-10, "4*0",
+    ge=["8-x1^2-x2^2-x3^2-x4^2-x1+x2-x3+x4", "10-x1^2-2*x2^2-x3^2-2*x4^2+x1+x4", "5-2*x1^2-x2^2-x3^2-2*x1+x2+x4"])
+add("large offset", "1e8+(x1-1)^2+(x2-2)^2", 1e8, "10 10", ge=["x1+x2-1"])
+add("start of 1e6, QP", "(x1-1)^2+(x2-2)^2", 0.0, "1e6 -1e6", ge=["10-x1-x2"])
+add("start of 1e6, quartic", "(x1-1)^4+(x2-2)^2", 0.0, "1e6 -1e6")
+add("stiff and soft", "1e8*(x1-1)^2+1e-4*(x2-1)^2", 0.0, "5 5")
+add("stiff and soft, bounds", "1e8*(x1-1)^2+1e-4*(x2-1)^2", 0.25e8, "0.2 5", bounds="0:0.5 0:10")
+add("tiny box far from zero", "(x1-1e4)^2+x2^2", 1.0, "1e4 0", bounds=":9999 -1e-6:1e-6")
+add("multiplier of 1e8", "1e8*x1", 1e8, "3", ge=["x1-1"])
+add("multiplier of 1e-8", "1e-8*x1+(x2-1)^2", 1e-8, "3 3", ge=["x1-1"])
+add("equality in 1e8", "x1^2+x2^2", 0.5, "3 -1", eq=["1e8*(x1+x2-1)"])
+add("equality in 1e-8", "x1^2+x2^2", 0.5, "3 -1", eq=["1e-8*(x1+x2-1)"])
+add("nonlinear equality in 1e6", "x1+x2", -math.sqrt(2), "-2 -0.5", eq=["1e6*(x1^2+x2^2-1)"])
+
+
+# ---- Infeasible ----
+
+add("parallel lines", "x1^2+x2^2", 0.0, "0 0", eq=["x1+x2-1", "x1+x2-2"], end=INFEASIBLE)
+add("disc beside the half plane", "x1", 0.0, "0 0", ge=["1-x1^2-x2^2", "x1-2"], end=INFEASIBLE)
+add("discs apart", "x1+x2", 0.0, "1.5 1", ge=["1-x1^2-x2^2", "1-(x1-3)^2-x2^2"], end=INFEASIBLE)
+add("sum below bounds", "x1^2+x2^2+x3^2", 0.0, "3*2", ge=["2-x1-x2-x3"], bounds="3*1:", end=INFEASIBLE)
+add("square of -1", "x1", 0.0, "2", eq=["x1^2+1"], end=INFEASIBLE)
+add("exponential below zero", "x1+x2", 0.0, "0 0", ge=["-exp(x1)-1-x2^2"], end=INFEASIBLE)
+add("three half planes", "0", 0.0, "5 5", ge=["-x1", "-x2", "x1+x2-1"], end=INFEASIBLE)
+add("equality beyond bounds", "(x1-1)^2", 0.0, "0.5 0.5", eq=["x1+x2-3"], bounds="0:1 0:1", end=INFEASIBLE)
+add("infeasible by 1e-2", "x1^2+x2^2", 0.0, "0 0", ge=["x1+x2-1", "0.99-x1-x2"], end=INFEASIBLE)
+add("infeasible in 1e6", "x1", 0.0, "1", ge=["1e6*(x1-1)", "-1e6*x1"], end=INFEASIBLE)
+add("product and sum", "x1", 0.0, "1 1", eq=["x1*x2-5", "x1+x2-2"], end=INFEASIBLE)
+
+# ---- Unbounded ----
+
+add("LP, unbounded", "-x1-2*x2", 0.0, "1 1", ge=["x1-x2+1"], bounds="2*0:", end=UNBOUNDED)
+add("saddle, unbounded", "x1^2-x2^2", 0.0, "1 1", end=UNBOUNDED)
+add("concave on a ray", "-x1^2", 0.0, "1", bounds="0:", end=UNBOUNDED)
+add("free along an equality", "x1+x2+x3", 0.0, "0 0 0", eq=["x1-x2"], end=UNBOUNDED)
+add("exponential, unbounded", "-exp(x1)", 0.0, "0", end=UNBOUNDED)
+add("cubic with a row", "x1^3+x2^2", 0.0, "1 1", ge=["5-x1"], end=UNBOUNDED)
+
+
+# ---- Linear and quadratic programs with a solution by construction: x*, active rows and multipliers are drawn, the linear term follows ----
+
+def quadratic(name, seed, n, m, n_active, n_equal, rank, spread=0.0, bounded=0):
+    """1/2 x'Hx + q'x, H = G'G of the rank given; m rows of which n_active hold with equality; spread: powers of ten between the units of rows and unknowns"""
+    draw = random.Random(seed)
+    unit = [10 ** draw.uniform(-spread / 2, spread / 2) for _ in range(n)]
+    g = [[draw.gauss(0, 1) / unit[j] for j in range(n)] for _ in range(rank)]
+    x = [draw.uniform(0.5, 2) * unit[j] for j in range(n)]
+    h = [[sum(row[i] * row[j] for row in g) for j in range(n)] for i in range(n)]
+    gradient = [0.0] * n  # J'lambda, less what the equalities push
+    rows, equal, bounds = [], [], [["", ""] for _ in range(n)]
+    for k in range(m + n_equal):
+        scale = 10 ** draw.uniform(-spread / 2, spread / 2)
+        a = [scale * draw.gauss(0, 1) / unit[j] for j in range(n)]
+        force = draw.uniform(0.5, 2) / scale
+        value = sum(aj * xj for aj, xj in zip(a, x))
+        if k < n_active or k >= m:
+            gradient = [gj + force * aj for gj, aj in zip(gradient, a)]
+        else:
+            value -= scale * draw.uniform(0.5, 2)
+        (rows if k < m else equal).append(f"{linear(a)}-({value!r})")
+    for j in range(bounded):
+        gradient[j] += draw.uniform(0.5, 2) / unit[j]
+        bounds[j][0] = repr(x[j])
+    q = [gj - sum(hij * xi for hij, xi in zip(row, x)) for gj, row in zip(gradient, h)]
+    f = "+".join([linear(q)] + [f"{0.5 * h[i][j]!r}*x{i + 1}*x{j + 1}" for i in range(n) for j in range(n) if h[i][j]])
+    optimum = sum(qj * xj for qj, xj in zip(q, x)) + 0.5 * sum(x[i] * h[i][j] * x[j] for i in range(n) for j in range(n))
+    add(name, f, optimum, [0.0] * n, ge=rows, eq=equal, bounds=" ".join(":".join(b) for b in bounds) if bounded else "")
+
+
+for k in range(6):
+    n = 4 + 2 * k
+    quadratic(f"LP {n}", 100 + k, n, 2 * n, n - k // 2, 0, 0, bounded=k // 2)
+for k in range(4):
+    n = 6 + 2 * k
+    quadratic(f"LP {n}, equalities", 200 + k, n, 2 * n, n - 2 - k, 2, 0, bounded=k)
+for k in range(3):
+    quadratic(f"LP 8, units of 1e{2 + 2 * k}", 300 + k, 8, 16, 6, 0, 0, spread=2 + 2 * k, bounded=2)
+for k in range(6):
+    n = 5 + 3 * k
+    quadratic(f"QP {n}", 400 + k, n, n, n // 2, 0, n)
+for k in range(4):
+    n = 8 + 2 * k
+    quadratic(f"QP {n}, half the rank", 500 + k, n, n, n // 2, 0, n // 2, bounded=n - n // 2 - n // 2 + 1)
+for k in range(4):
+    n = 6 + 4 * k
+    quadratic(f"QP {n}, equalities", 600 + k, n, n, n // 4, n // 3, n, bounded=k)
+for k in range(4):
+    quadratic(f"QP 10, units of 1e{2 + 2 * k}", 700 + k, 10, 10, 4, 0, 10, spread=2 + 2 * k, bounded=1)
+
+
+# ---- After COPS (Dolan, More, Munson 2004), small ----
+
+def thomson(n, optimum):
+    """Charges on a sphere"""
+    draw = random.Random(n)
+    x, y, z = ([f"x{3 * i + k}" for i in range(n)] for k in (1, 2, 3))
+    add(f"electrons {n}", "+".join(f"(({x[i]}-{x[j]})^2+({y[i]}-{y[j]})^2+({z[i]}-{z[j]})^2)^-0.5" for i in range(n) for j in range(i)), optimum, [draw.gauss(0, 1) for _ in range(3 * n)],
+        eq=[f"{x[i]}^2+{y[i]}^2+{z[i]}^2-1" for i in range(n)])
+
+
+for n, optimum in ((2, 0.5), (3, math.sqrt(3)), (4, 3.674234614), (5, 6.474691495), (6, 9.985281374), (7, 14.452977414), (8, 19.675287861), (10, 32.716949460), (12, 49.165253058)):
+    thomson(n, optimum)
+
+
+def isoperimetric(n):
+    """The largest area of a polygon of perimeter 1, the first corner at the origin"""
+    draw = random.Random(n)
+    x, y = [f"x{2 * i + 1}" for i in range(n)], [f"x{2 * i + 2}" for i in range(n)]
+    start = [value for i in range(n) for value in ((1 + 0.2 * draw.random()) / 6 * math.cos(2 * math.pi * i / n), (1 + 0.2 * draw.random()) / 6 * math.sin(2 * math.pi * i / n))]
+    add(f"isoperimetric {n}", "-0.5*(" + total(f"{x[i]}*{y[(i + 1) % n]}-{x[(i + 1) % n]}*{y[i]}" for i in range(n)) + ")", -1 / (4 * n * math.tan(math.pi / n)), start,
+        ge=["1-(" + "+".join(f"sqrt(({x[i]}-{x[(i + 1) % n]})^2+({y[i]}-{y[(i + 1) % n]})^2)" for i in range(n)) + ")"], eq=["x1", "x2"])
+
+
+for n in (3, 5, 8):
+    isoperimetric(n)
+
+
+def chain(n, length):
+    """A hanging chain of n links of equal length between (0, 0) and (2, 0), by its corners"""
+    link = (length / n) ** 2
+    x, y = ["0"] + [f"x{i}" for i in range(1, n)] + ["2"], ["0"] + [f"x{n - 1 + i}" for i in range(1, n)] + ["0"]
+    optimum = chain_energy(n, length)
+    start = [2 * i / n for i in range(1, n)] + [-math.sin(math.pi * i / n) for i in range(1, n)]
+    add(f"chain {n}", "+".join(f"({y[i]}+{y[i + 1]})/2*{length / n!r}" for i in range(n)), optimum, start, eq=[f"({x[i + 1]}-{x[i]})^2+({y[i + 1]}-{y[i]})^2-{link!r}" for i in range(n)])
+
+
+def chain_energy(n, length):
+    """Link i has the slope (i - (n - 1) / 2) / h: the horizontal force h is found by bisection"""
+    low, high = 1e-6, 1e6
+    for _ in range(200):
+        h = math.sqrt(low * high)
+        span = sum(length / n / math.hypot(1, (i - (n - 1) / 2) / h) for i in range(n))
+        low, high = (h, high) if span < 2 else (low, h)
+    slopes = [(i - (n - 1) / 2) / h for i in range(n)]
+    drops = [length / n * t / math.hypot(1, t) for t in slopes]
+    heights = [sum(drops[:i]) for i in range(n + 1)]
+    return sum((heights[i] + heights[i + 1]) / 2 * length / n for i in range(n))
+
+
+for n in (4, 8, 16):
+    chain(n, 3.0)
+
+
+def obstacle(n):
+    """A string of n - 1 points over an obstacle: the membrane problem in one dimension, load 1, obstacle -0.05; its solution by the contact zone"""
+    f = "+".join(f"{n / 2}*({'x%d' % i if i < n else '0'}-{'x%d' % (i - 1) if i > 1 else '0'})^2" for i in range(1, n + 1)) + "+" + "+".join(f"{1 / n!r}*x{i}" for i in range(1, n))
+    add(f"string {n}", f, string_energy(n, -0.05), [0.0] * (n - 1), bounds=f"{n - 1}*-0.05:")
+
+
+def string_energy(n, low):
+    """By projected Gauss and Seidel"""
+    x = [0.0] * (n + 1)
+    for _ in range(20000):
+        for i in range(1, n):
+            x[i] = max(low, (x[i - 1] + x[i + 1] - 1 / n ** 2) / 2)
+    return sum(n / 2 * (x[i] - x[i - 1]) ** 2 for i in range(1, n + 1)) + sum(x) / n
+
+
+for n in (10, 20):
+    obstacle(n)
+
+
+def steering(n):
+    """A mass from rest at 0 to rest at 1 in unit time with the least sum of squares of n piecewise constant forces: 12 n^2 / (n^2 - 1)"""
+    h = 1 / n
+    p, v, u = (["0"] + [f"x{k * n + i}" for i in range(1, n + 1)] for k in range(3))
+    add(f"steering {n}", "+".join(f"{h!r}*{u[i]}^2" for i in range(1, n + 1)), 12 * n * n / (n * n - 1), [0.0] * (3 * n),
+        eq=[row for i in range(1, n + 1) for row in (f"{p[i]}-{p[i - 1]}-{h!r}*{v[i - 1]}-{h * h / 2!r}*{u[i]}", f"{v[i]}-{v[i - 1]}-{h!r}*{u[i]}")] + [f"{p[n]}-1", v[n]])
+
+
+for n in (4, 10, 16):
+    steering(n)
+for n, optimum, others in ((2, -1.0, ()), (3, -3.0, ()), (4, -6.0, ()), (5, -9.103852, ()), (6, -12.712062, (-12.302928,))):
+    draw = random.Random(40 + n)
+    r = {(i, j): f"((x{3 * i + 1}-x{3 * j + 1})^2+(x{3 * i + 2}-x{3 * j + 2})^2+(x{3 * i + 3}-x{3 * j + 3})^2)" for i in range(n) for j in range(i)}
+    add(f"Lennard Jones {n}", "+".join(f"{d}^-6-2*{d}^-3" for d in r.values()), optimum, [draw.uniform(-0.8, 0.8) for _ in range(3 * n)], others=others)
