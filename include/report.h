@@ -26,7 +26,8 @@ typedef struct {
   PetscReal            gap_min;          /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
   PetscReal            gap_true;         /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
   PetscReal            gap_change;       /* largest difference of the two where there is pressure, or penetration [length] */
-  PetscBool            gap_untrue;       /* the limit on linearizations came before the gap was true */
+  PetscBool            gap_untrue;       /* that is more than the tolerance: the limit on linearizations came first */
+  PetscInt             gap_damped;       /* linearizations short of a solution, because the solutions went in a circle */
   PetscReal            complementarity;  /* max s z [force/length] */
   PetscReal            algebraic_error;  /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
@@ -103,11 +104,26 @@ typedef struct {
   PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
 } RunTimes;
 
+/* How a run ended: the exit code of a program. After the run what the operating system made of it may come first */
+typedef enum {
+  RUN_CONVERGED       = 0,
+  RUN_REFUSED         = 1, /* bad input: the scene, an option, a file */
+  RUN_FAILED          = 2, /* a load step did not converge */
+  RUN_GAP_UNTRUE      = 3, /* a load step converged to a gap that is not true */
+  RUN_ACCURACY_MISSED = 4, /* the accuracy asked for was not reached */
+  RUN_INTERRUPTED     = 5, /* by a signal */
+  RUN_OUTPUT_LOST     = 6, /* results could not be written */
+  RUN_BROKEN          = 7  /* no memory, or a fault of the program or of a library */
+} RunEnd;
+
 typedef struct {
   const char     *problem;
   PetscInt        ranks, dofs, refine;
   PetscBool       converged;
   const char     *reason;
+  PetscInt        exit_code; /* a RunEnd */
+  PetscInt        nwarnings;
+  const char    **warnings;
   PetscInt        nsteps;
   StepReport     *steps;
   PetscInt        nbodies;

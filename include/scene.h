@@ -150,7 +150,7 @@ typedef struct {
   SceneRamp         *ramps;
   PetscInt           refine; /* uniform refinements of level 0 */
   StepModel          model;
-  PetscInt           contact_updates;     /* linearizations of the gap a load step, at least 1 */
+  PetscInt           contact_updates;     /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
   PetscInt           displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
   PetscInt           noptions;            /* of the solver */
   SceneOption       *options;

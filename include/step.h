@@ -16,6 +16,7 @@ typedef struct {
   PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
   PetscReal linear;     /* relative residual of PCG where a load step needs no TAO */
   PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
+  PetscReal gap_untrue; /* the same, beyond which a load step has not converged */
 } StepTolerances;
 
 /* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */

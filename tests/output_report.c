@@ -23,12 +23,16 @@ int main(int argc, char **argv)
   };
   Accuracy  accuracy                 = {.target = 0.01, .share = 0.1, .contact = PETSC_TRUE, .tolerance = 1e-3, .update_tolerance = 2.5e-4, .updates = 20, .nlevels = 2, .levels = levels, .reached = PETSC_TRUE, .end = "within a factor 2 of the target"};
   RunReport report                   = {.nbodies = 2, .bodies = bodies, .assemblies = assemblies, .neffects = 2, .effects = effects, .problem = "caf\xc3\xa9 \"two\"", .dofs = 13380, .refine = 1, .converged = PETSC_FALSE, .nsteps = 2, .steps = steps, .peak_memory_bytes = 1.5e9, .accuracy = &accuracy};
-  char      file[PETSC_MAX_PATH_LEN] = "summary.json";
+  const char *warnings[]               = {"the \"lid\" never met"};
+  char        file[PETSC_MAX_PATH_LEN] = "summary.json";
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-summary", file, sizeof(file), NULL));
   report.reason         = "line search failed";
+  report.exit_code      = RUN_FAILED;
+  report.nwarnings      = 1;
+  report.warnings       = warnings;
   report.ranks          = 1;
   report.time.total     = 2;
   report.time.amg_apply = 1.5;

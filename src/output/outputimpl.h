@@ -58,6 +58,7 @@ typedef enum {
   FIELD_BOOL,       /* PetscBool */
   FIELD_TEXT,       /* const char * */
   FIELD_CHARS,      /* char[] */
+  FIELD_TEXTS,      /* const char **, counted */
   FIELD_VECTOR,     /* PetscReal[3] */
   FIELD_INTS,       /* PetscInt *, counted */
   FIELD_BODY_INTS,  /* PetscInt *, one a body */

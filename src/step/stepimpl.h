@@ -23,6 +23,7 @@ PETSC_INTERN PetscErrorCode ResidentGet(MPI_Comm, PetscLogDouble *bytes);
 PETSC_INTERN PetscErrorCode ResidentGetPeak(MPI_Comm, PetscLogDouble *bytes);
 
 /* report.c */
+PETSC_INTERN PetscErrorCode ReportWarn(MPI_Comm, RunReport *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallbacks *);
@@ -180,6 +181,17 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+
+/* damping.c: of the updates of the gap in one solve, where they go in a circle; begins as {.factor = 1.0} */
+typedef struct {
+  PetscInt  n, stalls; /* solutions; the last ones without progress */
+  PetscReal least;              /* change of the gap so far [length] */
+  PetscReal factor;             /* of the way from a linearization to its solution that the next one goes */
+  Vec       way;                /* the last one that was damped [length] */
+} GapDamping;
+
+PETSC_INTERN PetscErrorCode GapDampingAdvance(GapDamping *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode GapDampingDestroy(GapDamping *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
