@@ -22,6 +22,7 @@ Exit code:\n\
   7  no memory, or a fault of the program or of a library\n\n";
 
 #include <petscamgf.h>
+#include <options.h>
 #include <scene.h>
 #include <mesh.h>
 #include <step.h>
@@ -130,6 +131,20 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscOptionsEnd();
   PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: contact SCENE.yaml [options], see contact -help");
   PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscFunctionReturn(0);
+}
+
+/* Words that are neither an option nor its value would be passed over */
+static PetscErrorCode AppCheckWords(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  for (int i = 2; i < argc; ++i) {
+    PetscBool option, after;
+
+    PetscCall(PetscOptionsValidKey(argv[i], &option));
+    PetscCall(PetscOptionsValidKey(argv[i - 1], &after));
+    PetscCheck(option || (after && i > 2), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "\"%s\" is neither an option nor the value of one; usage: contact SCENE.yaml [options], see contact -help", argv[i]);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -258,8 +273,10 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(PetscPushErrorHandler(AppHandleError, error));
   PetscCall(AppGetOptions(argc, argv, &app));
+  PetscCall(AppCheckWords(argc, argv));
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
+  PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   if (app.check) PetscCall(AppCheckScene(scene));
   else {
     PetscCall(AppSolve(&app, scene, end));

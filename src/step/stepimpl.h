@@ -185,9 +185,9 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 /* damping.c: of the updates of the gap in one solve, where they go in a circle; begins as {.factor = 1.0} */
 typedef struct {
   PetscInt  n, stalls; /* solutions; the last ones without progress */
-  PetscReal least;              /* change of the gap so far [length] */
-  PetscReal factor;             /* of the way from a linearization to its solution that the next one goes */
-  Vec       way;                /* the last one that was damped [length] */
+  PetscReal least;     /* change of the gap so far [length] */
+  PetscReal factor;    /* of the way from a linearization to its solution that the next one goes */
+  Vec       way;       /* the last one that was damped [length] */
 } GapDamping;
 
 PETSC_INTERN PetscErrorCode GapDampingAdvance(GapDamping *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
