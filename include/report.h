@@ -4,6 +4,35 @@
 
 #include <petscamgf.h>
 
+/* Moments are about the origin, forces taken at the deformed places */
+
+/* A contact pair: the action on one side and the reaction on the other, each summed over the rows of this pair alone */
+typedef struct {
+  const char *name;
+  PetscReal   force[3];         /* on the nonmortar side [force] */
+  PetscReal   moment[3];        /* [force length] */
+  PetscReal   mortar_force[3];  /* on the mortar side [force] */
+  PetscReal   mortar_moment[3]; /* [force length] */
+  PetscReal   normal_force;     /* sum of the sizes of the rows' forces: the integral of the pressure, the size of the force where the face is plane [force] */
+  PetscReal   area;             /* covered area about the vertices in contact [length^2] */
+  PetscReal   pressure;         /* largest of the contact pressure's field [force/length^2] */
+} PairReport;
+
+/* A face with prescribed displacements, symmetry planes too. Where several prescribe one row they share its reaction evenly */
+typedef struct {
+  const char *name;
+  PetscReal   reaction[3]; /* on the body [force] */
+  PetscReal   moment[3];   /* [force length] */
+} FaceReport;
+
+/* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
+typedef struct {
+  const char *name;
+  PetscReal   contact[3], reaction[3], load[3]; /* [force] */
+  PetscReal   residual[3];                      /* their sum [force] */
+  PetscReal   balance;                          /* its size over the sum of the sizes of each pair's, face's and the loads' force */
+} BodyReport;
+
 typedef struct {
   PetscInt             step;
   PetscReal            load;
@@ -32,9 +61,16 @@ typedef struct {
   PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal            error_estimate;   /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
   PetscReal           *body_errors;      /* parts of the bodies, whose squares sum to its square; NULL: none was made */
-  PetscReal            contact_force[3]; /* on the nonmortar side [force] */
+  PetscReal            contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
   PetscReal            reaction[3];      /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
-  PetscLogDouble       solve_time;       /* optimizer alone, its linear solves included [s] */
+  PetscInt             npairs;           /* of the scene, in its order; 0 before the first solve that converged */
+  PairReport          *pairs;
+  PetscInt             nfaces; /* with prescribed displacements, in the order in which the scene names them first */
+  FaceReport          *faces;
+  PetscInt             nbodies;
+  BodyReport          *bodies;
+  PetscReal            balance;    /* largest of the bodies' */
+  PetscLogDouble       solve_time; /* optimizer alone, its linear solves included [s] */
   PetscBool            converged;
   const char          *reason;
 } StepReport;

@@ -73,6 +73,8 @@ typedef enum {
   TABLE_EVERY,
   TABLE_WORK,
   TABLE_FORCES,
+  TABLE_PAIRS,
+  TABLE_FACES,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,
@@ -120,7 +122,7 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
 PETSC_INTERN const void        *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double             SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char        *SchemaText(const ReportField *, const void *record);

@@ -58,6 +58,15 @@ PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
+/* places.c: where the vertices that this rank owns are, undeformed, and in which body; in the order of the global vectors */
+typedef struct {
+  Vec       x;    /* [length] */
+  PetscInt *body; /* one a vertex */
+} VertexPlaces;
+
+PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
+
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
   Vec pressure; /* one a row */
@@ -97,6 +106,7 @@ struct _n_Simulation {
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
   DeadLoads            loads;
+  VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
@@ -180,6 +190,13 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+
+/* forces.c: forces and moments by pair, by face and by body */
+PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec load, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
