@@ -75,15 +75,27 @@ typedef struct {
   const char          *reason;
 } StepReport;
 
+/*
+   A vertex on either side of a contact pair. Over a side, the sum of pressure x area is the pair's normal_force, that of force its
+   force on that side. The pressure of a vertex that is covered much less than its neighbours is counted with theirs: its own area
+   and pressure are zero.
+*/
+typedef struct {
+  PetscInt  pair, vertex; /* of the scene; a local DMPlex point that this rank owns */
+  PetscReal pressure;     /* [force/length^2] */
+  PetscReal area;         /* of the other side's cover that the pressure stands for [length^2] */
+  PetscReal gap;          /* mean over the cover, linearized [length] */
+  PetscReal force[3];     /* on the vertex [force] */
+  PetscBool closed;
+} ContactPoint;
+
 /* The state at the end of a load step; borrowed, valid until the next one */
 typedef struct {
-  const StepReport *report;
-  Vec               displacement; /* global, 3 a vertex [length] */
-  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
-  PetscInt          nrows;        /* contact rows of this rank */
-  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
-  const PetscReal  *pressure;     /* contact pressure a row [force/length^2] */
-  const PetscReal  *gap;          /* linearized gap a row [length] */
+  const StepReport   *report;
+  Vec                 displacement; /* global, 3 a vertex [length] */
+  const PetscReal    *stress;       /* 7 values a local cell, see ElasticityCellStress() */
+  PetscInt            npoints;      /* of contact, of this rank */
+  const ContactPoint *points;       /* pair by pair */
 } StepState;
 
 /* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */

@@ -29,6 +29,8 @@ struct _n_Output {
   char       *base; /* of the file names */
   PetscInt    nbodies;
   char      **bodynames;
+  PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
+  char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
   PetscInt    nowned, ncellslocal, first; /* vertices and cells of this rank; number of its first vertex */
   PetscInt    nsteps, maxsteps;

@@ -199,6 +199,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->report.effects));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree(s->stress));
+  PetscCall(PetscFree(s->points));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));
   PetscCall(ContactMemoryDestroy(&s->memory));

@@ -116,6 +116,8 @@ struct _n_Simulation {
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;
+  PetscInt             npoints;
+  ContactPoint        *points;
   StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
   PetscBool            warm;        /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
@@ -197,6 +199,12 @@ PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, 
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec load, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
+
+/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */
+PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, Vec carried);
+
+/* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
