@@ -235,6 +235,17 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode AppSayNext(const Accuracy *accuracy, Scene scene)
+{
+  const AccuracyLevel *now = &accuracy->levels[accuracy->nlevels - 1];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy->target, (double)now->error, now->unseen ? ", more than stress recovery sees" : PetscIsNanReal(now->change) ? " by stress recovery alone"
+                                                                                                                                                                                                                                                                 : "",
+                        (double)now->algebraic, scene->refine));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
   Accuracy  accuracy;
@@ -246,7 +257,7 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscCall(SimulationCatchSignals());
   do {
     PetscCall(AppSimulate(app, scene, &accuracy, end, &again));
-    if (again && !app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy.target, (double)accuracy.levels[accuracy.nlevels - 1].error, (double)accuracy.levels[accuracy.nlevels - 1].algebraic, scene->refine));
+    if (again && !app->quiet) PetscCall(AppSayNext(&accuracy, scene));
   } while (again);
   PetscCall(AccuracyDestroy(&accuracy));
   PetscFunctionReturn(0);

@@ -193,6 +193,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   for (PetscInt i = 0; i < s->report.nsteps; ++i) {
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
+    PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));
@@ -202,12 +203,14 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->report.warnings));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree(s->stress));
+  PetscCall(PetscFree(s->points));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));
   PetscCall(ContactMemoryDestroy(&s->memory));
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));
   PetscCall(ElasticityDestroy(&s->elasticity));
   PetscCall(MatDestroy(&s->K));

@@ -2,18 +2,17 @@
 #include "stepimpl.h"
 #include <math.h>
 
-static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *report, StepState *state)
+static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, StepState *state)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
+  PetscCall(ContactPointsMeasure(sim, report));
   state->report       = report;
   state->displacement = sim->path.u;
   state->stress       = sim->stress;
-  state->nrows        = sim->linearization ? sim->linearization->nlocal : 0;
-  state->row_vertex   = sim->linearization ? sim->linearization->vertex : NULL;
-  state->pressure     = sim->pressure;
-  state->gap          = sim->gap;
+  state->npoints      = sim->npoints;
+  state->points       = sim->points;
   PetscFunctionReturn(0);
 }
 

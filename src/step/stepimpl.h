@@ -59,6 +59,15 @@ PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
+/* places.c: where the vertices that this rank owns are, undeformed, and in which body; in the order of the global vectors */
+typedef struct {
+  Vec       x;    /* [length] */
+  PetscInt *body; /* one a vertex */
+} VertexPlaces;
+
+PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
+
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
   Vec pressure; /* one a row */
@@ -98,6 +107,7 @@ struct _n_Simulation {
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
   DeadLoads            loads;
+  VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
@@ -107,6 +117,8 @@ struct _n_Simulation {
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;
+  PetscInt             npoints;
+  ContactPoint        *points;
   StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
   PetscBool            warm;        /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
@@ -192,6 +204,19 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode GapDampingAdvance(GapDamping *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
 PETSC_INTERN PetscErrorCode GapDampingDestroy(GapDamping *);
+
+/* forces.c: forces and moments by pair, by face and by body */
+PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec load, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
+
+/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */
+PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, Vec carried);
+
+/* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
