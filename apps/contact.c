@@ -271,6 +271,7 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscCall(MeshCreate(PETSC_COMM_WORLD, scene->nbodies, scene->bodies, scene->refine, &dm));
   PetscCall(MeshCheckScene(dm, scene));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }

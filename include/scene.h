@@ -124,7 +124,8 @@ typedef struct {
   char     *mortar;    /* "<body>.<face>" */
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
-  PetscReal distance; /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal distance;     /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal interference; /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
 } SceneContactPair;
 
 /* A PETSc option, without its dash */

@@ -29,6 +29,8 @@ PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
+/* How the faces of the contact pairs stand to each other before a run; dm: the scene's mesh */
+PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);
 PETSC_EXTERN PetscErrorCode SimulationDestroy(Simulation *);

@@ -276,7 +276,10 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscFunctionBegin;
   if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeGap(sim, sim->path.u, &sim->upcoming));
-  if (sim->contact && sim->path.time == 0.0 && !report->cuts) PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
+  if (sim->contact && sim->path.time == 0.0 && !report->cuts) {
+    PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
+    PetscCall(StartWarn(sim, sim->upcoming));
+  }
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(VecDuplicate(sim->path.u, &u));
   if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0) PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));

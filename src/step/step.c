@@ -90,5 +90,6 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
                                                                                     : RUN_FAILED;
   } else if (report->gap_untrue) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
+  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(StartWarnOfUnmet(sim));
   PetscFunctionReturn(0);
 }

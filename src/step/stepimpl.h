@@ -187,6 +187,9 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
+/* flight.c */
+PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
+
 /* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
 #define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
@@ -220,6 +223,10 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
+
+/* start.c */
+PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
+PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
 
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
