@@ -41,7 +41,8 @@ static PetscErrorCode OutputCount(Output output)
    Notes:
    Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell) and,
    a load step, to <basename>_<step>.h5. Every file is written under another name and renamed when it is whole, and
-   the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable.
+   the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
+   first step is written, the files of later steps that an older run of the same name left are removed.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written.
 
@@ -75,6 +76,21 @@ static PetscErrorCode OutputKeepPairs(Output output, const StepReport *report)
   output->npairs = report->npairs;
   PetscCall(PetscMalloc1(output->npairs, &output->pairnames));
   for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(PetscStrallocpy(report->pairs[p].name, &output->pairnames[p]));
+  PetscFunctionReturn(0);
+}
+
+/* Steps beyond this one are those of an older run of the same name; only the first rank looks */
+static PetscErrorCode OutputRemoveOlder(Output output)
+{
+  char        file[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  PetscInt    step = output->steps[0].step;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(output->comm, &rank));
+  if (rank) PetscFunctionReturn(0);
+  do PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
+  while (!remove(file));
   PetscFunctionReturn(0);
 }
 
@@ -116,6 +132,7 @@ PetscErrorCode OutputWrite(Output output, const StepState *state)
   output->steps[output->nsteps].time = state->report->load;
   output->nsteps++;
   PetscCall(OutputWriteXDMF(output));
+  if (output->nsteps == 1) PetscCall(OutputRemoveOlder(output));
   PetscFunctionReturn(0);
 }
 

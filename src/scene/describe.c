@@ -148,7 +148,7 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(MeasureFace(dm, faces[order[i]], &nfacets, &area));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
+    if (nfacets) PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
   }
   PetscCall(PetscFree2(faces, order));
   PetscFunctionReturn(0);
