@@ -1,6 +1,7 @@
 static char help[] = "Quasi-static frictionless contact of elastic bodies: contact SCENE.yaml [options].\n\
   -refine N            uniform refinements of the scene's level 0\n\
   -load_steps N        load steps of equal size\n\
+  -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
   -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
@@ -9,15 +10,26 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
   -quiet               no line a Newton step and no table\n\
-  -traceback           PETSc's own error traceback instead of one sentence\n";
+  -traceback           PETSc's own error traceback instead of one sentence\n\
+Exit code:\n\
+  0  every load step converged, to a true gap (or one linearization of it was asked for), and an accuracy asked for was reached\n\
+  1  refused: the scene, an option or a file; \"contact: error: ...\"\n\
+  2  a load step did not converge\n\
+  3  a load step ended with a gap that is not true\n\
+  4  the accuracy asked for was not reached\n\
+  5  ended by a signal that asks for it: SIGINT, SIGTERM, SIGUSR1\n\
+  6  results could not be written\n\
+  7  no memory, or a fault of the program or of a library\n\n";
 
 #include <petscamgf.h>
+#include <options.h>
 #include <scene.h>
 #include <mesh.h>
 #include <step.h>
 #include <accuracy.h>
 #include <output.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #if defined(__GLIBC__)
@@ -34,9 +46,22 @@ typedef struct {
   MPI_Comm  meeting;   /* where the ranks that erred wait for each other */
   PetscBool traceback; /* PETSc's own is asked for */
   PetscBool silent;    /* another rank says it */
+  int       end;       /* the exit code */
   PetscBool alone;     /* no other rank can know of it */
   char      sentence[512];
 } AppError;
+
+/* What is wrong with the input is an error of most kinds; some are of the machine's or of the program's making */
+static RunEnd AppClassifyError(PetscErrorCode n)
+{
+  static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC, PETSC_ERR_ARG_CORRUPT, PETSC_ERR_ARG_NULL, PETSC_ERR_POINTER, PETSC_ERR_ORDER, PETSC_ERR_MPI, PETSC_ERR_SYS};
+
+  if (n == PETSC_ERR_FILE_WRITE) return RUN_OUTPUT_LOST;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(faults); ++i) {
+    if (n == faults[i]) return RUN_BROKEN;
+  }
+  return RUN_REFUSED;
+}
 
 /* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one rank alone must end the others */
 static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
@@ -51,11 +76,12 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
     MPI_Comm_size(PETSC_COMM_WORLD, &world);
     error->silent = (PetscBool)(rank > 0);
     error->alone  = (PetscBool)(size < world);
+    error->end    = (int)AppClassifyError(n);
     if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
     (void)PetscStrncpy(error->sentence, text ? text : "unknown", sizeof(error->sentence));
     if (!error->silent && !error->traceback) fprintf(stderr, "contact: error: %s\n", error->sentence);
     fflush(stderr);
-    if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, (int)n);
+    if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, error->end);
   }
   return error->traceback && !error->silent ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL) : n;
 }
@@ -83,11 +109,11 @@ static void AppLeave(const AppError *error)
     MPI_Comm_rank(error->meeting, &rank);
     fprintf(stderr, "contact: error on rank %d alone: %s\n", rank, error->sentence);
     fflush(NULL);
-    MPI_Abort(PETSC_COMM_WORLD, 1);
+    MPI_Abort(PETSC_COMM_WORLD, error->end);
   }
   MPI_Finalize();
   fflush(NULL);
-  _Exit(1);
+  _Exit(error->end);
 }
 
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
@@ -105,6 +131,20 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscOptionsEnd();
   PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: contact SCENE.yaml [options], see contact -help");
   PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscFunctionReturn(0);
+}
+
+/* Words that are neither an option nor its value would be passed over */
+static PetscErrorCode AppCheckWords(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  for (int i = 2; i < argc; ++i) {
+    PetscBool option, after;
+
+    PetscCall(PetscOptionsValidKey(argv[i], &option));
+    PetscCall(PetscOptionsValidKey(argv[i - 1], &after));
+    PetscCheck(option || (after && i > 2), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "\"%s\" is neither an option nor the value of one; usage: contact SCENE.yaml [options], see contact -help", argv[i]);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -158,41 +198,55 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
   if (app->effects) PetscCall(ReportViewEffects(report, PETSC_VIEWER_STDOUT_WORLD));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
   if (!report->converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report->nsteps, report->reason));
+  else if (report->exit_code == RUN_ACCURACY_MISSED) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: accuracy %g: %s\n", (double)report->accuracy->target, report->accuracy->end));
   PetscFunctionReturn(0);
 }
 
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
-static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, PetscBool *converged, PetscBool *again)
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, RunEnd *end, PetscBool *again)
 {
   Simulation     sim;
   Output         output;
   StepState      state;
   StepTolerances tolerances;
   RunReport      report;
+  PetscBool      converged = PETSC_TRUE;
 
   PetscFunctionBeginUser;
-  *converged = PETSC_TRUE;
-  *again     = PETSC_FALSE;
+  *again = PETSC_FALSE;
   PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
-  for (PetscInt step = 0; step < scene->nsteps && *converged; ++step) {
+  for (PetscInt step = 0; step < scene->nsteps && converged; ++step) {
     if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));
-    *converged = state.report->converged;
-    if (output && *converged) PetscCall(OutputWrite(output, &state));
+    converged = state.report->converged;
+    if (output && converged) PetscCall(OutputWrite(output, &state));
   }
   PetscCall(SimulationGetReport(sim, &report));
   PetscCall(SimulationGetTolerances(sim, &tolerances));
-  if (*converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
+  if (converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
   if (accuracy->nlevels) report.accuracy = accuracy;
+  if (converged && report.accuracy && !accuracy->reached) report.exit_code = RUN_ACCURACY_MISSED;
+  *end = (RunEnd)report.exit_code;
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));
   PetscCall(SimulationDestroy(&sim));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *converged)
+static PetscErrorCode AppSayNext(const Accuracy *accuracy, Scene scene)
+{
+  const AccuracyLevel *now = &accuracy->levels[accuracy->nlevels - 1];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy->target, (double)now->error, now->unseen ? ", more than stress recovery sees" : PetscIsNanReal(now->change) ? " by stress recovery alone"
+                                                                                                                                                                                                                                                                 : "",
+                        (double)now->algebraic, scene->refine));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
   Accuracy  accuracy;
   PetscBool again;
@@ -202,8 +256,8 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, PetscBool *co
   PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
   PetscCall(SimulationCatchSignals());
   do {
-    PetscCall(AppSimulate(app, scene, &accuracy, converged, &again));
-    if (again && !app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy.target, (double)accuracy.levels[accuracy.nlevels - 1].error, (double)accuracy.levels[accuracy.nlevels - 1].algebraic, scene->refine));
+    PetscCall(AppSimulate(app, scene, &accuracy, end, &again));
+    if (again && !app->quiet) PetscCall(AppSayNext(&accuracy, scene));
   } while (again);
   PetscCall(AccuracyDestroy(&accuracy));
   PetscFunctionReturn(0);
@@ -217,11 +271,12 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscCall(MeshCreate(PETSC_COMM_WORLD, scene->nbodies, scene->bodies, scene->refine, &dm));
   PetscCall(MeshCheckScene(dm, scene));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppRun(int argc, char **argv, AppError *error, PetscBool *converged)
+static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end)
 {
   AppOptions app;
   Scene      scene;
@@ -230,13 +285,13 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, PetscBool *
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(PetscPushErrorHandler(AppHandleError, error));
   PetscCall(AppGetOptions(argc, argv, &app));
+  PetscCall(AppCheckWords(argc, argv));
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
-  if (app.check) {
-    PetscCall(AppCheckScene(scene));
-    *converged = PETSC_TRUE;
-  } else {
-    PetscCall(AppSolve(&app, scene, converged));
+  PetscCall(OptionsCheck(PETSC_COMM_WORLD));
+  if (app.check) PetscCall(AppCheckScene(scene));
+  else {
+    PetscCall(AppSolve(&app, scene, end));
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
@@ -257,22 +312,23 @@ static void AppLimitHeap(void)
 
 int main(int argc, char **argv)
 {
-  PetscBool      converged = PETSC_FALSE, written = PETSC_TRUE;
-  AppError       error = {.traceback = PETSC_FALSE};
+  RunEnd         end   = RUN_CONVERGED;
+  AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
   PetscErrorCode ierr;
 
   AppLimitHeap();
   ierr = PetscInitialize(&argc, &argv, NULL, help);
-  if (ierr) return (int)ierr;
+  if (ierr) return RUN_REFUSED;
+  signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
-  if (!ierr) ierr = AppRun(argc, argv, &error, &converged);
+  if (!ierr) ierr = AppRun(argc, argv, &error, &end);
   if (ierr) AppLeave(&error);
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
-    written = PETSC_FALSE;
+    end = RUN_OUTPUT_LOST;
   }
   ierr = PetscFinalize();
-  return ierr || !converged || !written ? 2 : 0;
+  return ierr ? RUN_BROKEN : (int)end;
 }

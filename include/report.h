@@ -4,6 +4,35 @@
 
 #include <petscamgf.h>
 
+/* Moments are about the origin, forces taken at the deformed places */
+
+/* A contact pair: the action on one side and the reaction on the other, each summed over the rows of this pair alone */
+typedef struct {
+  const char *name;
+  PetscReal   force[3];         /* on the nonmortar side [force] */
+  PetscReal   moment[3];        /* [force length] */
+  PetscReal   mortar_force[3];  /* on the mortar side [force] */
+  PetscReal   mortar_moment[3]; /* [force length] */
+  PetscReal   normal_force;     /* sum of the sizes of the rows' forces: the integral of the pressure, the size of the force where the face is plane [force] */
+  PetscReal   area;             /* covered area about the vertices in contact [length^2] */
+  PetscReal   pressure;         /* largest of the contact pressure's field [force/length^2] */
+} PairReport;
+
+/* A face with prescribed displacements, symmetry planes too. Where several prescribe one row they share its reaction evenly */
+typedef struct {
+  const char *name;
+  PetscReal   reaction[3]; /* on the body [force] */
+  PetscReal   moment[3];   /* [force length] */
+} FaceReport;
+
+/* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
+typedef struct {
+  const char *name;
+  PetscReal   contact[3], reaction[3], load[3]; /* [force] */
+  PetscReal   residual[3];                      /* their sum [force] */
+  PetscReal   balance;                          /* its size over the sum of the sizes of each pair's, face's and the loads' force */
+} BodyReport;
+
 typedef struct {
   PetscInt             step;
   PetscReal            load;
@@ -26,28 +55,48 @@ typedef struct {
   PetscReal            gap_min;          /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
   PetscReal            gap_true;         /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
   PetscReal            gap_change;       /* largest difference of the two where there is pressure, or penetration [length] */
-  PetscBool            gap_untrue;       /* the limit on linearizations came before the gap was true */
+  PetscBool            gap_untrue;       /* that is more than the tolerance: the limit on linearizations came first */
+  PetscInt             gap_damped;       /* linearizations short of a solution, because the solutions went in a circle */
   PetscReal            complementarity;  /* max s z [force/length] */
   PetscReal            algebraic_error;  /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal            error_estimate;   /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
   PetscReal           *body_errors;      /* parts of the bodies, whose squares sum to its square; NULL: none was made */
-  PetscReal            contact_force[3]; /* on the nonmortar side [force] */
+  PetscReal            contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
   PetscReal            reaction[3];      /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
-  PetscLogDouble       solve_time;       /* optimizer alone, its linear solves included [s] */
+  PetscInt             npairs;           /* of the scene, in its order; 0 before the first solve that converged */
+  PairReport          *pairs;
+  PetscInt             nfaces; /* with prescribed displacements, in the order in which the scene names them first */
+  FaceReport          *faces;
+  PetscInt             nbodies;
+  BodyReport          *bodies;
+  PetscReal            balance;    /* largest of the bodies' */
+  PetscLogDouble       solve_time; /* optimizer alone, its linear solves included [s] */
   PetscBool            converged;
   const char          *reason;
 } StepReport;
 
+/*
+   A vertex on either side of a contact pair. Over a side, the sum of pressure x area is the pair's normal_force, that of force its
+   force on that side. The pressure of a vertex that is covered much less than its neighbours is counted with theirs: its own area
+   and pressure are zero.
+*/
+typedef struct {
+  PetscInt  pair, vertex; /* of the scene; a local DMPlex point that this rank owns */
+  PetscReal pressure;     /* [force/length^2] */
+  PetscReal area;         /* of the other side's cover that the pressure stands for [length^2] */
+  PetscReal gap;          /* mean over the cover, linearized [length] */
+  PetscReal force[3];     /* on the vertex [force] */
+  PetscBool closed;
+} ContactPoint;
+
 /* The state at the end of a load step; borrowed, valid until the next one */
 typedef struct {
-  const StepReport *report;
-  Vec               displacement; /* global, 3 a vertex [length] */
-  const PetscReal  *stress;       /* 7 values a local cell, see ElasticityCellStress() */
-  PetscInt          nrows;        /* contact rows of this rank */
-  const PetscInt   *row_vertex;   /* their vertices (local DMPlex points) */
-  const PetscReal  *pressure;     /* contact pressure a row [force/length^2] */
-  const PetscReal  *gap;          /* linearized gap a row [length] */
+  const StepReport   *report;
+  Vec                 displacement; /* global, 3 a vertex [length] */
+  const PetscReal    *stress;       /* 7 values a local cell, see ElasticityCellStress() */
+  PetscInt            npoints;      /* of contact, of this rank */
+  const ContactPoint *points;       /* pair by pair */
 } StepState;
 
 /* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */
@@ -62,10 +111,11 @@ typedef struct {
 typedef struct {
   PetscInt       refine, dofs;
   PetscReal     *energy;    /* [force length] */
-  PetscReal     *force;     /* norm of the contact force [force] */
+  PetscReal     *force;     /* of each pair its size, and the sum of the sizes of its rows' [force] */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
-  PetscReal      change;    /* relative change of energy or contact force since the coarser mesh, largest of the load steps; NaN: there was none */
+  PetscReal      change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
+  PetscBool      unseen;    /* it changed by more than recovery accounts for */
   PetscReal      algebraic; /* of the solver, relative, in energy */
   PetscLogDouble time;      /* [s] */
 } AccuracyLevel;
@@ -103,11 +153,26 @@ typedef struct {
   PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
 } RunTimes;
 
+/* How a run ended: the exit code of a program. After the run what the operating system made of it may come first */
+typedef enum {
+  RUN_CONVERGED       = 0,
+  RUN_REFUSED         = 1, /* bad input: the scene, an option, a file */
+  RUN_FAILED          = 2, /* a load step did not converge */
+  RUN_GAP_UNTRUE      = 3, /* a load step converged to a gap that is not true */
+  RUN_ACCURACY_MISSED = 4, /* the accuracy asked for was not reached */
+  RUN_INTERRUPTED     = 5, /* by a signal */
+  RUN_OUTPUT_LOST     = 6, /* results could not be written */
+  RUN_BROKEN          = 7  /* no memory, or a fault of the program or of a library */
+} RunEnd;
+
 typedef struct {
   const char     *problem;
   PetscInt        ranks, dofs, refine;
   PetscBool       converged;
   const char     *reason;
+  PetscInt        exit_code; /* a RunEnd */
+  PetscInt        nwarnings;
+  const char    **warnings;
   PetscInt        nsteps;
   StepReport     *steps;
   PetscInt        nbodies;

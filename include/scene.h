@@ -124,7 +124,8 @@ typedef struct {
   char     *mortar;    /* "<body>.<face>" */
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
-  PetscReal distance; /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal distance;     /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal interference; /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
 } SceneContactPair;
 
 /* A PETSc option, without its dash */
@@ -150,7 +151,7 @@ typedef struct {
   SceneRamp         *ramps;
   PetscInt           refine; /* uniform refinements of level 0 */
   StepModel          model;
-  PetscInt           contact_updates;     /* linearizations of the gap a load step, at least 1 */
+  PetscInt           contact_updates;     /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
   PetscInt           displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
   PetscInt           noptions;            /* of the solver */
   SceneOption       *options;

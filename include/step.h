@@ -16,6 +16,7 @@ typedef struct {
   PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
   PetscReal linear;     /* relative residual of PCG where a load step needs no TAO */
   PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
+  PetscReal gap_untrue; /* the same, beyond which a load step has not converged */
 } StepTolerances;
 
 /* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */
@@ -28,6 +29,8 @@ PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
+/* How the faces of the contact pairs stand to each other before a run; dm: the scene's mesh */
+PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);
 PETSC_EXTERN PetscErrorCode SimulationDestroy(Simulation *);

@@ -7,6 +7,16 @@ for body in sphere cylinder; do
 done
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
 
+# Two thick rings that overlap by 0.03 on radius 25: facets of unequal number interfere by as much as a third of it, which stress recovery does not see
+cat > shrink.yaml <<'YAML'
+bodies:
+  - inner: {shape: tube_arc, axis: z, radii: [20, 25.015], angles: [0, 90], extent: [0, 1], cells: [2, 24, 1], young: 1000, poisson: 0.3}
+  - outer: {shape: tube_arc, axis: z, radii: [24.985, 30], angles: [0, 90], extent: [0, 1], cells: [2, 30, 1], young: 1000, poisson: 0.3}
+symmetry: [inner.amin, inner.amax, inner.lmin, inner.lmax, outer.amin, outer.amax, outer.lmin, outer.lmax]
+contact:
+  - fit: {mortar: outer.inner, nonmortar: inner.outer}
+YAML
+
 run() { # summary, scene, options
   name=$1
   scene=$2
@@ -22,8 +32,9 @@ run cylinder_given cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_ipfilter_to
 run cylinder_gatol cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_gatol 1e-2
 run cylinder_small cylinder -accuracy 1e-4 -accuracy_max_dofs 20000
 run sphere sphere -accuracy 3e-3 -accuracy_max_dofs 45000
-run sphere_loose sphere -accuracy 1e-1
+run cylinder_single cylinder -accuracy 1e-1 -accuracy_max_dofs 10000
 run cantilever cantilever -accuracy 1e-2
+"$contact" shrink.yaml -quiet -summary shrink.json -accuracy 3e-3 -accuracy_max_dofs 1e4 2> /dev/null
 run cantilever_fine cantilever -refine 2
 PYTHONPATH=$AMGF_DIR/share/scenes "$PYTHON" "$AMGF_DIR/tests/accuracy.py"
 

@@ -17,4 +17,4 @@ for what, error in [
 ]:
     good = error <= 1e-8 * abs(EXACT)
     print("  %s to 1e-8: %s" % (what, "yes" if good else "NO, error %g" % error))
-print("  contact rows: %d" % rows.sum())
+print("  vertices in contact, both sides: %d" % rows.sum())

@@ -71,8 +71,8 @@ static PetscErrorCode SetStress(DM dm, PetscReal stress[])
   PetscFunctionReturn(0);
 }
 
-/* Rows at the owned vertices of the upper body's lower face; at those with y = 0 a second row */
-static PetscErrorCode SetContact(DM dm, StepState *state, PetscInt rows[], PetscReal pressure[], PetscReal gap[])
+/* Points of the first pair at the owned vertices of the upper body's lower face; at those with y = 0 also one of the second pair */
+static PetscErrorCode SetContact(DM dm, StepState *state, ContactPoint points[])
 {
   IS              is;
   PetscSection    global;
@@ -85,23 +85,20 @@ static PetscErrorCode SetContact(DM dm, StepState *state, PetscInt rows[], Petsc
   PetscCall(MeshGetFaceVertices(dm, "upper.zmin", &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &vertices));
-  state->nrows = 0;
+  state->npoints = 0;
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(PetscSectionGetOffset(global, vertices[i], &offset));
     if (offset < 0) continue;
     PetscCall(GetCoordinates(dm, vertices[i], x));
     for (PetscInt repeat = 0; repeat < (x[1] == 0 ? 2 : 1); ++repeat) {
-      rows[state->nrows]     = vertices[i];
-      pressure[state->nrows] = 1 + x[0];
-      gap[state->nrows]      = repeat - x[0];
-      state->nrows++;
+      const PetscReal area = 1.0 + (PetscReal)repeat;
+
+      points[state->npoints++] = (ContactPoint){.pair = repeat, .vertex = vertices[i], .pressure = area * (1 + x[0]), .area = area, .gap = repeat - x[0], .force = {x[0], 2, area}, .closed = (PetscBool)(repeat && x[0] > 1)};
     }
   }
   PetscCall(ISRestoreIndices(is, &vertices));
   PetscCall(ISDestroy(&is));
-  state->row_vertex = rows;
-  state->pressure   = pressure;
-  state->gap        = gap;
+  state->points = points;
   PetscFunctionReturn(0);
 }
 
@@ -118,19 +115,21 @@ static PetscErrorCode FillDisk(void)
 
 static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
 {
-  Vec        u;
-  PetscInt   cstart, cend, vstart, vend, *rows;
-  PetscReal *stress, *pressure, *gap;
-  StepReport report = {.step = 0};
-  StepState  state  = {.report = &report};
+  Vec           u;
+  PetscInt      cstart, cend, vstart, vend;
+  PetscReal    *stress;
+  PairReport    pairs[] = {{.name = "first"}, {.name = "second"}};
+  ContactPoint *points;
+  StepReport    report = {.step = 0, .npairs = 2, .pairs = pairs};
+  StepState     state  = {.report = &report};
 
   PetscFunctionBeginUser;
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
   PetscCall(DMCreateGlobalVector(dm, &u));
-  PetscCall(PetscMalloc4(7 * (cend - cstart), &stress, 2 * (vend - vstart), &rows, 2 * (vend - vstart), &pressure, 2 * (vend - vstart), &gap));
+  PetscCall(PetscMalloc2(7 * (cend - cstart), &stress, 2 * (vend - vstart), &points));
   PetscCall(SetStress(dm, stress));
-  PetscCall(SetContact(dm, &state, rows, pressure, gap));
+  PetscCall(SetContact(dm, &state, points));
   for (PetscInt step = 1; step <= 2; ++step) {
     if (full && step == 2) PetscCall(FillDisk());
     report.step        = step;
@@ -140,7 +139,7 @@ static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
     PetscCall(SetDisplacement(dm, report.load, u));
     PetscCall(OutputWrite(output, &state));
   }
-  PetscCall(PetscFree4(stress, rows, pressure, gap));
+  PetscCall(PetscFree2(stress, points));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
 }

@@ -45,7 +45,10 @@ def main(base):
         upper[cells[body == 1]] = True
         rows = surface & upper
         repeat = x[:, 1] == 0
-        pressure = np.where(rows, (1 + x[:, 0]) * (1 + repeat), 0)
+        pressure = np.where(rows, (1 + x[:, 0]) * np.where(repeat, 5 / 3, 1), 0)  # means weighted by areas 1 and 2
+        area = np.where(rows, np.where(repeat, 3, 1), 0)
+        status = np.where(rows, repeat & (x[:, 0] > 1), np.nan)
+        force = np.where(rows[:, None], np.stack([x[:, 0] * (1 + repeat), 2.0 * (1 + repeat), area], axis=1), 0)
         gap = np.where(rows, -x[:, 0], np.nan)
         order = [1, 4, 6, 2, 5, 3]  # xx xy xz yy yz zz, each a multiple of the mean x
         checks = {
@@ -54,6 +57,11 @@ def main(base):
             "von_mises": np.allclose(fields["von_mises"], 7 * mean, atol=1e-13),
             "contact_pressure": np.allclose(fields["contact_pressure"], pressure, atol=1e-14),
             "contact_gap": np.allclose(fields["contact_gap"], gap, atol=1e-14, equal_nan=True),
+            "contact_area": np.allclose(fields["contact_area"], area, atol=1e-14),
+            "contact_status": np.allclose(fields["contact_status"], status, equal_nan=True),
+            "contact_force": np.allclose(fields["contact_force"], force, atol=1e-14),
+            "first_pair": np.allclose(fields["contact_pressure_first"], np.where(rows, 1 + x[:, 0], 0), atol=1e-14),
+            "second_pair": np.allclose(fields["contact_gap_second"], np.where(rows & repeat, 1 - x[:, 0], np.nan), atol=1e-14, equal_nan=True),
         }
         print(f"time {time}: {len(x)} vertices, {len(np.unique(x[~upper], axis=0))} and {len(np.unique(x[upper], axis=0))} apart,"
               f" {len(cells)} cells, volumes {volume[body == 0].sum():.12g} {volume[body == 1].sum():.12g}, smallest {volume.min():.12g}, {rows.sum()} rows")

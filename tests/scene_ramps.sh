@@ -65,10 +65,14 @@ compare "pressure and weight, one after the other" "$loads" "$squeeze $weight"
 cat > "solver.yaml" <<YAML
 $bodies
 displacements: [$floor, top: {face: bar.zmax, value: [0.2, 0, -0.1]}]
-solver: {elasticity: {ksp_max_it: 1}, tao_ipfilter_tool: 1e-8}
+solver: {elasticity: {ksp_max_it: 1}, tao_ipfilter_ksp_rtoll: 1e-8}
 YAML
 "$contact" solver.yaml -quiet > /dev/null 2> err
 echo "option of the scene: exit $?"
 grep warning err
 "$contact" solver.yaml -quiet -elasticity_ksp_max_it 100 > /dev/null 2>&1
 echo "command line wins: exit $?"
+sed 's/ksp_rtoll/tool/' solver.yaml > misspelt.yaml
+"$contact" misspelt.yaml -quiet > /dev/null 2> err
+echo "misspelt option of ours: exit $?"
+cat err

@@ -40,7 +40,7 @@ class Problem:
     quantities = ("energy", "contact force")
     fields = False  # whether a run must write its fields to be measured
     steps = 1
-    careful = ("-contact_updates", "20", "-tao_ipfilter_tol", "1e-9")  # of the runs that are extrapolated
+    careful = ("-contact_updates", "20", "-contact_gap_tol", "1", "-tao_ipfilter_tol", "1e-9")  # of the runs that are extrapolated
     careful_body = ()
 
     def __init__(self, name, levels, steps=1, title=None):
@@ -67,7 +67,7 @@ class Problem:
 
 
 class BeamSphere(Problem):
-    careful = ("-load_steps", "2", "-contact_updates", "20", "-tao_ipfilter_tol", "1e-9")  # of linear bodies: the path does not matter
+    careful = ("-load_steps", "2", "-contact_updates", "20", "-contact_gap_tol", "1", "-tao_ipfilter_tol", "1e-9")  # of linear bodies: the path does not matter
 
 
 class Cantilever(Problem):
@@ -79,7 +79,7 @@ class Cantilever(Problem):
 
 
 class TwoBlock(Problem):
-    careful = ("-load_steps", "1", "-contact_updates", "5")  # ten change the energy by 3e-4, a hundredth of what the mesh does
+    careful = ("-load_steps", "1", "-contact_updates", "5", "-contact_gap_tol", "1")  # ten change the energy by 3e-4, a hundredth of what the mesh does
     careful_body = (("element", "bbar"),)  # converges the fastest
 
 

@@ -128,10 +128,10 @@ def algebraic_studies(size):
 
 
 def path_studies(size):
-    true = ("-contact_updates", "20" if size == "full" else "10", IP + "tol", "1e-9")
+    true = ("-contact_updates", "20" if size == "full" else "10", "-contact_gap_tol", "1", IP + "tol", "1e-9")
     yield Study("load_steps", "Load steps", "load steps", turn(size, ("two_block", "beam_sphere_linear"), values("-load_steps", "1", "2", "4", *(("8",) if size == "full" else ())), careful=true, work=1.5))
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, few(size, three), values("-contact_updates", "1", "2", "3", *(("5", "10") if size == "full" else ())), careful=true, work=1.5))
+    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, few(size, three), [(n, ("-contact_updates", n, "-contact_gap_tol", "1")) for n in ("1", "2", "3", *(("5", "10") if size == "full" else ()))], careful=true, work=1.5))
 
 
 def formulation_studies(size):
@@ -144,7 +144,7 @@ def formulation_studies(size):
     yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
     models = values("-model", "quadratic", "energy")
     steps, updates = ("12", "3") if size == "full" else ("6", "2")
-    true = ("-model", "energy", "-load_steps", steps, "-contact_updates", updates)
+    true = ("-model", "energy", "-load_steps", steps, "-contact_updates", updates, "-contact_gap_tol", "1")
     panels = turn(size, ("beam_sphere_neo_hookean",), models, careful=true, work=4)
     yield Study("model", "Load step at finite strain: quadratic model against true energy", "model", panels)
 

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Draws the deformed bodies of a finished run from the files contact -output BASE wrote, without a display.
 
-    share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises|contact_pressure|contact_gap|displacement|body]
+    share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises|contact_pressure|contact_gap|contact_status|displacement|body]
                        [--scale 1] [--view ELEVATION AZIMUTH] [--up x|y|z] [--only BODY,...] [--hide AXIS<VALUE] [--title TEXT]
 
-Only faces that look at the viewer are drawn, coloured by the mean of the field, shaded by their normal.
+Only faces that look at the viewer are drawn, coloured by the mean of the field, shaded by their normal. Fields of contact colour the faces
+all of whose vertices are in a contact pair. The last step is that of BASE.xmf, not of an older run.
 """
 import argparse
-import glob
+import os
 import sys
+import xml.etree.ElementTree as ElementTree
 
 import h5py
 import matplotlib
@@ -20,7 +22,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 # quadrilaterals of a VTK/XDMF hexahedron, outward
 FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
-LABELS = {"von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "gap", "displacement": "displacement, norm", "body": "body"}
+LABELS = {"von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "gap", "contact_status": "contact", "displacement": "displacement, norm", "body": "body"}
 
 
 def arguments():
@@ -39,12 +41,24 @@ def arguments():
     return parser.parse_args()
 
 
-def load(args):
-    """Cells, reference vertices, displacement, and a field by cell or by vertex."""
-    steps = sorted(glob.glob(glob.escape(args.base) + "_[0-9]*.h5"))
+def step_file(args):
+    """The step's that is asked for; else the last that the run lists and that exists"""
+    if args.step:
+        return "%s_%04d.h5" % (args.base, args.step)
+    try:
+        items = ElementTree.parse(args.base + ".xmf").getroot().iterfind(".//Attribute[@Name='displacement']/DataItem")
+    except OSError:
+        items = []
+    folder = os.path.dirname(args.base)
+    steps = [name for name in (os.path.join(folder, item.text.rsplit(":", 1)[0]) for item in items) if os.path.exists(name)]
     if not steps:
-        sys.exit("draw.py: no file %s_0001.h5; run contact with -output %s" % (args.base, args.base))
-    name = "%s_%04d.h5" % (args.base, args.step) if args.step else steps[-1]
+        sys.exit("draw.py: no step in %s.xmf; run contact with -output %s" % (args.base, args.base))
+    return steps[-1]
+
+
+def load(args):
+    """Cells, reference vertices, displacement, a field by cell or by vertex, and which vertices are in contact pairs."""
+    name = step_file(args)
     with h5py.File(args.base + ".h5") as mesh, h5py.File(name) as step:
         cells, vertices, body = mesh["cells"][:], mesh["vertices"][:], mesh["body"][:].ravel()
         displacement = step["displacement"][:]
@@ -56,7 +70,17 @@ def load(args):
             field = step[args.field][:]
         else:
             sys.exit("draw.py: %s has no field %s" % (name, args.field))
-    return cells, vertices, body, displacement, field
+        paired = ~np.isnan(step["contact_gap"][:])
+    return cells, vertices, body, displacement, field, paired
+
+
+def colours(args, quads, owner, ncells, field, paired):
+    """Mean over the vertices; a field of contact is none of a face beside it, though some vertices are the contact's too"""
+    if len(field) == ncells:
+        return field[owner]
+    if not args.field.startswith("contact_"):
+        return field[quads].mean(axis=1)
+    return np.where(paired[quads].all(axis=1), field[quads].mean(axis=1), 0.0)
 
 
 def selected(args, cells, vertices, body):
@@ -81,9 +105,9 @@ def boundary(cells, chosen):
 
 def main():
     args = arguments()
-    cells, vertices, body, displacement, field = load(args)
+    cells, vertices, body, displacement, field, paired = load(args)
     quads, owner = boundary(cells, selected(args, cells, vertices, body))
-    colour = field[owner] if len(field) == len(cells) else field[quads].mean(axis=1)
+    colour = colours(args, quads, owner, len(cells), field, paired)
     order = {"z": [0, 1, 2], "x": [1, 2, 0], "y": [2, 0, 1]}[args.up]
     corners = (vertices + args.scale * displacement)[quads][:, :, order]
 

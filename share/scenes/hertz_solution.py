@@ -2,10 +2,8 @@
 
 python hertz_solution.py sphere|cylinder|ssnv104 NAME   prints the figures of a run, written with -output NAME -summary NAME.json
 
-Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to the nodal forces of the mortar method over
-the nodal areas, averages of the computed pressure that are weighted with hat functions. The nodal pressures themselves are off by up
-to a fifth within two cells of the contact's edge, alternating in sign: the constraint is on averages of the gap, and averages of the
-pressure are what it determines.
+Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to the nodal forces of the mortar method,
+contact_pressure times contact_area, over the nodal areas.
 """
 import json
 import math
@@ -67,34 +65,34 @@ class Cylinder:
         return low, low * self.approach / 2 - low**2 / (4 * math.pi * self.modulus)
 
 
-def averages(before, now, facets, pressure):
-    """integral over the deformed facets of hat function times pressure, over that of the hat function over the undeformed ones"""
+def areas(x, facets):
+    """integral of each vertex's hat function"""
     points, weights = np.polynomial.legendre.leggauss(3)
-    force, area = np.zeros(len(before)), np.zeros(len(before))
+    area = np.zeros(len(x))
     for s, ws in zip(points, weights):
         for t, wt in zip(points, weights):
             shape = np.array([(1 - s) * (1 - t), (1 + s) * (1 - t), (1 + s) * (1 + t), (1 - s) * (1 + t)]) / 4
             slope_s = np.array([-(1 - t), 1 - t, 1 + t, -(1 + t)]) / 4
             slope_t = np.array([-(1 - s), -(1 + s), 1 + s, 1 - s]) / 4
-            for sums, x, value in (area, before, 1), (force, now, pressure[facets] @ shape):
-                along_s, along_t = np.einsum("a,qad->qd", slope_s, x[facets]), np.einsum("a,qad->qd", slope_t, x[facets])
-                weight = ws * wt * np.linalg.norm(np.cross(along_s, along_t), axis=1) * value
-                for a in range(4):
-                    np.add.at(sums, facets[:, a], weight * shape[a])
-    return np.divide(force, area, out=np.zeros_like(force), where=area > 0)
+            along_s, along_t = np.einsum("a,qad->qd", slope_s, x[facets]), np.einsum("a,qad->qd", slope_t, x[facets])
+            weight = ws * wt * np.linalg.norm(np.cross(along_s, along_t), axis=1)
+            for a in range(4):
+                np.add.at(area, facets[:, a], weight * shape[a])
+    return area
 
 
 def measure(problem, name):
     with h5py.File(name + ".h5") as file:
         x, cells = file["vertices"][...], file["cells"][...].reshape(-1, 8)
     with h5py.File(name + "_0001.h5") as file:
-        pressure, u = file["contact_pressure"][...].ravel(), file["displacement"][...].reshape(-1, 3)
-        gap = file["contact_gap"][...].ravel()
+        pressure, covered = file["contact_pressure"][...].ravel(), file["contact_area"][...].ravel()
+        u, gap = file["displacement"][...].reshape(-1, 3), file["contact_gap"][...].ravel()
     with open(name + ".json") as file:
         summary = json.load(file)
     facets = cells[:, FACES].reshape(-1, 4)
     facets = facets[problem.on_surface(x)[facets].all(axis=1)]
-    average, r = averages(x, x + u, facets, pressure), problem.distance(x)
+    area, r = areas(x, facets), problem.distance(x)
+    average = np.divide(pressure * covered, area, out=np.zeros_like(area), where=area > 0)
     inner = average > average.max() / 2
     slope, square = np.polyfit(r[inner] ** 2, average[inner] ** 2, 1)  # p^2 = p0^2 (1 - r^2/a^2)
     on = problem.on_surface(x) & ~np.isnan(gap)

@@ -156,47 +156,90 @@ static PetscErrorCode FieldsWriteStress(Output output, const PetscReal stress[],
   PetscFunctionReturn(0);
 }
 
-/* At this rank's vertices: the sum of the pressures of all rows, and the smallest of their gaps */
-static PetscErrorCode FieldsFillContact(Output output, const StepState *state, PetscScalar pressure[], PetscScalar gap[])
+/* Fields of contact at vertices: the same of all pairs, and of each alone where there are several */
+typedef struct {
+  Vec          pressure, gap, area, status, force;
+  PetscScalar *p, *g, *a, *s, *f;
+} FieldsContact;
+
+static PetscErrorCode FieldsCreateContact(Output output, const char name[], const char suffix[], PetscInt components, PetscReal value, Vec *field, PetscScalar **values)
+{
+  char full[256];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(full, sizeof(full), "%s%s%s", name, suffix ? "_" : "", suffix ? suffix : ""));
+  PetscCall(FieldsCreateVec(output, full, output->nowned, components, field));
+  PetscCall(VecGetArray(*field, values));
+  for (PetscInt i = 0; i < output->nowned * components; ++i) (*values)[i] = value;
+  PetscFunctionReturn(0);
+}
+
+/* The first point at a vertex, or another one of another pair */
+static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint *point)
+{
+  const PetscReal area = PetscRealPart(fields->a[v]) + point->area;
+
+  if (area > 0.0) fields->p[v] = (fields->p[v] * fields->a[v] + point->pressure * point->area) / area;
+  fields->a[v] = area;
+  if (!(PetscRealPart(fields->g[v]) <= point->gap)) fields->g[v] = point->gap;
+  if (!(PetscRealPart(fields->s[v]) > 0.0)) fields->s[v] = point->closed ? 1.0 : 0.0;
+  for (PetscInt c = 0; c < 3; ++c) fields->f[3 * v + c] += point->force[c];
+}
+
+/* At this rank's vertices: the points of a pair, or of all pairs where it is negative */
+static PetscErrorCode FieldsFillPair(Output output, const StepState *state, PetscInt pair, FieldsContact *fields)
 {
   PetscSection global;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
-  for (PetscInt v = 0; v < output->nowned; ++v) gap[v] = NAN;
-  for (PetscInt r = 0; r < state->nrows; ++r) {
+  for (PetscInt k = 0; k < state->npoints; ++k) {
     PetscInt v = 0;
 
-    PetscCall(FieldsGetVertex(global, state->row_vertex[r], &v));
+    if (pair >= 0 && state->points[k].pair != pair) continue;
+    PetscCall(FieldsGetVertex(global, state->points[k].vertex, &v));
     v -= output->first;
-    PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact row %" PetscInt_FMT " is at a vertex of another rank", r);
-    pressure[v] += state->pressure[r];
-    if (!(PetscRealPart(gap[v]) <= state->gap[r])) gap[v] = state->gap[r];
+    PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact point %" PetscInt_FMT " is at a vertex of another rank", k);
+    FieldsAddPoint(fields, v, &state->points[k]);
   }
+  PetscFunctionReturn(0);
+}
+
+/* pair negative: of all; else the name of its fields ends with it */
+static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[], PetscViewer viewer)
+{
+  FieldsContact  fields;
+  RankError      error;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(FieldsCreateContact(output, "contact_pressure", suffix, 1, 0.0, &fields.pressure, &fields.p));
+  PetscCall(FieldsCreateContact(output, "contact_gap", suffix, 1, NAN, &fields.gap, &fields.g));
+  PetscCall(FieldsCreateContact(output, "contact_area", suffix, 1, 0.0, &fields.area, &fields.a));
+  PetscCall(FieldsCreateContact(output, "contact_status", suffix, 1, NAN, &fields.status, &fields.s));
+  PetscCall(FieldsCreateContact(output, "contact_force", suffix, 3, 0.0, &fields.force, &fields.f));
+  PetscCall(RankErrorBegin(&error));
+  ierr = FieldsFillPair(output, state, pair, &fields);
+  PetscCall(RankErrorEnd(output->comm, ierr, &error));
+  PetscCheck(!error.code, output->comm, error.code, "%s", error.message);
+  PetscCall(VecRestoreArray(fields.pressure, &fields.p));
+  PetscCall(VecRestoreArray(fields.gap, &fields.g));
+  PetscCall(VecRestoreArray(fields.area, &fields.a));
+  PetscCall(VecRestoreArray(fields.status, &fields.s));
+  PetscCall(VecRestoreArray(fields.force, &fields.f));
+  PetscCall(FieldsWriteVec(&fields.pressure, viewer));
+  PetscCall(FieldsWriteVec(&fields.gap, viewer));
+  PetscCall(FieldsWriteVec(&fields.area, viewer));
+  PetscCall(FieldsWriteVec(&fields.status, viewer));
+  PetscCall(FieldsWriteVec(&fields.force, viewer));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, PetscViewer viewer)
 {
-  Vec            pressure, gap;
-  PetscScalar   *p, *g;
-  RankError      error;
-  PetscErrorCode ierr;
-
   PetscFunctionBegin;
-  PetscCall(FieldsCreateVec(output, "contact_pressure", output->nowned, 1, &pressure));
-  PetscCall(FieldsCreateVec(output, "contact_gap", output->nowned, 1, &gap));
-  PetscCall(VecSet(pressure, 0.0));
-  PetscCall(VecGetArray(pressure, &p));
-  PetscCall(VecGetArray(gap, &g));
-  PetscCall(RankErrorBegin(&error));
-  ierr = FieldsFillContact(output, state, p, g);
-  PetscCall(RankErrorEnd(output->comm, ierr, &error));
-  PetscCheck(!error.code, output->comm, error.code, "%s", error.message);
-  PetscCall(VecRestoreArray(gap, &g));
-  PetscCall(VecRestoreArray(pressure, &p));
-  PetscCall(FieldsWriteVec(&pressure, viewer));
-  PetscCall(FieldsWriteVec(&gap, viewer));
+  PetscCall(FieldsWritePair(output, state, -1, NULL, viewer));
+  for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(FieldsWritePair(output, state, p, output->pairnames[p], viewer));
   PetscFunctionReturn(0);
 }
 

@@ -36,6 +36,16 @@ static void JSONInts(FILE *stream, PetscInt n, const PetscInt value[])
   fputc(']', stream);
 }
 
+static void JSONTexts(FILE *stream, PetscInt n, const char *const text[])
+{
+  fputc('[', stream);
+  for (PetscInt i = 0; i < n; ++i) {
+    if (i) fputs(", ", stream);
+    JSONString(stream, text[i]);
+  }
+  fputc(']', stream);
+}
+
 /* An object with the bodies' names as keys; of integers or of reals, which may be missing */
 static void JSONBodies(FILE *stream, const RunReport *run, const PetscInt ints[], const PetscReal reals[])
 {
@@ -80,6 +90,9 @@ static void JSONValue(FILE *stream, const RunReport *run, const ReportField *fie
   case FIELD_TEXT:
   case FIELD_CHARS:
     JSONString(stream, SchemaText(field, record));
+    break;
+  case FIELD_TEXTS:
+    JSONTexts(stream, SchemaCount(field, record), *(const char *const *const *)value);
     break;
   case FIELD_VECTOR:
     JSONVector(stream, (const PetscReal *)value);

@@ -41,7 +41,8 @@ static PetscErrorCode OutputCount(Output output)
    Notes:
    Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell) and,
    a load step, to <basename>_<step>.h5. Every file is written under another name and renamed when it is whole, and
-   the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable.
+   the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
+   first step is written, the files of later steps that an older run of the same name left are removed.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written.
 
@@ -67,6 +68,32 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   PetscFunctionReturn(0);
 }
 
+/* One pair has its fields without its name */
+static PetscErrorCode OutputKeepPairs(Output output, const StepReport *report)
+{
+  PetscFunctionBegin;
+  if (report->npairs < 2) PetscFunctionReturn(0);
+  output->npairs = report->npairs;
+  PetscCall(PetscMalloc1(output->npairs, &output->pairnames));
+  for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(PetscStrallocpy(report->pairs[p].name, &output->pairnames[p]));
+  PetscFunctionReturn(0);
+}
+
+/* Steps beyond this one are those of an older run of the same name; only the first rank looks */
+static PetscErrorCode OutputRemoveOlder(Output output)
+{
+  char        file[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  PetscInt    step = output->steps[0].step;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(output->comm, &rank));
+  if (rank) PetscFunctionReturn(0);
+  do PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
+  while (!remove(file));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    OutputWrite - Adds the state at the end of a load step
 
@@ -74,14 +101,20 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
 
    Input Parameters:
 +  output - the output
--  state  - the state; its contact rows are at vertices that this rank owns
+-  state  - the state; its contact points are at vertices that this rank owns
 
    Level: intermediate
 
    Notes:
-   Fields at vertices: displacement [length], contact_pressure [force/length^2], contact_gap [length]. Away from the
-   contact rows the pressure is 0 and the gap is NaN, which ParaView paints in its NaN colour. A vertex with rows of
-   several pairs has the sum of their pressures and the smallest of their gaps.
+   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure [force/length^2], contact_gap
+   [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. Over the vertices of a side
+   contact_pressure times contact_area sums to the pair's normal force, contact_force to its force. The area is that which the
+   other side covers about the vertex; a vertex that is covered much less than its neighbours is counted with theirs and has neither
+   area nor pressure. Away from contact the gap and the status are NaN, which ParaView paints in its NaN colour, the others 0.
+
+   With several pairs each has fields of its own, called contact_pressure_<pair> and so on; those without a name have, at a
+   vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
+
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body.
 
 .seealso: `OutputCreate()`, `OutputDestroy()`
@@ -89,6 +122,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
 PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
   PetscFunctionBegin;
+  if (!output->nsteps) PetscCall(OutputKeepPairs(output, state->report));
   PetscCall(OutputWriteFields(output, state));
   if (output->nsteps == output->maxsteps) {
     output->maxsteps = 2 * output->maxsteps + 8;
@@ -98,6 +132,7 @@ PetscErrorCode OutputWrite(Output output, const StepState *state)
   output->steps[output->nsteps].time = state->report->load;
   output->nsteps++;
   PetscCall(OutputWriteXDMF(output));
+  if (output->nsteps == 1) PetscCall(OutputRemoveOlder(output));
   PetscFunctionReturn(0);
 }
 
@@ -121,6 +156,8 @@ PetscErrorCode OutputDestroy(Output *output)
   if (!o) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
   PetscCall(PetscFree(o->bodynames));
+  for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));
+  PetscCall(PetscFree(o->pairnames));
   PetscCall(PetscFree(o->base));
   PetscCall(PetscFree(o->steps));
   PetscCall(DMDestroy(&o->dm));

@@ -29,6 +29,8 @@ struct _n_Output {
   char       *base; /* of the file names */
   PetscInt    nbodies;
   char      **bodynames;
+  PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
+  char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
   PetscInt    nowned, ncellslocal, first; /* vertices and cells of this rank; number of its first vertex */
   PetscInt    nsteps, maxsteps;
@@ -58,6 +60,7 @@ typedef enum {
   FIELD_BOOL,       /* PetscBool */
   FIELD_TEXT,       /* const char * */
   FIELD_CHARS,      /* char[] */
+  FIELD_TEXTS,      /* const char **, counted */
   FIELD_VECTOR,     /* PetscReal[3] */
   FIELD_INTS,       /* PetscInt *, counted */
   FIELD_BODY_INTS,  /* PetscInt *, one a body */
@@ -73,6 +76,8 @@ typedef enum {
   TABLE_EVERY,
   TABLE_WORK,
   TABLE_FORCES,
+  TABLE_PAIRS,
+  TABLE_FACES,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,
@@ -120,7 +125,7 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
 PETSC_INTERN const void        *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double             SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char        *SchemaText(const ReportField *, const void *record);

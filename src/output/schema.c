@@ -31,6 +31,38 @@ static const ReportField fallback_fields[] = {
 };
 const ReportRecord SchemaFallbacks = {sizeof(TaoIPFilterFallbacks), PETSC_TRUE, fallback_fields};
 
+static const ReportField pair_fields[] = {
+  FIELD(PairReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_PAIRS, "pair", "", -24)}),
+  FIELD(PairReport, force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_PAIRS, "force on the nonmortar side", "", -41)}),
+  FIELD(PairReport, moment, FIELD_VECTOR, "force length"),
+  FIELD(PairReport, mortar_force, FIELD_VECTOR, "force"),
+  FIELD(PairReport, mortar_moment, FIELD_VECTOR, "force length"),
+  FIELD(PairReport, normal_force, FIELD_REAL, "force", .columns = {COLUMN(TABLE_PAIRS, "normal", "", 12, .format = "%.6e")}),
+  FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, pressure, FIELD_REAL, "force/length^2", .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
+  END,
+};
+const ReportRecord SchemaPairs = {sizeof(PairReport), PETSC_TRUE, pair_fields};
+
+static const ReportField face_fields[] = {
+  FIELD(FaceReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_FACES, "face", "", -24)}),
+  FIELD(FaceReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FACES, "reaction", "", -41)}),
+  FIELD(FaceReport, moment, FIELD_VECTOR, "force length"),
+  END,
+};
+const ReportRecord SchemaFaces = {sizeof(FaceReport), PETSC_TRUE, face_fields};
+
+static const ReportField body_fields[] = {
+  FIELD(BodyReport, name, FIELD_TEXT, ""),
+  FIELD(BodyReport, contact, FIELD_VECTOR, "force"),
+  FIELD(BodyReport, reaction, FIELD_VECTOR, "force"),
+  FIELD(BodyReport, load, FIELD_VECTOR, "force"),
+  FIELD(BodyReport, residual, FIELD_VECTOR, "force"),
+  FIELD(BodyReport, balance, FIELD_REAL, ""),
+  END,
+};
+static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_fields};
+
 static const ReportField step_fields[] = {
   FIELD(StepReport, step, FIELD_INT, "", .columns = {COLUMN(TABLE_EVERY, "step", "", 5)}),
   FIELD(StepReport, load, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "load", "factor", 8, .format = "%.4f")}),
@@ -57,6 +89,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, gap_true, FIELD_REAL, "length", .absent = "no contact", .columns = {COLUMN(TABLE_TRUTH, "true", "gap", 10, .behind = PETSC_TRUE)}),
   FIELD(StepReport, gap_change, FIELD_REAL, "length", .columns = {COLUMN(TABLE_TRUTH, "gap", "change", 10, .behind = PETSC_TRUE)}),
   FIELD(StepReport, gap_untrue, FIELD_BOOL, ""),
+  FIELD(StepReport, gap_damped, FIELD_INT, ""),
   FIELD(StepReport, complementarity, FIELD_REAL, "force/length", .columns = {COLUMN(TABLE_WORK, "complem.", "error", 9)}),
   FIELD(StepReport, action_reaction, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "action =", "reaction", 9)}),
   FIELD(StepReport, algebraic_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_ERRORS, "", "of the solver", 13, .blanks = 1)}),
@@ -65,6 +98,10 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, body_errors, FIELD_BODY_REALS, "", .columns = {COLUMN(TABLE_ERRORS, "", "", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT)}),
   FIELD(StepReport, contact_force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "contact force on the nonmortar side", "", -41, .blanks = 1)}),
   FIELD(StepReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "reaction on the driven faces", "", -41, .blanks = 1)}),
+  FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
+  FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
+  FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
+  FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
   FIELD(StepReport, solve_time, FIELD_DOUBLE, "s"),
   FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged", .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
   FIELD(StepReport, reason, FIELD_TEXT, ""),
@@ -93,6 +130,7 @@ static const ReportField level_fields[] = {
   FIELD(AccuracyLevel, recovery, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "recovery", "", 10)}),
   FIELD(AccuracyLevel, change, FIELD_REAL, "", .absent = "-", .columns = {COLUMN(TABLE_LEVELS, "change", "", 10)}),
   FIELD(AccuracyLevel, error, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "mesh error", "", 12)}),
+  FIELD(AccuracyLevel, unseen, FIELD_BOOL, "", .absent = "", .columns = {COLUMN(TABLE_LEVELS, "", "", 0, .format = "beyond recovery", .behind = PETSC_TRUE)}),
   FIELD(AccuracyLevel, algebraic, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "solver error", "", 12)}),
   FIELD(AccuracyLevel, time, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_LEVELS, "time", "", 10, .with_unit = PETSC_TRUE)}),
   END,
@@ -144,6 +182,8 @@ static const ReportField run_fields[] = {
   FIELD(RunReport, refine, FIELD_INT, ""),
   FIELD(RunReport, converged, FIELD_BOOL, ""),
   FIELD(RunReport, reason, FIELD_TEXT, ""),
+  FIELD(RunReport, exit_code, FIELD_INT, ""),
+  FIELD(RunReport, warnings, FIELD_TEXTS, "", .count = offsetof(RunReport, nwarnings)),
   FIELD(RunReport, steps, FIELD_LIST, "", .count = offsetof(RunReport, nsteps), .record = &SchemaSteps),
   FIELD(RunReport, time, FIELD_RECORD, "", .record = &SchemaTimes),
   FIELD(RunReport, assemblies, FIELD_BODY_INTS, ""),

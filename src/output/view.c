@@ -10,6 +10,26 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
+/* Who pushes whom at the end: a row a contact pair, a row a face that is held or driven */
+static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
+{
+  const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
+
+  PetscFunctionBegin;
+  PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
+  if (last && last->npairs) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_PAIRS, &SchemaPairs, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_PAIRS, &SchemaPairs, last->npairs, last->pairs, viewer));
+  }
+  if (last && last->nfaces) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
@@ -130,7 +150,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
   PetscCall(ViewSteps(report, TABLE_WORK, 2, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
+  PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));

@@ -49,6 +49,22 @@ static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
   XDMFWriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
 }
 
+/* Of all pairs together, or of one, after whose name they are called */
+static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char file[], const char pair[])
+{
+  static const char *const fields[] = {"contact_pressure", "contact_gap", "contact_area", "contact_status", "contact_force"};
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(fields); ++i) {
+    const PetscBool vector = (PetscBool)(i == 4);
+    char            name[256];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "%s%s%s", fields[i], pair ? "_" : "", pair ? pair : ""));
+    XDMFWriteAttribute(stream, file, name, vector ? "Vector" : "Scalar", "Node", PETSC_FALSE, output->nvertices, vector ? 3 : 1);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
 {
   Output output = (Output)ctx;
@@ -68,8 +84,8 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
     fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", output->steps[s].step, (double)output->steps[s].time);
     XDMFWriteMeshGrid(stream, output, mesh);
     XDMFWriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
-    XDMFWriteAttribute(stream, file, "contact_pressure", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
-    XDMFWriteAttribute(stream, file, "contact_gap", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+    PetscCall(XDMFWriteContact(stream, output, file, NULL));
+    for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
     XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
     XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
     fputs("      </Grid>\n", stream);

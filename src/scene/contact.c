@@ -1,6 +1,27 @@
 /* contact: a list of named pairs of faces */
 #include "sceneimpl.h"
 
+/* true, false, or a length */
+static PetscErrorCode SceneReadInterference(SceneKeys keys, SceneContactPair *pair)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscBool   any = PETSC_FALSE, none = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_interference", pair->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (!text) PetscFunctionReturn(0);
+  PetscCall(PetscStrcasecmp(text, "true", &any));
+  PetscCall(PetscStrcasecmp(text, "false", &none));
+  if (any) pair->interference = PETSC_INFINITY;
+  else if (!none) {
+    PetscCall(SceneParseReal(keys, key, text, &pair->interference));
+    if (pair->interference < 0.0) PetscCall(SceneKeysComplain(keys, "%s is %s; it is true, false, or the largest overlap that is meant", key, text));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
 {
   char        key[SCENE_KEY_LENGTH];
@@ -19,6 +40,7 @@ static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_distance", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseReal(keys, key, text, &pair->distance));
+  PetscCall(SceneReadInterference(keys, pair));
   PetscFunctionReturn(0);
 }
 

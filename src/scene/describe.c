@@ -148,7 +148,7 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(DescribeMeasureFace(dm, faces[order[i]], &nfacets, &area));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
+    if (nfacets) PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
   }
   PetscCall(PetscFree2(faces, order));
   PetscFunctionReturn(0);
@@ -180,7 +180,21 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribePairs(Scene scene, PetscViewer viewer)
+/* The nonmortar side should be the finer one */
+static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscViewer viewer)
+{
+  PetscInt  n[2];
+  PetscReal area[2], size[2];
+
+  PetscFunctionBegin;
+  PetscCall(DescribeMeasureFace(dm, pair->mortar, &n[0], &area[0]));
+  PetscCall(DescribeMeasureFace(dm, pair->nonmortar, &n[1], &area[1]));
+  for (PetscInt i = 0; i < 2; ++i) size[i] = n[i] ? area[i] / n[i] : 0.0;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1], size[1] > 4.0 * size[0] ? ": the coarser side has the constraints, the finer one would be better" : ""));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscFunctionBegin;
   if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "Contact pairs\n"));
@@ -190,6 +204,7 @@ static PetscErrorCode DescribePairs(Scene scene, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar, here->nonmortar, GapTypes[here->gap]));
     if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
     else PetscCall(PetscViewerASCIIPrintf(viewer, "facets within a distance chosen from the size of the faces\n"));
+    PetscCall(DescribeSides(dm, here, viewer));
   }
   PetscFunctionReturn(0);
 }
@@ -286,7 +301,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeBodies(scene, dm, viewer));
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));
-  PetscCall(DescribePairs(scene, viewer));
+  PetscCall(DescribePairs(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
   PetscCall(DescribeEffects(scene, viewer));
   PetscFunctionReturn(0);

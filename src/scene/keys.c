@@ -1,5 +1,6 @@
 /* The keys of a scene file: reading it, asking for keys, and what to say of those nobody asked for. */
 #include "sceneimpl.h"
+#include <options.h>
 #include <stdarg.h>
 
 /* On the first rank: the whole file, ended by a zero */
@@ -109,48 +110,6 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   PetscFunctionReturn(0);
 }
 
-/* Levenshtein distance */
-static PetscErrorCode SceneKeysEditDistance(const char a[], const char b[], size_t *distance)
-{
-  size_t na, nb, *row;
-
-  PetscFunctionBegin;
-  PetscCall(PetscStrlen(a, &na));
-  PetscCall(PetscStrlen(b, &nb));
-  PetscCall(PetscMalloc1(nb + 1, &row));
-  for (size_t j = 0; j <= nb; ++j) row[j] = j;
-  for (size_t i = 1; i <= na; ++i) {
-    size_t diagonal = row[0];
-
-    row[0] = i;
-    for (size_t j = 1; j <= nb; ++j) {
-      const size_t above = row[j];
-
-      row[j]   = PetscMin(PetscMin(above, row[j - 1]) + 1, diagonal + (a[i - 1] != b[j - 1]));
-      diagonal = above;
-    }
-  }
-  *distance = row[nb];
-  PetscCall(PetscFree(row));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SceneKeysNearest(SceneKeys keys, const char key[], const char **nearest)
-{
-  size_t best = PETSC_MAX_OPTION_NAME, distance = 0;
-
-  PetscFunctionBegin;
-  *nearest = "";
-  for (PetscInt i = 0; i < keys->nasked; ++i) {
-    PetscCall(SceneKeysEditDistance(key, keys->asked[i], &distance));
-    if (distance < best) {
-      best     = distance;
-      *nearest = keys->asked[i];
-    }
-  }
-  PetscFunctionReturn(0);
-}
-
 /* Raises what is wrong with the file, if anything: a key nobody asked for, else the first complaint */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
@@ -170,7 +129,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
     }
   }
   if (unknown) {
-    PetscCall(SceneKeysNearest(keys, unknown, &nearest));
+    PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file, unknown, nearest);
   }
   PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));

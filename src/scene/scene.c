@@ -2,6 +2,8 @@
 #include "sceneimpl.h"
 #include <string.h>
 
+#define SCENE_CONTACT_UPDATES 20
+
 /* The file's name without folders and .yaml */
 static PetscErrorCode SceneDefaultName(const char file[], char **name)
 {
@@ -35,7 +37,7 @@ static PetscErrorCode SceneReadProblem(SceneKeys keys, Scene scene)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "model"));
   if (text) PetscCall(SceneParseEnum(keys, "model", text, StepModels, &model));
   scene->model           = (StepModel)model;
-  scene->contact_updates = 1;
+  scene->contact_updates = SCENE_CONTACT_UPDATES;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(counts); ++i) {
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", counts[i].name));
     if (text) PetscCall(SceneParseInt(keys, counts[i].name, text, counts[i].value));
@@ -80,7 +82,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
 +  -refine <n>               - uniform refinements of level 0
 .  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in between
 .  -model <energy,quadratic> - what a load step minimizes
-.  -contact_updates <n>      - linearizations of the gap a load step
+.  -contact_updates <n>      - linearizations of the gap a load step at most; 1: one, whether its gap is true or not
 -  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0: none
 
    Level: beginner

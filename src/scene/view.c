@@ -93,6 +93,11 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", distance: "));
     PetscCall(SceneViewReal(viewer, pair->distance));
   }
+  if (pair->interference >= PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, ", interference: true"));
+  else if (pair->interference > 0) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", interference: "));
+    PetscCall(SceneViewReal(viewer, pair->interference));
+  }
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);

@@ -4,7 +4,9 @@
 
 #define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_UPDATES 20
-#define ACCURACY_MARGIN  0.5 /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
+#define ACCURACY_UNSEEN  2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
+#define ACCURACY_MINOR   1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+#define ACCURACY_MARGIN  0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
 
 /*@C
    AccuracySetFromOptions - How accurate a run is to be
@@ -89,16 +91,26 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
   PetscFunctionReturn(0);
 }
 
-/* The largest difference of the load steps, relative to the largest value */
-static PetscReal AccuracyLargestChange(PetscInt n, const PetscReal now[], const PetscReal before[])
+/* The largest difference of the load steps, relative to the largest value, but not to less than `least` */
+static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[], PetscReal least)
 {
-  PetscReal difference = 0.0, size = 0.0;
+  PetscReal difference = 0.0, size = least;
 
   for (PetscInt s = 0; s < n; ++s) {
-    difference = PetscMax(difference, PetscAbsReal(now[s] - before[s]));
-    size       = PetscMax(size, PetscAbsReal(now[s]));
+    difference = PetscMax(difference, PetscAbsReal(now[s * stride] - before[s * stride]));
+    size       = PetscMax(size, PetscAbsReal(now[s * stride]));
   }
   return size > 0.0 ? difference / size : 0.0;
+}
+
+/* Of the energy, and of each pair's force by its size and by the sum of its rows' */
+static PetscReal AccuracyChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+{
+  PetscReal change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0), largest = 0.0;
+
+  for (PetscInt i = 0; i < 2 * npairs * nsteps; ++i) largest = PetscMax(largest, now->force[i]);
+  for (PetscInt k = 0; k < 2 * npairs; ++k) change = PetscMax(change, AccuracyLargestChange(nsteps, 2 * npairs, now->force + k, before->force + k, k % 2 ? ACCURACY_MINOR * largest : largest));
+  return change;
 }
 
 /* The last run on a coarser mesh than the last run's, NULL if there is none */
@@ -112,23 +124,39 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
-/* Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
+/*
+   Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
    than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
-   the recovered error stands */
-static void AccuracyAssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps)
+   the recovered error stands; where they differ by more than recovery can tell, nothing of their difference is taken off
+*/
+static void AccuracyAssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
 {
   PetscReal ratio;
 
   now->error  = now->recovery;
   now->change = NAN;
   if (!before) return;
-  now->change = PetscMax(AccuracyLargestChange(nsteps, now->energy, before->energy), AccuracyLargestChange(nsteps, now->force, before->force));
+  now->change = AccuracyChange(now, before, nsteps, npairs);
+  now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  ratio       = PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
+  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
 }
 
-static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report)
+/* Of each pair in a load step */
+static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[])
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < npairs; ++p) {
+    const PetscReal *f = p < step->npairs ? step->pairs[p].force : NULL;
+
+    force[2 * p]     = f ? PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) : 0.0;
+    force[2 * p + 1] = f ? step->pairs[p].normal_force : 0.0;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, PetscInt npairs)
 {
   AccuracyLevel *level;
   PetscReal      largest = 0.0;
@@ -137,17 +165,16 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report)
   PetscCall(PetscRealloc((acc->nlevels + 1) * sizeof(*acc->levels), &acc->levels));
   level = &acc->levels[acc->nlevels++];
   PetscCall(PetscMemzero(level, sizeof(*level)));
-  PetscCall(PetscMalloc2(report->nsteps, &level->energy, report->nsteps, &level->force));
+  PetscCall(PetscMalloc2(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force));
   level->refine = report->refine;
   level->dofs   = report->dofs;
   level->time   = report->time.total;
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
-    const PetscReal  *f    = step->contact_force;
 
     level->energy[s] = step->energy;
-    level->force[s]  = PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
     largest          = PetscMax(largest, step->energy);
+    PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s));
   }
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step   = &report->steps[s];
@@ -156,21 +183,22 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report)
     level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
     level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
   }
-  AccuracyAssessMesh(level, AccuracyCoarser(acc), report->nsteps);
+  AccuracyAssessMesh(level, AccuracyCoarser(acc), report->nsteps, npairs);
   PetscFunctionReturn(0);
 }
 
-/* Refined once more, unless the error is within a factor 2 of the target or the unknowns do not allow it */
+/* Refined once more, unless two meshes say that the error is within a factor 2 of the target, or the unknowns do not allow it */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
-  const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];
-  const PetscReal      next = 8.0 * (PetscReal)now->dofs;
+  const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
+  const PetscBool      single = (PetscBool)!AccuracyCoarser(acc);
+  const PetscReal      next   = 8.0 * (PetscReal)now->dofs;
 
   PetscFunctionBegin;
-  acc->reached = (PetscBool)(now->error <= 2.0 * acc->target);
+  acc->reached = (PetscBool)(!single && now->error <= 2.0 * acc->target);
   *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->max_dofs);
   if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
-  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, (double)next, acc->max_dofs));
+  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, single ? "one mesh alone tells no error; " : "", (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 
@@ -221,11 +249,14 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
    Level: developer
 
    Notes:
-   The first mesh's error in energy is that of stress recovery. From the second mesh on it is extrapolated from the change of
-   energy and contact force between two meshes, whichever is larger, with the rate that recovery shows, a factor of 4 at most, as
-   trilinear elements have it; it is taken for a quarter of recovery's at least. A mesh is fine enough when its error is within a
-   factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much, so that all the coarser meshes together
-   cost a seventh of the last.
+   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where the faces meet:
+   no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated from the change of energy
+   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, a factor of 4 at most, as
+   trilinear elements have it; it is taken for a quarter of recovery's at least. A change beyond what recovery accounts for on both
+   meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first relative to the largest of all pairs.
+
+   A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,
+   so that all the coarser meshes together cost a seventh of the last. A target that the first mesh meets costs 8 times that mesh.
 
    Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
    repeated with it.
@@ -240,7 +271,7 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
   *again = PETSC_FALSE;
   if (acc->target == 0.0) PetscFunctionReturn(0);
   AccuracyAdopt(acc, tolerances);
-  PetscCall(AccuracyRecord(acc, report));
+  PetscCall(AccuracyRecord(acc, report, scene->npairs));
   PetscCall(AccuracyDecideOnMesh(acc, &refine));
   PetscCall(AccuracyDecideOnTolerance(acc, &tighten));
   if (refine) ++scene->refine;

@@ -24,35 +24,6 @@ static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *r
   PetscFunctionReturn(0);
 }
 
-/* Its sum over a pair's nonmortar vertices acts on that side */
-static PetscErrorCode MeasureContactForce(Simulation sim, Vec q, StepReport *report)
-{
-  const PetscScalar *a;
-  PetscInt           rstart;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(report->contact_force, 3));
-  PetscCall(VecGetOwnershipRange(q, &rstart, NULL));
-  PetscCall(VecGetArrayRead(q, &a));
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    for (PetscInt c = 0; c < 3; ++c) {
-      IS              is;
-      const PetscInt *rows;
-      PetscInt        n;
-
-      PetscCall(MeshGetFaceDofs(sim->dm, sim->scene->pairs[p].nonmortar, c, &is));
-      PetscCall(ISGetLocalSize(is, &n));
-      PetscCall(ISGetIndices(is, &rows));
-      for (PetscInt k = 0; k < n; ++k) report->contact_force[c] += PetscRealPart(a[rows[k] - rstart]);
-      PetscCall(ISRestoreIndices(is, &rows));
-      PetscCall(ISDestroy(&is));
-    }
-  }
-  PetscCall(VecRestoreArrayRead(q, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, report->contact_force, 3, MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
 {
   Vec       product;
@@ -125,6 +96,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
   PetscReal  size, residual;
 
   PetscFunctionBegin;
+  PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(p->base, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
@@ -136,12 +108,14 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecDuplicate(p->base, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
-    PetscCall(MeasureContactForce(sim, contact, report));
+    PetscCall(ForcesMeasurePairs(sim, u, weighted, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));
   }
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
+  PetscCall(ForcesMeasureFaces(sim, u, force, report));
+  PetscCall(ForcesMeasureBodies(sim, p->load, report));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;

@@ -111,10 +111,11 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptimizerReport(Tao tao, PetscBool ours, Vec u, StepReport *report)
+static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, Vec u, StepReport *report)
 {
   TaoConvergedReason reason;
-  const char        *sentence = NULL;
+  const char        *sentence  = NULL;
+  char              *unbounded = NULL;
   PetscReal          residual, infeasibility;
   PetscInt           n;
 
@@ -122,6 +123,8 @@ static PetscErrorCode OptimizerReport(Tao tao, PetscBool ours, Vec u, StepReport
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
+  if (sentence) PetscCall(PetscStrstr(sentence, "unbounded", &unbounded));
+  if (unbounded) PetscCall(FlightReport(sim, u, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, report));
@@ -166,7 +169,7 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
-    PetscCall(OptimizerReport(tao, ours, u, report));
+    PetscCall(OptimizerReport(sim, tao, ours, u, report));
     if (sim->interrupted) PetscCall(InterruptReport(sim, report));
     if (p->J && report->converged) PetscCall(OptimizerKeepContact(p, tao, ours, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));

@@ -1,5 +1,22 @@
 /* What a solve adds to the report of its load step. */
 #include "stepimpl.h"
+#include <stdarg.h>
+
+/* Collective. Said once on stderr, at once, and kept for the summary */
+PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
+{
+  char    sentence[512];
+  va_list args;
+
+  PetscFunctionBegin;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(sentence, sizeof(sentence), format, NULL, args));
+  va_end(args);
+  PetscCall(PetscFPrintf(comm, stderr, "contact: warning: %s\n", sentence));
+  PetscCall(PetscRealloc((size_t)(report->nwarnings + 1) * sizeof(*report->warnings), &report->warnings));
+  PetscCall(PetscStrallocpy(sentence, (char **)&report->warnings[report->nwarnings++]));
+  PetscFunctionReturn(0);
+}
 
 /* The last solve's end is the load step's */
 PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])

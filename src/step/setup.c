@@ -25,6 +25,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
+  PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
   PetscCall(StiffnessSetType(sim));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));

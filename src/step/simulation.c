@@ -28,7 +28,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   (*sim)->warm       = PETSC_TRUE;
   (*sim)->estimate   = PETSC_TRUE;
   (*sim)->maxcuts    = 5;
-  (*sim)->tolerances = (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6};
+  (*sim)->tolerances = (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
   PetscFunctionReturn(0);
 }
 
@@ -45,7 +45,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 
    Note:
    `-tao_gatol` and `-tao_ipfilter_tol` win over that of the optimizer, `-elasticity_ksp_rtol` over the linear solver's,
-   `-contact_update_tol` over that of the gap.
+   `-contact_update_tol` and `-contact_gap_tol` over those of the gap.
 
 .seealso: `SimulationGetTolerances()`, `AccuracyPlan()`
 @*/
@@ -110,6 +110,7 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 .  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 .  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
+.  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of TAOIPFILTER: the
                                 stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc solvers have
                                 the prefix penalty_. The faces penetrate by about pressure times the bodies' flexibility over this
@@ -127,6 +128,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
+  PetscCall(PetscOptionsReal("-contact_gap_tol", "Change of the gap, relative to the largest displacement, beyond which a load step has not converged", "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
   PetscOptionsEnd();
   PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
@@ -191,19 +193,24 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   for (PetscInt i = 0; i < s->report.nsteps; ++i) {
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
+    PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));
   PetscCall(PetscFree2(s->report.bodies, s->report.assemblies));
   PetscCall(PetscFree(s->report.effects));
+  for (PetscInt i = 0; i < s->report.nwarnings; ++i) PetscCall(PetscFree(*(char **)&s->report.warnings[i]));
+  PetscCall(PetscFree(s->report.warnings));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree(s->stress));
+  PetscCall(PetscFree(s->points));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));
   PetscCall(ContactMemoryDestroy(&s->memory));
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));
   PetscCall(ElasticityDestroy(&s->elasticity));
   PetscCall(MatDestroy(&s->K));

@@ -2,18 +2,17 @@
 #include "stepimpl.h"
 #include <math.h>
 
-static PetscErrorCode SimulationGetState(Simulation sim, const StepReport *report, StepState *state)
+static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, StepState *state)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
+  PetscCall(ContactPointsMeasure(sim, report));
   state->report       = report;
   state->displacement = sim->path.u;
   state->stress       = sim->stress;
-  state->nrows        = sim->linearization ? sim->linearization->nlocal : 0;
-  state->row_vertex   = sim->linearization ? sim->linearization->vertex : NULL;
-  state->pressure     = sim->pressure;
-  state->gap          = sim->gap;
+  state->npoints      = sim->npoints;
+  state->points       = sim->points;
   PetscFunctionReturn(0);
 }
 
@@ -48,7 +47,8 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 
    Notes:
    The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at what
-   was found as the scene's contact_updates allow, until it is true. Linear bodies, and the scene's `model quadratic`, make the
+   was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or the step has not converged, but
+   where one linearization is all that is allowed. Linear bodies, and the scene's `model quadratic`, make the
    step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG solve
    (options prefix -elasticity_) and neither search nor optimizer.
 
@@ -86,7 +86,10 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
+    sim->report.exit_code = sim->interrupted ? RUN_INTERRUPTED : report->gap_untrue ? RUN_GAP_UNTRUE
+                                                                                    : RUN_FAILED;
   } else if (report->gap_untrue) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
+  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(StartWarnOfUnmet(sim));
   PetscFunctionReturn(0);
 }

@@ -23,6 +23,7 @@ PETSC_INTERN PetscErrorCode ResidentGet(MPI_Comm, PetscLogDouble *bytes);
 PETSC_INTERN PetscErrorCode ResidentGetPeak(MPI_Comm, PetscLogDouble *bytes);
 
 /* report.c */
+PETSC_INTERN PetscErrorCode ReportWarn(MPI_Comm, RunReport *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallbacks *);
@@ -57,6 +58,15 @@ typedef struct {
 PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
+
+/* places.c: where the vertices that this rank owns are, undeformed, and in which body; in the order of the global vectors */
+typedef struct {
+  Vec       x;    /* [length] */
+  PetscInt *body; /* one a vertex */
+} VertexPlaces;
+
+PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
 
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
@@ -97,6 +107,7 @@ struct _n_Simulation {
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
   DeadLoads            loads;
+  VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
@@ -106,6 +117,8 @@ struct _n_Simulation {
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;
+  PetscInt             npoints;
+  ContactPoint        *points;
   StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
   PetscBool            warm;        /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
@@ -174,6 +187,9 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
+/* flight.c */
+PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
+
 /* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
 #define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
@@ -181,8 +197,36 @@ PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
+/* damping.c: of the updates of the gap in one solve, where they go in a circle; begins as {.factor = 1.0} */
+typedef struct {
+  PetscInt  n, stalls; /* solutions; the last ones without progress */
+  PetscReal least;     /* change of the gap so far [length] */
+  PetscReal factor;    /* of the way from a linearization to its solution that the next one goes */
+  Vec       way;       /* the last one that was damped [length] */
+} GapDamping;
+
+PETSC_INTERN PetscErrorCode GapDampingAdvance(GapDamping *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode GapDampingDestroy(GapDamping *);
+
+/* forces.c: forces and moments by pair, by face and by body */
+PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec load, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
+
+/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */
+PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, Vec carried);
+
+/* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
+
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
+
+/* start.c */
+PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
+PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
 
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);

@@ -1,0 +1,59 @@
+/* What was meant by a misspelt name. */
+#include "optionsimpl.h"
+
+/* Levenshtein distance */
+static PetscErrorCode EditDistance(const char a[], const char b[], size_t *distance)
+{
+  size_t na, nb, *row;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrlen(a, &na));
+  PetscCall(PetscStrlen(b, &nb));
+  PetscCall(PetscMalloc1(nb + 1, &row));
+  for (size_t j = 0; j <= nb; ++j) row[j] = j;
+  for (size_t i = 1; i <= na; ++i) {
+    size_t diagonal = row[0];
+
+    row[0] = i;
+    for (size_t j = 1; j <= nb; ++j) {
+      const size_t above = row[j];
+
+      row[j]   = PetscMin(PetscMin(above, row[j - 1]) + 1, diagonal + (a[i - 1] != b[j - 1]));
+      diagonal = above;
+    }
+  }
+  *distance = row[nb];
+  PetscCall(PetscFree(row));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OptionsNearest - The known name that is nearest to another: fewest letters to insert, leave out or exchange
+
+   Not Collective
+
+   Input Parameters:
++  n     - number of known names
+.  known - the names
+-  name  - the other name
+
+   Output Parameter:
+.  nearest - one of the known names, "" if there are none
+
+   Level: developer
+@*/
+PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[], const char **nearest)
+{
+  size_t best = PETSC_MAX_OPTION_NAME, distance = 0;
+
+  PetscFunctionBegin;
+  *nearest = "";
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(EditDistance(name, known[i], &distance));
+    if (distance < best) {
+      best     = distance;
+      *nearest = known[i];
+    }
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,51 @@
+# What a scene should have said of its contact: overlaps at the start, a pair that never meets, a body that nothing stops. A warning stands once on stderr and in
+# the summary; -scene_check says it beforehand. Last, a reader that has seen enough, and the exit codes that the README and -help list.
+contact=$AMGF_DIR/bin/contact
+
+# stone HEIGHT PULL KEYS: on a table at 1
+stone() {
+  cat > stone.yaml <<YAML
+bodies:
+  - table: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 1], young: 1000, poisson: 0.3}
+  - stone: {lower: [1, 1, $1], upper: [3, 3, 2], cells: [2, 2, 1], young: 1000, poisson: 0.3}
+displacements:
+  - floor: {face: table.zmin, value: [0, 0, 0]}
+symmetry: [x: {face: stone.xmin, normal: x}, y: {face: stone.ymin, normal: y}]
+body_forces:
+  - pull: {body: stone, value: [0, 0, $2]}
+contact:
+  - lie: {mortar: table.zmax, nonmortar: stone.zmin$3}
+YAML
+}
+
+try() {
+  echo "$1"
+  shift
+  "$contact" stone.yaml -quiet -summary stone.json "$@" > out 2> err
+  echo "  exit $?"
+  sed -e 's/fell from .*; body/fell; body/' -e 's/farthest, by [^:]*:/farthest:/' -e 's/^/  /' err
+  "$PYTHON" -c 'import json; print("  warnings in the summary: %d" % len(json.load(open("stone.json"))["warnings"]))'
+}
+
+stone 0.7 -1 "" && try "overlap"
+"$contact" stone.yaml -scene_check | sed -n '/^Contact at/,$p'
+stone 0.7 -1 ", interference: 0.2" && try "more overlap than declared"
+stone 0.7 -1 ", interference: 0.3" && try "as much as declared"
+stone 0.7 -1 ", interference: true" && try "any overlap declared"
+stone 1 -1 ", interference: true" && try "declared, but none"
+stone 1 -1 "" && try "none"
+stone 1 -1 ", interference: -1" && "$contact" stone.yaml -scene_check 2>&1 | grep contact:
+stone 1 1 "" && try "nothing stops it"
+stone 1.01 0 ", distance: 0.5" && sed -i 's/^displacements:/&\n  - held: {face: stone.zmax, value: [free, free, -0.005]}/' stone.yaml && try "never met"
+"$contact" stone.yaml -scene_check | sed -n '/^Contact at/,$p'
+for ranks in 3; do
+  mpiexec --oversubscribe -n $ranks "$contact" stone.yaml -quiet 2>&1 | grep -c 'warning: the faces of contact pair "lie" met'
+done
+
+"$contact" "$AMGF_DIR/share/scenes/cantilever.yaml" -load_steps 100 -elasticity_ksp_monitor 2> err | head -n 1
+echo "exit ${PIPESTATUS[0]}, $(wc -l < err) lines on stderr"
+
+help=$("$contact" -help 2> /dev/null | sed -n 's/^  \([0-7]\)  .*/\1/p' | tr '\n' ' ')
+readme=$(sed -n 's/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/README.md" | tr '\n' ' ')
+header=$(sed -n 's/^  RUN_[A-Z_]* *= \([0-9]*\),*.*/\1/p' "$AMGF_DIR/include/report.h" | tr '\n' ' ')
+[ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in README, -help and report.h" || echo "exit codes: $help; $readme; $header"

@@ -1,0 +1,78 @@
+"""gap_cycle.py write: a ring of hexahedra as a Gmsh file, and a scene that presses it between two plates; judge: what the runs of gap_cycle.sh say."""
+import math
+import sys
+
+from summaries import load, say
+
+AROUND, ACROSS, INNER, OUTER, PUSH = 16, 3, 4.0, 10.0, 4.0  # cells, radii, how far the upper plate moves
+
+SCENE = f"""bodies:
+  - ring: {{mesh: ring.msh, volume: ring, material: neohookean, young: 1000, poisson: 0.3}}
+  - lower: {{lower: [-15, 0, -2], upper: [15, 1, 0], cells: [30, 1, 2], young: 1000, poisson: 0.3}}
+  - upper: {{lower: [-15, 0, {2 * OUTER}], upper: [15, 1, {2 * OUTER + 2}], cells: [30, 1, 2], young: 1000, poisson: 0.3}}
+faces:
+  - foot: {{of: ring.inner, lower: [-1.5, -inf, -inf], upper: [1.5, inf, {OUTER}]}}
+  - head: {{of: ring.inner, lower: [-1.5, -inf, {OUTER}], upper: [1.5, inf, inf]}}
+displacements:
+  - foot: {{face: ring.foot, value: [0, free, free]}}
+  - head: {{face: ring.head, value: [0, free, free]}}
+  - bottom: {{face: lower.zmin, value: [0, 0, 0]}}
+  - top: {{face: upper.zmax, value: [0, 0, {-PUSH}]}}
+symmetry: [lower.ymin, lower.ymax, upper.ymin, upper.ymax, front: {{face: ring.front, normal: y}}, back: {{face: ring.back, normal: y}}]
+contact:
+  - below: {{mortar: lower.zmax, nonmortar: ring.outer}}
+  - above: {{mortar: upper.zmin, nonmortar: ring.outer}}
+"""
+
+
+def node(y, r, a):
+    return 1 + (y * (ACROSS + 1) + r) * AROUND + a % AROUND
+
+
+def cells():
+    """Physical name -> its cells, quadrangles from outside"""
+    found = {name: [] for name in ("outer", "inner", "front", "back", "ring")}
+    for r in range(ACROSS):
+        for a in range(AROUND):
+            front, back = ([node(y, r, a), node(y, r + 1, a), node(y, r + 1, a + 1), node(y, r, a + 1)] for y in (0, 1))
+            found["ring"].append(back + front)
+            found["front"].append(front)
+            found["back"].append(back)
+            for name, layer in (("inner", 0), ("outer", ACROSS)):
+                if layer in (r, r + 1) and layer - r == (name == "outer"):
+                    found[name].append([node(0, layer, a), node(0, layer, a + 1), node(1, layer, a + 1), node(1, layer, a)])
+    return found
+
+
+def write():
+    groups = cells()
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(groups)]
+    lines += [f'{3 if name == "ring" else 2} {tag} "{name}"' for tag, name in enumerate(groups, 1)] + ["$EndPhysicalNames", "$Nodes", 2 * (ACROSS + 1) * AROUND]
+    for y in range(2):
+        for r in range(ACROSS + 1):
+            for a in range(AROUND):
+                radius, angle = INNER + (OUTER - INNER) * r / ACROSS, 2 * math.pi * (a + 0.5) / AROUND
+                lines.append(f"{node(y, r, a)} {radius * math.cos(angle):.17g} {y} {OUTER + radius * math.sin(angle):.17g}")
+    lines += ["$EndNodes", "$Elements", sum(map(len, groups.values()))]
+    elements = ((tag, cell) for tag, name in enumerate(groups, 1) for cell in groups[name])
+    lines += [f"{number} {5 if len(cell) == 8 else 3} 2 {tag} {tag} {' '.join(map(str, cell))}" for number, (tag, cell) in enumerate(elements, 1)]
+    with open("ring.msh", "w") as file:
+        print(*lines, "$EndElements", sep="\n", file=file)
+    with open("ring.yaml", "w") as file:
+        file.write(SCENE)
+
+
+def judge():
+    runs = {name: load(name) for name in ("damped", "short", "single")}
+    last = {name: run["steps"][-1] for name, run in runs.items()}
+    damped = last["damped"]
+    say("damped, the updates end with a true gap", runs["damped"]["converged"] and not damped["gap_untrue"] and damped["gap_change"] <= 1e-5 * PUSH and damped["gap_true"] > -1e-5 * PUSH, damped["gap_change"])
+    say("that they were damped is told", damped["gap_damped"] > 0 and len(runs["damped"]["warnings"]) == 1, runs["damped"]["warnings"])
+    size = abs(damped["reaction"][2])
+    say("no force to the side", size > 1 and abs(damped["reaction"][0]) + abs(damped["contact_force"][0]) < 1e-6 * size, (damped["reaction"], damped["contact_force"]))
+    say("a gap that is not true is no convergence", not runs["short"]["converged"] and last["short"]["gap_untrue"] and last["short"]["gap_change"] > 1e-4, runs["short"]["reason"])
+    say("one linearization converges, its gap is not true", runs["single"]["converged"] and last["single"]["gap_untrue"] and last["single"]["gap_change"] > 1e-2, runs["single"]["reason"])
+
+
+if __name__ == "__main__":
+    {"write": write, "judge": judge}[sys.argv[1]]()

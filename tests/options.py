@@ -1,0 +1,22 @@
+"""Holds the list of options that are ours, in src/options/known.c, against the sources that ask for them: what stands on one side only is printed."""
+import glob
+import os
+import re
+
+TOP = os.environ["AMGF_DIR"]
+OF_PETSC = {"pc_type"}  # asked for beforehand, on behalf of an inner solver
+
+
+def code(*patterns):
+    paths = sorted(path for pattern in patterns for path in glob.glob(os.path.join(TOP, pattern)))
+    return re.sub(r"/\*.*?\*/", "", "".join(open(path).read() for path in paths), flags=re.S)
+
+
+sources = code("pc_amgf/*.c", "tao_ipfilter/*.c", "src/*/*.c", "apps/*.c")
+asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"', sources)) | {"tao_ipfilter_" + name for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
+known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]
+listed = re.findall(r'"(\w+)"', known)
+print("options found:", "many" if len(asked) > 80 else len(asked))
+print("the list is sorted, without repetition:", "yes" if listed == sorted(set(listed)) else "NO")
+print("asked for, but not in the list:", ", ".join(sorted(asked - OF_PETSC - set(listed))) or "none")
+print("in the list, but not asked for:", ", ".join(sorted(set(listed) - asked)) or "none")
