@@ -125,6 +125,7 @@ typedef struct {
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
   PetscReal distance; /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscBool smooth;   /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
 
 /* A PETSc option, without its dash */

@@ -9,16 +9,11 @@ typedef struct {
   PetscReal c[4][3];
 } Offset;
 
-static PetscReal Dot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Squared distance */
 static PetscReal Evaluate(const Offset *o, const PetscReal xi[2], PetscReal r[3])
 {
   for (PetscInt d = 0; d < 3; ++d) r[d] = o->c[0][d] + o->c[1][d] * xi[0] + (o->c[2][d] + o->c[3][d] * xi[0]) * xi[1];
-  return Dot(r, r);
+  return ContactDot(r, r);
 }
 
 /* Nine points in the facet: the one nearest is where Newton's method starts, for far from a warped facet there are several minima */
@@ -55,9 +50,9 @@ static PetscReal AlongLine(const Offset *o, PetscInt parameter, PetscReal xi[2])
   PetscReal t[2][3], r[3], length;
 
   Tangents(o, xi, t);
-  length = Dot(t[parameter], t[parameter]);
+  length = ContactDot(t[parameter], t[parameter]);
   (void)Evaluate(o, xi, r);
-  if (length > 0.0) xi[parameter] = PetscClipInterval(xi[parameter] - Dot(r, t[parameter]) / length, -1.0, 1.0);
+  if (length > 0.0) xi[parameter] = PetscClipInterval(xi[parameter] - ContactDot(r, t[parameter]) / length, -1.0, 1.0);
   return Evaluate(o, xi, r);
 }
 
@@ -68,11 +63,11 @@ static PetscBool NewtonStep(const Offset *o, const PetscReal xi[2], PetscReal st
 
   (void)Evaluate(o, xi, r);
   Tangents(o, xi, t);
-  for (PetscInt d = 0; d < 2; ++d) g[d] = Dot(r, t[d]);
-  H[0]  = Dot(t[0], t[0]);
-  H[1]  = Dot(t[0], t[1]);
-  H[2]  = Dot(t[1], t[1]);
-  twist = Dot(r, o->c[3]);
+  for (PetscInt d = 0; d < 2; ++d) g[d] = ContactDot(r, t[d]);
+  H[0]  = ContactDot(t[0], t[0]);
+  H[1]  = ContactDot(t[0], t[1]);
+  H[2]  = ContactDot(t[1], t[1]);
+  twist = ContactDot(r, o->c[3]);
   det   = H[0] * H[2] - PetscSqr(H[1] + twist);
   if (det > 0.0) H[1] += twist;
   else det = H[0] * H[2] - PetscSqr(H[1]);

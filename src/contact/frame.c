@@ -1,18 +1,13 @@
 /* The plane a nonmortar facet is projected to: through its centre, along its mean normal */
 #include "contactimpl.h"
 
-static PetscReal Dot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Mean outward unit normal; false where the facet has no area */
 PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
 {
   PetscReal area;
 
   ContactFacetAreaVector(x, n);
-  area = PetscSqrtReal(Dot(n, n));
+  area = PetscSqrtReal(ContactDot(n, n));
   if (!(area > 0.0)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) n[c] /= area;
   return PETSC_TRUE;
@@ -28,7 +23,7 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
     f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
     t[c]         = x[6 + c] - x[c]; /* a diagonal: in the plane, for the normal is the diagonals' cross product */
   }
-  length = PetscSqrtReal(Dot(t, t));
+  length = PetscSqrtReal(ContactDot(t, t));
   for (PetscInt c = 0; c < 3; ++c) t[c] /= length;
   s[0] = n[1] * t[2] - n[2] * t[1];
   s[1] = n[2] * t[0] - n[0] * t[2];
@@ -42,8 +37,8 @@ void ContactFrameProject(const ContactFrame *f, const PetscReal x[12], PetscReal
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscReal d[3] = {x[3 * a] - f->origin[0], x[3 * a + 1] - f->origin[1], x[3 * a + 2] - f->origin[2]};
 
-    p[a][0]   = Dot(d, f->axis[0]);
-    p[a][1]   = Dot(d, f->axis[1]);
-    height[a] = Dot(d, f->axis[2]);
+    p[a][0]   = ContactDot(d, f->axis[0]);
+    p[a][1]   = ContactDot(d, f->axis[1]);
+    height[a] = ContactDot(d, f->axis[2]);
   }
 }

@@ -19,6 +19,10 @@ static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_distance", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseReal(keys, key, text, &pair->distance));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_smooth", pair->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  pair->smooth = PETSC_TRUE;
+  if (text) PetscCall(SceneParseAnswer(keys, key, text, &pair->smooth));
   PetscFunctionReturn(0);
 }
 

@@ -93,6 +93,7 @@ static PetscErrorCode ViewPair(Scene scene, PetscViewer viewer, PetscInt p)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", distance: "));
     PetscCall(SceneViewReal(viewer, pair->distance));
   }
+  if (!pair->smooth) PetscCall(PetscViewerASCIIPrintf(viewer, ", smooth: false"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
