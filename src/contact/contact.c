@@ -95,12 +95,13 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactCheckPairs(dm, npairs, pairs));
   PetscCall(PetscNew(&c));
   PetscCall(PetscObjectReference((PetscObject)dm));
-  c->dm           = dm;
-  c->comm         = PetscObjectComm((PetscObject)dm);
-  c->npairs       = npairs;
-  c->cosine       = -0.174;
-  c->overlap_drop = 1e-8;
-  c->row_drop     = 1e-5;
+  c->dm            = dm;
+  c->comm          = PetscObjectComm((PetscObject)dm);
+  c->npairs        = npairs;
+  c->feature_angle = 35.0;
+  c->cosine        = -0.174;
+  c->overlap_drop  = 1e-8;
+  c->row_drop      = 1e-5;
   PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule));
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBoundaryCreate(dm, &boundary));
@@ -108,8 +109,9 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryThickness(&boundary, thickness));
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
-    c->pairs[p].gap   = pairs[p].gap;
-    c->pairs[p].given = pairs[p].distance;
+    c->pairs[p].gap    = pairs[p].gap;
+    c->pairs[p].given  = pairs[p].distance;
+    c->pairs[p].smooth = pairs[p].smooth;
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
@@ -130,6 +132,8 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 
   Options Database Keys:
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
+. -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand for, whatever the pair says
+. -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make more than these degrees stay sharp
 . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the normals of the facets
 . -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every triangle of an overlap
 . -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area
@@ -149,11 +153,14 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   GapType   gap      = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
   PetscReal distance = contact->npairs ? contact->pairs[0].given : 0.0;
   PetscInt  degree   = contact->rule.degree;
-  PetscBool set_gap, set_distance;
+  PetscBool smooth   = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
+  PetscBool set_gap, set_distance, set_smooth;
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
   PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes, (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
+  PetscCall(PetscOptionsBool("-contact_smooth", "Whether the gap of every pair is that of smooth surfaces", "ContactSetFromOptions", smooth, &smooth, &set_smooth));
+  PetscCall(PetscOptionsReal("-contact_feature_angle", "Edges sharper than this stay sharp, in degrees", "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
   PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature", "Degree of polynomials that mortar integrals are exact for on every triangle of an overlap", "ContactSetFromOptions", degree, &degree, NULL));
   PetscCall(PetscOptionsReal("-contact_search_distance", "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", distance, &distance, &set_distance));
@@ -165,6 +172,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscOptionsEnd();
   PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_distance must not be negative, but is %g", (double)distance);
   PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
+  PetscCheck(contact->feature_angle >= 0.0 && contact->feature_angle < 90.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_feature_angle must be in [0, 90) degrees, but is %g", (double)contact->feature_angle);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
   PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
   PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
@@ -172,7 +180,9 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_distance) contact->pairs[p].given = distance;
+    if (set_smooth) contact->pairs[p].smooth = smooth;
   }
+  PetscCall(ContactSmoothReset(contact));
   PetscCall(ContactRuleCreate(degree, &contact->rule));
   PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
@@ -288,6 +298,7 @@ PetscErrorCode ContactDestroy(Contact *contact)
   PetscFunctionBegin;
   if (!*contact) PetscFunctionReturn(0);
   PetscCall(ContactRowsDestroy(*contact));
+  PetscCall(ContactSmoothReset(*contact));
   for (PetscInt p = 0; p < (*contact)->npairs; ++p) {
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].mortar));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].nonmortar));

@@ -19,6 +19,10 @@ typedef struct {
 } ContactRule;
 PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 
+/* vector.c: products of vectors */
+PETSC_INTERN PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3]);
+PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
+
 /* facet.c: bilinear facets */
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
@@ -26,10 +30,15 @@ PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscRe
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
 
-static inline PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+/* patch.c: the smooth surface a facet stands for */
+typedef struct {
+  PetscReal slope[4][2], direction[4][3]; /* of the edge from vertex e to the next, at both ends [length]; what it is bent along */
+  PetscReal normal[12];                   /* unit, at the vertices */
+} ContactPatch;
+PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
+PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
+PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3]);
+PETSC_INTERN PetscReal ContactPatchDistance(const PetscReal r[3], const PetscReal n[3], const PetscReal direction[3]);
 
 /* frame.c: the plane a nonmortar facet is projected to */
 typedef struct {
@@ -87,6 +96,8 @@ typedef struct {
   PetscInt  *node;      /* [4 nfacets] global numbers of the vertices: a third of their first global row */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
+  PetscBool  patched;   /* whether there are those; the same on all ranks */
   PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
   PetscBool  bordered;  /* whether border has been asked for; the same on all ranks */
   PetscReal  area;      /* of the whole undeformed face, all ranks [length^2] */
@@ -108,9 +119,30 @@ typedef struct {
   PetscInt  *node;   /* [4 n] */
   PetscInt  *border; /* [n] where the surface is bordered */
   PetscReal *x;      /* [12 n] */
+  PetscReal *patch;  /* [12 n] where the surface is patched */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *, ContactCandidates *);
 PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
+
+/* ring.c: the facets about those of this rank, two deep, and who is next to whom. Corner 4 f + a is vertex a of facet f */
+typedef struct {
+  PetscInt   nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
+  PetscInt   nnodes, *node; /* [4 nfacets] number from 0 of the node at a corner */
+  PetscInt  *twin;          /* [4 nfacets] corner whose edge to the next vertex is the same, seen from the other side; negative: sharp, or on the border */
+  PetscReal *reference, *x; /* [3 nnodes] coordinates of the nodes, undeformed and deformed [length] */
+  Vec        u;             /* displacements of the nodes */
+  VecScatter scatter;
+} ContactRing;
+PETSC_INTERN PetscInt       ContactCornerAfter(PetscInt corner);
+PETSC_INTERN PetscInt       ContactCornerBefore(PetscInt corner);
+PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
+PETSC_INTERN PetscErrorCode ContactRingDeform(Vec u, ContactRing *);
+PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner, PetscInt *first, PetscInt *last);
+PETSC_INTERN void           ContactRingEdges(const ContactRing *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
+PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
+
+/* bend.c: normals of the smooth surface, from the facets' corners */
+PETSC_INTERN void ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
 
 /* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
 #define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
@@ -146,7 +178,10 @@ PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
 /* The object */
 typedef struct {
   ContactSurface mortar, nonmortar;
+  ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
+  PetscBool      smooth;   /* whether the gap is to be that of the smooth surfaces */
+  PetscReal      bulge;    /* these stand off the undeformed facets of the two faces by no more than this together [length] */
   PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */
   PetscInt      *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
   PetscReal     *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
@@ -177,19 +212,25 @@ struct _n_Contact {
   ContactPairData *pairs;
   ContactRows      rows;
   ContactNormals   normals;
-  ContactRule      rule;         /* of the triangles that overlaps are cut into */
-  PetscReal        reach;        /* distance that pairs without one of their own look for at least [length] */
-  PetscReal        reach_depth;  /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
-  PetscReal        depth;        /* 0: from the thickness of the bodies */
-  PetscReal        cosine;       /* facets pair when n1.n2 is at most this */
-  PetscReal        overlap_drop; /* relative to the smaller facet's area */
-  PetscReal        row_drop;     /* relative to the largest row's 1-norm */
-  PetscInt         nrows;        /* of the last linearization, on all ranks */
+  PetscReal        feature_angle; /* edges sharper than this stay sharp [degrees] */
+  PetscBool        smoothed;      /* whether it has been looked which pairs are curved */
+  ContactRule      rule;          /* of the triangles that overlaps are cut into */
+  PetscReal        reach;         /* distance that pairs without one of their own look for at least [length] */
+  PetscReal        reach_depth;   /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
+  PetscReal        depth;         /* 0: from the thickness of the bodies */
+  PetscReal        cosine;        /* facets pair when n1.n2 is at most this */
+  PetscReal        overlap_drop;  /* relative to the smaller facet's area */
+  PetscReal        row_drop;      /* relative to the largest row's 1-norm */
+  PetscInt         nrows;         /* of the last linearization, on all ranks */
 };
 
 /* rows.c: the rows there may be */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
+
+/* smooth.c: which pairs are curved, and their smooth surfaces */
+PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
+PETSC_INTERN PetscErrorCode ContactSmoothReset(Contact);
 
 /* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
@@ -223,6 +264,7 @@ typedef struct {
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
+PETSC_INTERN void ContactIntegratePatches(const ContactOverlap *, const PetscReal x1[12], const ContactPatch *, const ContactPatch *, const PetscReal normals[12], PetscReal gap[4]);
 
 /* contact.c, linearize.c, deep.c: the object's life, its gap, and the error where bodies overlap deeper than it looks, public */
 

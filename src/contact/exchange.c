@@ -7,7 +7,7 @@ typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
   PetscInt    n, *node, *border;
-  PetscReal  *x;
+  PetscReal  *x, *patch;
 } Outgoing;
 
 /* Counts the facets for each rank, or packs them once out->x is there */
@@ -28,6 +28,7 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
         PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
         PetscCall(PetscArraycpy(&out->node[4 * out->n], &s->node[4 * f], 4));
         if (s->bordered) out->border[out->n] = s->border[f];
+        if (s->patched) PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
       }
       ++out->n;
     }
@@ -88,7 +89,7 @@ static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datat
 /* Collective. The facets of all ranks whose boxes meet the box of this rank */
 PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
-  const PetscInt nborder = s->bordered ? 1 : 0;
+  const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 12 : 0;
   PetscMPIInt    size;
   PetscReal     *boxes;
   PetscSF        sf;
@@ -99,15 +100,16 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
-  PetscCall(PetscMalloc3(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border));
+  PetscCall(PetscMalloc4(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, npatch * out.n, &out.patch));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc3(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border));
+  PetscCall(PetscMalloc4(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, npatch * in->n, &in->patch));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
+  if (npatch) PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree3(out.x, out.node, out.border));
+  PetscCall(PetscFree4(out.x, out.node, out.border, out.patch));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -115,7 +117,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(in->x, in->node, in->border));
+  PetscCall(PetscFree4(in->x, in->node, in->border, in->patch));
   in->n = 0;
   PetscFunctionReturn(0);
 }

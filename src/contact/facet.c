@@ -8,13 +8,6 @@ void ContactShape(const PetscReal xi[2], PetscReal phi[4])
   for (PetscInt a = 0; a < 4; ++a) phi[a] = 0.25 * (1.0 + corner[a][0] * xi[0]) * (1.0 + corner[a][1] * xi[1]);
 }
 
-static void FacetCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Integral of the unit normal over the facet: half the cross product of its diagonals, exact for warped facets too */
 void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
 {
@@ -24,7 +17,7 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
     d1[c] = x[6 + c] - x[c];
     d2[c] = x[9 + c] - x[3 + c];
   }
-  FacetCross(d1, d2, a);
+  ContactCross(d1, d2, a);
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
@@ -53,7 +46,7 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
 
     ContactShape(xi, phi);
     ContactFacetTangents(x, xi, t1, t2);
-    FacetCross(t1, t2, n);
+    ContactCross(t1, t2, n);
     weight = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (PetscInt a = 0; a < 4; ++a) mass[a] += weight * phi[a];
     area += weight;

@@ -22,6 +22,7 @@ static PetscErrorCode ContactDeform(Contact contact, Vec u)
     PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
   }
   PetscCall(DMRestoreLocalVector(contact->dm, &local));
+  PetscCall(ContactSmoothDeform(contact, u));
   PetscFunctionReturn(0);
 }
 
@@ -72,6 +73,10 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
 
   Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on planes,
   and on curved faces with -contact_normals facet.
+
+  Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand for: patches
+  through the deformed vertices, bent to follow the mean normals of the facets about them. J and the masses stay those of the facets,
+  so that forces balance as they do without; what the patches' heights change with u is left to the next linearization.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite is an
   error.

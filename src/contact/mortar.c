@@ -25,6 +25,25 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
   }
 }
 
+/* Adds to int phi_A gap what the two smooth surfaces stand off their facets, along the normal that the facets are projected along */
+void ContactIntegratePatches(const ContactOverlap *o, const PetscReal x1[12], const ContactPatch *patch1, const ContactPatch *patch2, const PetscReal normals[12], PetscReal gap[4])
+{
+  PetscReal n1[3], cosine[4];
+
+  if (!ContactFacetNormal(x1, n1)) return;
+  for (PetscInt a = 0; a < 4; ++a) cosine[a] = n1[0] * normals[3 * a] + n1[1] * normals[3 * a + 1] + n1[2] * normals[3 * a + 2];
+  for (PetscInt q = 0; q < o->n; ++q) {
+    PetscReal phi[4], r[3], n[3], height;
+
+    ContactPatchEvaluate(patch2, o->xi2[q], r, n);
+    height = ContactPatchDistance(r, n, n1);
+    ContactPatchEvaluate(patch1, o->xi1[q], r, n);
+    height -= ContactPatchDistance(r, n, n1);
+    ContactShape(o->xi1[q], phi);
+    for (PetscInt a = 0; a < 4; ++a) gap[a] += o->weight[q] * phi[a] * height * cosine[a];
+  }
+}
+
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
 static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
@@ -35,13 +54,19 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
   PetscInt         n       = 0;
   ContactOverlap   overlap;
   ContactIntegrals m;
+  ContactPatch     patch1, patch2;
 
   PetscFunctionBegin;
+  if (pair->nonmortar.patched) ContactPatchCreate(x1, &pair->nonmortar.patch[12 * f], &patch1);
   for (PetscInt k = 0; k < nnear; ++k) {
     const PetscReal *x2 = &mortar->x[12 * near[k]];
 
     if (!ContactOverlapFind(x1, x2, limits, rule, &overlap)) continue;
     ContactIntegrate(&overlap, x1, x2, normal, &m);
+    if (pair->nonmortar.patched) {
+      ContactPatchCreate(x2, &mortar->patch[12 * near[k]], &patch2);
+      ContactIntegratePatches(&overlap, x1, &patch1, &patch2, normal, m.gap);
+    }
     ++n;
     for (PetscInt a = 0; a < 4; ++a) {
       gap[a] += m.gap[a];
@@ -66,7 +91,7 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     PetscReal swept[6];
 
-    ContactSweptBox(&pair->nonmortar.x[12 * f], pair->distance, pair->depth, swept);
+    ContactSweptBox(&pair->nonmortar.x[12 * f], pair->distance + pair->bulge, pair->depth + pair->bulge, swept);
     for (PetscInt c = 0; c < 3; ++c) {
       box[c]     = PetscMin(box[c], swept[c]);
       box[3 + c] = PetscMax(box[3 + c], swept[3 + c]);
@@ -78,12 +103,12 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
 static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar, ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
-  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop, pair->distance, pair->depth};
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop, pair->distance + pair->bulge, pair->depth + pair->bulge};
   ContactNear                near;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-  PetscCall(ContactSearch(&pair->nonmortar, pair->distance, pair->depth, mortar, &near));
+  PetscCall(ContactSearch(&pair->nonmortar, limits.distance, limits.depth, mortar, &near));
   PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {

@@ -41,7 +41,7 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
 static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box[6])
 {
   const ContactRows *rows  = &contact->rows;
-  const PetscReal    reach = PetscMax(contact->pairs[p].distance, contact->pairs[p].depth);
+  const PetscReal    reach = PetscMax(contact->pairs[p].distance, contact->pairs[p].depth) + contact->pairs[p].bulge;
 
   PetscFunctionBegin;
   for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
@@ -51,6 +51,22 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
     }
   }
   PetscFunctionReturn(0);
+}
+
+/* Along the normal n, from the vertex x to the closest point, or to the plane that touches the smooth surface beside it where that is off its facet */
+static PetscReal VertexGap(const ContactSurface *s, const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
+{
+  PetscReal    offset[3] = {0, 0, 0}, r[3], m[3];
+  ContactPatch patch;
+
+  for (PetscInt c = 0; c < 3; ++c) r[c] = nearest->y[c] - x[c];
+  if (s->patched) {
+    ContactPatchCreate(&mortar->x[12 * nearest->facet], &mortar->patch[12 * nearest->facet], &patch);
+    ContactPatchEvaluate(&patch, nearest->xi, offset, m);
+    for (PetscInt c = 0; c < 3; ++c) r[c] += offset[c];
+    if (ContactPatchBulge(&patch) > 0.0) return ContactPatchDistance(r, m, n);
+  }
+  return r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
 }
 
 /* gap = (y - x).n, its coupling N2_B(xi) - 1; both times the mass that the assembly divides by */
@@ -78,7 +94,7 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
 {
   ContactPairData   *pair  = &contact->pairs[p];
   const ContactRows *rows  = &contact->rows;
-  const PetscReal    reach = PetscMax(pair->distance, pair->depth);
+  const PetscReal    reach = PetscMax(pair->distance, pair->depth) + pair->bulge;
   const PetscScalar *mass;
   PetscInt           rstart;
   ContactTree        tree;
@@ -91,11 +107,11 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
   for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
     const PetscReal *x = &rows->x[3 * i], *n = &rows->normal[3 * i];
     ContactNearest   nearest;
-    PetscReal        gap = 0.0;
+    PetscReal        gap;
 
     ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
-    for (PetscInt c = 0; c < 3; ++c) gap += (nearest.y[c] - x[c]) * n[c];
+    gap = VertexGap(&pair->mortar, mortar, &nearest, x, n);
     if (gap > pair->distance || gap < -pair->depth) continue;
     PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, gap, assembly));
     ++pair->nfacing;

@@ -167,5 +167,6 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
   PetscCall(PetscFree(s->border));
+  PetscCall(PetscFree(s->patch));
   PetscFunctionReturn(0);
 }

@@ -41,6 +41,10 @@ static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseReal(keys, key, text, &pair->distance));
   PetscCall(SceneReadInterference(keys, pair));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_smooth", pair->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  pair->smooth = PETSC_TRUE;
+  if (text) PetscCall(SceneParseAnswer(keys, key, text, &pair->smooth));
   PetscFunctionReturn(0);
 }
 

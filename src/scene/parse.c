@@ -60,6 +60,17 @@ PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode SceneParseAnswer(SceneKeys keys, const char key[], const char text[], PetscBool *value)
+{
+  static const char *const answers[] = {"false", "true", "Answer", "", NULL};
+  PetscInt                 answer    = *value;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseEnum(keys, key, text, answers, &answer));
+  *value = answer ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 /* words is for PetscStrToArrayDestroy(); NULL and no words if the length is wrong */
 PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[], PetscInt *n, char ***words)
 {

@@ -198,16 +198,9 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   }
   if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveMesh(keys->file, &body->gmsh.file));
   else if (body->shape != SHAPE_BOX) {
-    PetscInt curved = PETSC_TRUE;
-
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-    if (text) {
-      static const char *const answers[] = {"false", "true", "Answer", "", NULL};
-
-      PetscCall(SceneParseEnum(keys, key, text, answers, &curved));
-    }
-    body->curved = curved ? PETSC_TRUE : PETSC_FALSE;
+    if (text) PetscCall(SceneParseAnswer(keys, key, text, &body->curved));
   }
   PetscFunctionReturn(0);
 }

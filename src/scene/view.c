@@ -98,6 +98,7 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", interference: "));
     PetscCall(SceneViewReal(viewer, pair->interference));
   }
+  if (!pair->smooth) PetscCall(PetscViewerASCIIPrintf(viewer, ", smooth: false"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
