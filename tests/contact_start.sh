@@ -46,6 +46,6 @@ done
 echo "exit ${PIPESTATUS[0]}, $(wc -l < err) lines on stderr"
 
 help=$("$contact" -help 2> /dev/null | sed -n 's/^  \([0-7]\)  .*/\1/p' | tr '\n' ' ')
-readme=$(sed -n 's/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/README.md" | tr '\n' ' ')
+readme=$(sed -n '/^| exit code/,/^$/s/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/README.md" | tr '\n' ' ')
 header=$(sed -n 's/^  RUN_[A-Z_]* *= \([0-9]*\),*.*/\1/p' "$AMGF_DIR/include/report.h" | tr '\n' ' ')
 [ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in README, -help and report.h" || echo "exit codes: $help; $readme; $header"
