@@ -1,5 +1,7 @@
 /* The life of an output: a mesh file, one file a load step, and an XDMF file that ties them together */
+#define _POSIX_C_SOURCE 200809L /* lstat() */
 #include "outputimpl.h"
+#include <sys/stat.h>
 
 /* Vertices are numbered as the DM's global vectors are */
 static PetscErrorCode OutputCount(Output output)
@@ -79,18 +81,20 @@ static PetscErrorCode OutputKeepPairs(Output output, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Steps beyond this one are those of an older run of the same name; only the first rank looks */
+/* Steps beyond this one are those of an older run of the same name; only the first rank looks. What is no file, but a link or a device,
+   was put there by somebody and stays. */
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
   char        file[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
   PetscInt    step = output->steps[0].step;
+  struct stat info;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(output->comm, &rank));
   if (rank) PetscFunctionReturn(0);
-  do PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
-  while (!remove(file));
+  PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
+  while (!lstat(file, &info) && (!S_ISREG(info.st_mode) || !remove(file))) PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
   PetscFunctionReturn(0);
 }
 
