@@ -164,7 +164,7 @@ class Store:
 
     @staticmethod
     def status(record, limited):
-        if record["code"] == 0 and record["summary"] and record["summary"]["converged"]:
+        if record["code"] in (0, 4) and record["summary"] and record["summary"]["converged"]:
             return "converged"
         if limited:
             return "time limit"

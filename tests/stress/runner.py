@@ -47,7 +47,7 @@ class Run:
             return "converged"
         if self.code is None:
             return "time limit"
-        if self.code == 2 and self.summary and not self.summary["converged"]:
+        if self.code in (2, 3, 5) and self.summary and not self.summary["converged"]:
             return "failed"
         if self.code == 1 and self.said.startswith("contact: error: "):
             return "refused"
