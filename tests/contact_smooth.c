@@ -88,7 +88,7 @@ static SceneContactPair CurvedPair(Shape shape, PetscBool swap, GapType gap, Pet
 {
   static char inner[2][16] = {"inner.outer", "inner.surface"}, outer[] = "outer.inner";
 
-  return (SceneContactPair){(char *)"pair", swap ? inner[shape] : outer, swap ? outer : inner[shape], gap, 0.0, smooth};
+  return (SceneContactPair){(char *)"pair", swap ? inner[shape] : outer, swap ? outer : inner[shape], gap, 0.0, 0.0, smooth};
 }
 
 /* Both bodies turn and shift together */
