@@ -172,15 +172,15 @@ static PetscErrorCode TestTetrahedron(void)
   PetscFunctionReturn(0);
 }
 
-/* The first rank has a contact row at a vertex that is not its own: of those shared by ranks the last one owns each */
+/* The first rank has a point of contact at a vertex that is not its own: of those shared by ranks the last one owns each */
 static PetscErrorCode TestRow(void)
 {
   static char       name[]  = "box";
   const SceneBody   body    = {.name = name, .upper = {1, 1, 1}, .cells = {4, 4, 4}};
   const char *const names[] = {name};
-  const PetscReal   zero    = 0.0;
   StepReport        report  = {.step = 1};
-  StepState         state   = {.report = &report, .row_vertex = NULL, .pressure = &zero, .gap = &zero};
+  StepState         state   = {.report = &report};
+  ContactPoint      point   = {.area = 1.0};
   PetscInt          cstart, cend, vstart, vend, foreign = PETSC_DECIDE, offset;
   PetscReal        *stress;
   PetscSection      global;
@@ -206,9 +206,10 @@ static PetscErrorCode TestRow(void)
   PetscCall(PetscCalloc1(7 * (cend - cstart), &stress));
   state.displacement = u;
   state.stress       = stress;
-  state.row_vertex   = &foreign;
-  state.nrows        = rank ? 0 : 1;
-  ATTEMPT("a contact row of the first rank", OutputWrite(output, &state));
+  point.vertex       = foreign;
+  state.points       = &point;
+  state.npoints      = rank ? 0 : 1;
+  ATTEMPT("a point of contact of the first rank", OutputWrite(output, &state));
   PetscCall(OutputDestroy(&output));
   PetscCall(PetscFree(stress));
   PetscCall(VecDestroy(&u));
