@@ -93,7 +93,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   c  = ip->mi ? tao->constraints_inequality : NULL;
   ce = ip->me ? tao->constraints_equality : NULL;
   PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
-  PetscCall(IPIterateCreate(x, c, ce, &ip->best));
+  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* the constraints are evaluated anew on return to it */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
   PetscCall(DuplicateAfresh(x, &ip->rx));
