@@ -71,6 +71,8 @@ PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStart(Tao, Vec, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao, Vec, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetSlack(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetMultiplier(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetKSPIterations(Tao, PetscInt *, const PetscInt *[]);
@@ -79,5 +81,6 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetFilterUse(Tao, PetscInt *, PetscInt *)
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetRegularizations(Tao, PetscInt *, PetscInt *, PetscReal *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetFallbacks(Tao, TaoIPFilterFallbacks *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
+PETSC_EXTERN PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao, void *);
 
 #endif

@@ -63,6 +63,23 @@ static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetWarmStartEquality_IPFilter(Tao tao, Vec y)
+{
+  PetscFunctionBegin;
+  PetscCall(CopyVec(y, &((TAO_IPFILTER *)tao->data)->given.warm_y));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetWarmStartBounds_IPFilter(Tao tao, Vec DL, Vec DU)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CopyVec(DL, &ip->given.warm_lower));
+  PetscCall(CopyVec(DU, &ip->given.warm_upper));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoIPFilterGetSlack_IPFilter(Tao tao, Vec *s, Vec *z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,6 +156,8 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSlackMass_C", attach ? TaoIPFilterSetSlackMass_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetPrimalMass_C", attach ? TaoIPFilterSetPrimalMass_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStart_C", attach ? TaoIPFilterSetWarmStart_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartEquality_C", attach ? TaoIPFilterSetWarmStartEquality_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartBounds_C", attach ? TaoIPFilterSetWarmStartBounds_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSlack_C", attach ? TaoIPFilterGetSlack_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C", attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
@@ -225,7 +244,7 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
   keeping s - z/rho with the constraint's stiffness rho, and mu is taken from the average of s_i z_i, or from a
   fraction of the products s_i z_i would have off the solution if that is larger.
 
-.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`, `TaoIPFilterSetWarmStartBounds()`
 @*/
 PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 {
@@ -234,6 +253,61 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
   if (s) PetscValidHeaderSpecific(s, VEC_CLASSID, 2);
   if (z) PetscValidHeaderSpecific(z, VEC_CLASSID, 3);
   PetscTryMethod(tao, "TaoIPFilterSetWarmStart_C", (Tao, Vec, Vec), (tao, s, z));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetWarmStartEquality - Sets multipliers of the equality constraints from which `-tao_ipfilter_start warm` begins
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+- y   - multipliers, as `TaoGetDualVariables()` gives them in DE; NULL forgets earlier values, and they are estimated
+
+  Level: intermediate
+
+  Note:
+  The vector is copied.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetWarmStartBounds()`, `TaoGetDualVariables()`
+@*/
+PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (y) PetscValidHeaderSpecific(y, VEC_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStartEquality_C", (Tao, Vec), (tao, y));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetWarmStartBounds - Sets multipliers of the bounds on variables from which `-tao_ipfilter_start warm` begins
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+. DL  - multipliers of the lower bounds, as `TaoComputeDualVariables()` gives them; NULL forgets earlier values
+- DU  - those of the upper bounds, whose signs do not matter; NULL likewise
+
+  Level: intermediate
+
+  Notes:
+  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance to a bound and its
+  multiplier have next to no product. Where there are inequality constraints, `TaoIPFilterSetWarmStart()` must give theirs, too.
+
+  With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetWarmStartEquality()`, `TaoComputeDualVariables()`
+@*/
+PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (DL) PetscValidHeaderSpecific(DL, VEC_CLASSID, 2);
+  if (DU) PetscValidHeaderSpecific(DU, VEC_CLASSID, 3);
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStartBounds_C", (Tao, Vec, Vec), (tao, DL, DU));
   PetscFunctionReturn(0);
 }
 

@@ -2,7 +2,7 @@
 #include "ipfilterimpl.h"
 
 /* Weighted mean of t z over all pairs */
-static PetscErrorCode BarrierAverage(Tao tao, PetscReal *average)
+PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   PetscReal     total = 0.0, weight = 0.0;
@@ -68,7 +68,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   ip->bar.corrector_max = 0.0;
   if (!(before > 0.0)) PetscFunctionReturn(0);
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
-  PetscCall(BarrierAverage(tao, &before));
+  PetscCall(IPBarrierAverage(tao, &before));
   ip->bar.corrector_max = 100.0 * before;
   ip->mu                = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
@@ -95,7 +95,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
 
   PetscFunctionBegin;
   ip->bar.free = PETSC_FALSE;
-  PetscCall(BarrierAverage(tao, &ip->mu));
+  PetscCall(IPBarrierAverage(tao, &ip->mu));
   ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));

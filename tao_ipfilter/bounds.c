@@ -85,11 +85,19 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Whether this solve begins with multipliers of the bounds that the caller gave; without those of the rows they are of no use */
+PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) && (!ip->mi || ip->given.warm_s));
+}
+
 /* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances.
-   The margin is a fraction of the distance between the bounds, or of the bound's or of x's size where only one is given. */
+   The margin is a fraction of the distance between the bounds, or of the bound's or of x's size where only one is given;
+   next to nothing of it where multipliers are given that tell how near to its bounds x belongs. */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : ip->opt.bound_push;
   Vec                v[2] = {tao->XL, tao->XU};
   const PetscScalar *b[2] = {NULL, NULL};
   PetscScalar       *x;
@@ -111,7 +119,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
     if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
     gap = hasl && hasu ? u - l : PetscMax(PetscAbsReal(hasl ? l : u), size);
     if (gap == 0.0) gap = 1.0;
-    gap *= ip->opt.bound_push;
+    gap *= push;
     if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + gap);
     if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - gap);
   }
@@ -162,5 +170,24 @@ PetscErrorCode IPBoundsCenter(Tao tao)
 
   PetscFunctionBegin;
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of the bounds in TAO's convention, which has the gradient of f + DE^T c_E - DI^T c_I be DL + DU: those of upper bounds are
+   negative */
+PetscErrorCode IPBoundsMultipliers(Tao tao, Vec DL, Vec DU)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    const IPPair *p = &ip->pair[b];
+    Vec           D = b == IP_LOWER ? DL : DU;
+
+    if (p->n) {
+      PetscCall(VecPointwiseMult(D, p->w, p->z));
+      PetscCall(VecScale(D, p->sign));
+    } else PetscCall(VecSet(D, 0.0));
+  }
   PetscFunctionReturn(0);
 }

@@ -123,35 +123,102 @@ static PetscErrorCode ConvergeUnlessCancelled(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration where the KKT error, a limit or the values themselves say so */
-PetscErrorCode IPTestConvergence(Tao tao)
+/* Ends the iteration where something is not a number */
+PetscErrorCode IPTestNumbers(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (IPUndefined(ip->kkt.error) || IPUndefined(ip->at.f)) PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds the largest violation,
+   crtol the one that the KKT error holds */
+PetscBool IPConstraintsMet(Tao tao)
+{
+  const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
+
+  return (PetscBool)(k->inf_pr <= tao->catol && k->primal <= tao->crtol);
+}
+
+/*@C
+  TaoIPFilterDefaultConvergenceTest - The convergence test of a `TAOIPFILTER` unless `TaoSetConvergenceTest()` gives another one
+
+  Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+- ctx - unused
+
+  Level: advanced
+
+  Notes:
+  Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the constraints within
+  the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing better can be expected. A test of the
+  caller's may call it.
+
+  Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
+  `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
+
+.seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`, `TaoIPFilterGetReason()`
+@*/
+PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = &ip->kkt;
-  PetscInt      nfuncs, max_tiny = 3;
+  PetscBool     own;
 
   PetscFunctionBegin;
-  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
-  PetscCall(CountTinySteps(tao));
-  ip->rec.nacceptable = k->error <= ip->opt.acceptable_tol ? ip->rec.nacceptable + 1 : 0;
-  if (IPUndefined(k->error) || IPUndefined(ip->at.f)) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
-  } else if (k->error <= ip->tol) {
+  (void)ctx;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
+  PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG, "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
+  if (k->error <= ip->tol && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessCancelled(tao));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->at.f, (double)tao->fmin));
   } else if (Unbounded(ip)) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->first.f, (double)ip->at.f));
     ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, no other does */
-  } else if (ip->rec.nacceptable >= ip->opt.acceptable_it) {
+  } else if (ip->rec.nacceptable >= ip->opt.acceptable_it && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)k->error, (double)ip->opt.acceptable_tol, (double)ip->tol));
-  } else if (ip->rec.ntiny >= max_tiny) {
-    if (k->error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)ip->tol));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Ends the iteration where it has come to a limit */
+static PetscErrorCode TestLimits(Tao tao)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const IPKKT   *k        = &ip->kkt;
+  const PetscInt max_tiny = 3;
+  PetscInt       nfuncs;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
+  if (ip->rec.ntiny >= max_tiny) {
+    if (!IPConstraintsMet(tao)) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g, but the violation %g, relative %g, is not within catol %g and crtol %g", (double)k->error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
+    else if (k->error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)k->error, (double)ip->tol));
     else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)k->error));
   } else if (tao->niter >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)k->error));
   } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)k->error));
   }
+  PetscFunctionReturn(0);
+}
+
+/* The convergence test, the caller's or the default one, and the limits */
+PetscErrorCode IPTestConvergence(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CountTinySteps(tao));
+  ip->rec.nacceptable = ip->kkt.error <= ip->opt.acceptable_tol ? ip->rec.nacceptable + 1 : 0;
+  PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
+  if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
+  else if (!ip->rec.reason[0]) PetscCall(IPSetReason(tao, tao->reason, "the test of TaoSetConvergenceTest() says %s, at KKT error %g", TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

@@ -21,6 +21,7 @@ static PetscErrorCode CreateKSP(Tao tao)
 static PetscErrorCode DestroyType(Tao tao)
 {
   PetscFunctionBegin;
+  if (tao->ops->convergencetest == TaoIPFilterDefaultConvergenceTest) tao->ops->convergencetest = TaoDefaultConvergenceTest;
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
   PetscCall(TaoDestroy_IPFilter(tao));
   PetscFunctionReturn(0);
@@ -134,11 +135,16 @@ static PetscErrorCode DestroyType(Tao tao)
   constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of
   `TaoIPFilterSetPrimalMass()`, is added: `TaoIPFilterGetRegularizations()` tells how often.
 
+  `TaoComputeDualVariables()` gives the multipliers of the bounds, those of upper bounds negative, so that
+  grad f + J_E^T DE - J^T DI = DL + DU.
+
   Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
   gradient that `TaoGetGradient()` returns are zero. Inequalities have no upper bounds: state c <= u as u - c >= 0.
 
-  Of `TaoSetTolerances()` gatol alone counts, for the KKT error, which with `-tao_ipfilter_kkt relative` is dimensionless; of
-  `TaoSetConstraintTolerances()` nothing does. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
+  Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
+  `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been called (or
+  `-tao_catol`, `-tao_crtol` given), convergence asks for a largest violation of the constraints within catol, and a relative one within
+  crtol, besides. `TaoSetConvergenceTest()` replaces `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
   (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`), `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the
   constraints may be infeasible), `TAO_DIVERGED_USER` (no direction, or the objective seems unbounded), `TAO_DIVERGED_NAN`,
   `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.
@@ -170,9 +176,13 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   tao->ops->view           = TaoView_IPFilter;
   tao->ops->setfromoptions = TaoSetFromOptions_IPFilter;
   tao->ops->destroy        = DestroyType;
+  tao->ops->computedual    = IPBoundsMultipliers;
+  if (!tao->ops->convergencetest || tao->ops->convergencetest == TaoDefaultConvergenceTest) tao->ops->convergencetest = TaoIPFilterDefaultConvergenceTest;
   PetscCall(IPOptionsInitialize(&ip->opt));
   PetscObjectParameterSetDefault(tao, max_it, 500);
   PetscObjectParameterSetDefault(tao, gatol, 1e-8);
+  PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
+  PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);
   PetscCall(CreateKSP(tao));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
   PetscFunctionReturn(0);

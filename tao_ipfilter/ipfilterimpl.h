@@ -16,7 +16,7 @@
      measure  stiffness, scale, kkt
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
-     step     filter, merit, barrier, regularize, direction, linesearch, penalty, start, relax, restore
+     step     filter, merit, barrier, regularize, direction, linesearch, penalty, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
 */
@@ -81,7 +81,9 @@ typedef struct {
 /* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
 typedef struct {
   Vec slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
-  Vec warm_s, warm_z;          /* starting slacks and multipliers */
+  Vec warm_s, warm_z;          /* starting slacks and multipliers, */
+  Vec warm_y;                  /* multipliers of the equality constraints, */
+  Vec warm_lower, warm_upper;  /* and of the bounds */
 } IPGiven;
 
 /* Layouts of scratch vectors: unknowns, inequality and equality constraints */
@@ -392,12 +394,14 @@ PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
 
 /* bounds.c */
+PETSC_INTERN PetscBool      IPWarmBounds(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool trial);
 PETSC_INTERN PetscErrorCode IPBoundsDirection(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsAddForces(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPBoundsCenter(Tao);
+PETSC_INTERN PetscErrorCode IPBoundsMultipliers(Tao, Vec, Vec);
 
 /* rowscale.c */
 PETSC_INTERN PetscErrorCode IPRowScaleSetUp(Tao, PetscBool *scaled);
@@ -487,6 +491,7 @@ PETSC_INTERN PetscErrorCode IPMeritSlope(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPMeritFilterAdd(Tao);
 
 /* barrier.c */
+PETSC_INTERN PetscErrorCode IPBarrierAverage(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPBarrierUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPBarrierHold(Tao, PetscInt);
 PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
@@ -505,6 +510,12 @@ PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPPenaltyStep(Tao, PetscBool *);
 
+/* warm.c */
+PETSC_INTERN PetscErrorCode IPWarmSetBounds(Tao);
+PETSC_INTERN PetscErrorCode IPWarmSetEquality(Tao);
+PETSC_INTERN PetscErrorCode IPWarmMeanProduct(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPWarmCenterBounds(Tao);
+
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 
@@ -521,6 +532,8 @@ PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], .
 
 /* convergence.c */
 PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);
+PETSC_INTERN PetscErrorCode IPTestNumbers(Tao);
+PETSC_INTERN PetscBool      IPConstraintsMet(Tao);
 PETSC_INTERN PetscErrorCode IPTestConvergence(Tao);
 
 /* monitor.c */

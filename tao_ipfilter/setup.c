@@ -151,6 +151,9 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ip->given.primal_mass));
   PetscCall(VecDestroy(&ip->given.warm_s));
   PetscCall(VecDestroy(&ip->given.warm_z));
+  PetscCall(VecDestroy(&ip->given.warm_y));
+  PetscCall(VecDestroy(&ip->given.warm_lower));
+  PetscCall(VecDestroy(&ip->given.warm_upper));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->rec.ksp_iterations));
   PetscCall(KSPDestroy(&tao->ksp));

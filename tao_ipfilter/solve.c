@@ -122,13 +122,14 @@ static PetscErrorCode KeepBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Returns to the best iterate where the last one is worse */
+/* Returns to the best iterate where the last one is worse, and is not the one that a test has chosen */
 static PetscErrorCode RestoreBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   if (ip->rec.best_error == PETSC_INFINITY || ip->kkt.error <= ip->rec.best_error) PetscFunctionReturn(0);
+  if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
@@ -137,20 +138,21 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* KKT error at the new iterate, its record and the monitors */
+/* KKT error at the new iterate, its record, the monitors and the convergence test */
 static PetscErrorCode AssessIterate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   PetscCall(IPComputeKKT(tao));
-  PetscCall(IPTestConvergence(tao));
+  PetscCall(IPTestNumbers(tao));
   if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
   PetscCall(KeepBest(tao));
   PetscCall(IPSetMultipliers(tao));
   PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, tao->ksp_tot_its));
   PetscCall(IPMonitor(tao));
   PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, ip->search.alpha));
+  PetscCall(IPTestConvergence(tao));
   PetscFunctionReturn(0);
 }
 
@@ -189,7 +191,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (ip->kkt.error <= ip->opt.acceptable_tol) {
+  if (ip->kkt.error <= ip->opt.acceptable_tol && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
     PetscFunctionReturn(0);
   }

@@ -103,10 +103,33 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscCall(IPStationarity(tao, ip->at.z[IP_SLACK], ip->rx));
   PetscCall(VecNorm(tao->gradient, NORM_2, &force));
   PetscCall(VecNorm(ip->rx, NORM_2, &imbalance));
+  *mismatch = PetscMin(1.0, force > 0.0 ? imbalance / force : 1.0);
+  if (!ip->mi) PetscFunctionReturn(0);
   PetscCall(VecWAXPY(ip->rc, -1.0, ip->at.s, ip->at.c));
   PetscCall(MeanMagnitude(tao, ip->rc, &difference));
   PetscCall(MeanMagnitude(tao, ip->at.c, &length));
-  *mismatch = PetscMin(1.0, PetscMax(force > 0.0 ? imbalance / force : 1.0, length > 0.0 ? difference / length : 1.0));
+  *mismatch = PetscMin(1.0, PetscMax(*mismatch, length > 0.0 ? difference / length : 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the caller's slacks and multipliers solve the problem already, or nearly so: they are kept then, with their mean product as mu */
+static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal nearly  = 10.0;
+  PetscReal       least_s = 1.0, least_z = 1.0;
+
+  PetscFunctionBegin;
+  *solves = PETSC_FALSE;
+  if (ip->mi) {
+    PetscCall(VecMin(ip->at.s, NULL, &least_s));
+    PetscCall(VecMin(ip->at.z[IP_SLACK], NULL, &least_z));
+    PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  }
+  if (!(least_s > 0.0) || !(least_z > 0.0)) PetscFunctionReturn(0);
+  PetscCall(IPBarrierAverage(tao, &ip->mu));
+  PetscCall(IPComputeKKT(tao));
+  *solves = (PetscBool)(ip->kkt.error <= nearly * ip->tol);
   PetscFunctionReturn(0);
 }
 
@@ -117,12 +140,16 @@ static PetscErrorCode StartWarm(Tao tao)
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
   PetscReal     mean, average, mismatch = 1.0;
+  PetscBool     solves;
   Vec           q;
 
   PetscFunctionBegin;
   PetscCall(VecCopy(ip->given.warm_s, slack->t));
   PetscCall(VecCopy(ip->given.warm_z, slack->z));
   PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
+  if (IPWarmBounds(ip)) PetscCall(IPWarmSetBounds(tao));
+  PetscCall(WarmSolves(tao, &solves));
+  if (solves) PetscFunctionReturn(0);
   PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
@@ -137,6 +164,36 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* The caller's multipliers of the bounds, where there are no rows; mu as for these */
+static PetscErrorCode StartWarmBounds(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     mean, average, mismatch = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPWarmSetBounds(tao));
+  PetscCall(WarmMismatch(tao, &mismatch));
+  PetscCall(IPBarrierAverage(tao, &average));
+  PetscCall(IPWarmMeanProduct(tao, &mean));
+  ip->mu = PetscMax(average, PetscMax(mismatch * ip->opt.mu_warm, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* mu, which follows from the rows where there are some, and the bounds' multipliers, without any of the caller's */
+static PetscErrorCode StartBounds(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     x;
+
+  PetscFunctionBegin;
+  if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
+    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
+    ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
+  }
+  PetscCall(IPBoundsCenter(tao));
+  PetscFunctionReturn(0);
+}
+
 /* Fills slacks, multipliers and mu. The Hessian at x is needed for the stiffness of the constraints. */
 PetscErrorCode IPStartPoint(Tao tao)
 {
@@ -146,17 +203,14 @@ PetscErrorCode IPStartPoint(Tao tao)
   PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
     if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
-  if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
+  if (ip->me && ip->opt.start == IP_START_WARM && ip->given.warm_y) PetscCall(IPWarmSetEquality(tao));
+  if (!ip->mi && IPWarmBounds(ip)) PetscCall(StartWarmBounds(tao));
+  else if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
   else if (ip->opt.start == IP_START_WARM && ip->given.warm_s) PetscCall(StartWarm(tao));
   else PetscCall(StartPredicted(tao));
-  if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
-    PetscReal x;
-
-    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-    ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
-  }
-  PetscCall(IPBoundsCenter(tao));
-  if (ip->me) PetscCall(IPEstimateMultipliers(tao));
+  if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
+  else PetscCall(StartBounds(tao));
+  if (ip->me && !(ip->opt.start == IP_START_WARM && ip->given.warm_y)) PetscCall(IPEstimateMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

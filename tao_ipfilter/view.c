@@ -1,6 +1,20 @@
 /* What -tao_view says. */
 #include "ipfilterimpl.h"
 
+/* How well the constraints are met, and to what tolerances they have to be beyond gatol */
+static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
+{
+  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
+  char          catol[32] = "", crtol[32] = "";
+
+  PetscFunctionBegin;
+  if (!ip->mi && !ip->me) PetscFunctionReturn(0);
+  if (tao->catol < PETSC_INFINITY) PetscCall(PetscSNPrintf(catol, sizeof(catol), " (catol %g)", (double)tao->catol));
+  if (tao->crtol < PETSC_INFINITY) PetscCall(PetscSNPrintf(crtol, sizeof(crtol), " (crtol %g)", (double)tao->crtol));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "constraints: largest violation %g%s, relative %g%s\n", (double)ip->kkt.inf_pr, catol, (double)ip->kkt.primal, crtol));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
 {
   TAO_IPFILTER               *ip = (TAO_IPFILTER *)tao->data;
@@ -13,7 +27,8 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt.start], IPBarrierRules[ip->opt.barrier], IPForcings[ip->opt.forcing], IPKKTMeasures[ip->opt.measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g, %s, which gatol %g is held against; in the problem's units %g; mu %g\n", (double)ip->kkt.error, ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance", (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(ViewConstraints(tao, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->rec.nsystems, ip->rec.nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
   PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec.nrestored));
