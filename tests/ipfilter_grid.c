@@ -1,0 +1,407 @@
+static char help[] = "Obstacle problems on a grid: bounds on all unknowns, or the same as inequality rows.\n\
+  -problem NAME    obstacle, torsion, bearing, signorini, surface; all of them without it\n\
+  -n N             unknowns in a row\n\
+  -rows            the bounds as inequality rows\n\
+  -report          a line of figures a solve, no comparison: what tests/stress/grid.py reads\n\n";
+
+#include <petscdmda.h>
+#include <petsctime.h>
+#include "ipfilter_problem.h"
+#include "ipfilter_grid.h"
+#include <sys/resource.h>
+
+typedef struct {
+  DM               da;
+  int              problem, n;
+  QuadraticProgram q; /* of the surface H alone; J picks the bounded unknowns */
+  Vec              lower, upper;
+  PetscReal        constant;
+} Grid;
+
+static PetscReal Bound(double value)
+{
+  return value >= GRID_NONE ? PETSC_INFINITY : (value <= -GRID_NONE ? PETSC_NINFINITY : value);
+}
+
+/* K, b and the constant of a quadratic problem */
+static PetscErrorCode AssembleQuadratic(Grid *grid)
+{
+  const PetscInt di[5] = {0, -1, 1, 0, 0}, dj[5] = {0, 0, 0, -1, 1};
+  DMDALocalInfo  info;
+  PetscScalar  **b;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMDAGetLocalInfo(grid->da, &info));
+  PetscCall(DMDAVecGetArray(grid->da, grid->q.b, &b));
+  for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
+      const MatStencil row = {.i = i, .j = j};
+      MatStencil       col[5];
+      PetscScalar      values[5];
+      double           v[5], load;
+      PetscInt         nc = 0;
+
+      GridStencil(grid->problem, grid->n, (int)i, (int)j, v, &load);
+      GridBoundaryTerms(grid->problem, grid->n, (int)i, (int)j, v, &load, &grid->constant);
+      b[j][i] = load;
+      for (PetscInt k = 0; k < 5; k++) {
+        if (i + di[k] < 0 || i + di[k] >= info.mx || j + dj[k] < 0 || j + dj[k] >= info.my) continue;
+        col[nc]      = (MatStencil){.i = i + di[k], .j = j + dj[k]};
+        values[nc++] = v[k];
+      }
+      PetscCall(MatSetValuesStencil(grid->q.H, 1, &row, nc, col, values, INSERT_VALUES));
+    }
+  }
+  PetscCall(DMDAVecRestoreArray(grid->da, grid->q.b, &b));
+  PetscCall(MatAssemblyBegin(grid->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(grid->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &grid->constant, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FillGridBounds(Grid *grid)
+{
+  DMDALocalInfo info;
+  PetscScalar **l, **u;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMDAGetLocalInfo(grid->da, &info));
+  PetscCall(DMDAVecGetArray(grid->da, grid->lower, &l));
+  PetscCall(DMDAVecGetArray(grid->da, grid->upper, &u));
+  for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
+      double lower, upper;
+
+      GridBounds(grid->problem, grid->n, (int)i, (int)j, &lower, &upper);
+      l[j][i] = Bound(lower);
+      u[j][i] = Bound(upper);
+    }
+  }
+  PetscCall(DMDAVecRestoreArray(grid->da, grid->upper, &u));
+  PetscCall(DMDAVecRestoreArray(grid->da, grid->lower, &l));
+  PetscFunctionReturn(0);
+}
+
+/* A value of u, which the boundary gives outside the unknowns */
+static PetscScalar SurfaceValue(const Grid *grid, PetscScalar **u, PetscInt i, PetscInt j)
+{
+  double x, y;
+
+  if (i >= 0 && i < grid->n && j >= 0 && j < grid->n) return u[j][i];
+  GridPoint(grid->problem, grid->n, (int)i, (int)j, &x, &y);
+  return GridBoundary(grid->problem, x, y);
+}
+
+/* Area, and its gradient in g, or its Hessian in H; each may be NULL. A triangle counts on the rank of its right angle, or of the unknown
+   next to it where that lies on the boundary; what it gives to unknowns of others is sent to them. */
+static PetscErrorCode SurfaceEvaluate(Grid *grid, Vec x, PetscReal *f, Vec g, Mat H)
+{
+  const double  h = 1.0 / (grid->n + 1.0);
+  DMDALocalInfo info;
+  Vec           local, sum;
+  PetscScalar **u, **out;
+  PetscReal     area = 0.0;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMDAGetLocalInfo(grid->da, &info));
+  PetscCall(DMGetLocalVector(grid->da, &local));
+  PetscCall(DMGetLocalVector(grid->da, &sum));
+  PetscCall(DMGlobalToLocal(grid->da, x, INSERT_VALUES, local));
+  PetscCall(VecSet(sum, 0.0));
+  PetscCall(DMDAVecGetArrayRead(grid->da, local, &u));
+  PetscCall(DMDAVecGetArray(grid->da, sum, &out));
+  if (H) PetscCall(MatZeroEntries(H));
+  for (PetscInt j = info.ys - 1; j <= info.ys + info.ym; j++) {
+    for (PetscInt i = info.xs - 1; i <= info.xs + info.xm; i++) {
+      for (PetscInt side = -1; side <= 1; side += 2) { /* of the right angle on which the triangle lies */
+        const PetscInt   ii[3] = {i, i + side, i}, jj[3] = {j, j, j + side}, owner_i = PetscMin(PetscMax(i, 0), grid->n - 1), owner_j = PetscMin(PetscMax(j, 0), grid->n - 1);
+        const MatStencil node[3] = {{.i = ii[0], .j = jj[0]}, {.i = ii[1], .j = jj[1]}, {.i = ii[2], .j = jj[2]}};
+        double           gradient[3], hessian[3][3], values[3];
+        PetscBool        known[3];
+
+        if (i + side < -1 || i + side > grid->n || j + side < -1 || j + side > grid->n) continue;
+        if (owner_i < info.xs || owner_i >= info.xs + info.xm || owner_j < info.ys || owner_j >= info.ys + info.ym) continue;
+        for (PetscInt k = 0; k < 3; k++) {
+          known[k]  = (PetscBool)(ii[k] < 0 || ii[k] >= grid->n || jj[k] < 0 || jj[k] >= grid->n);
+          values[k] = PetscRealPart(SurfaceValue(grid, u, ii[k], jj[k]));
+        }
+        area += GridTriangle(h, values[0], values[1], values[2], gradient, hessian);
+        for (PetscInt r = 0; r < 3; r++) {
+          if (known[r]) continue;
+          out[jj[r]][ii[r]] += gradient[r];
+          for (PetscInt s = 0; s < 3 && H; s++) {
+            const PetscScalar value = hessian[r][s];
+
+            if (!known[s]) PetscCall(MatSetValuesStencil(H, 1, &node[r], 1, &node[s], &value, ADD_VALUES));
+          }
+        }
+      }
+    }
+  }
+  PetscCall(DMDAVecRestoreArray(grid->da, sum, &out));
+  PetscCall(DMDAVecRestoreArrayRead(grid->da, local, &u));
+  if (g) PetscCall(VecSet(g, 0.0));
+  if (g) PetscCall(DMLocalToGlobal(grid->da, sum, ADD_VALUES, g));
+  if (f) PetscCallMPI(MPI_Allreduce(&area, f, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  if (H) PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
+  if (H) PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(DMRestoreLocalVector(grid->da, &sum));
+  PetscCall(DMRestoreLocalVector(grid->da, &local));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode GridObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
+{
+  Grid *grid = (Grid *)user;
+
+  PetscFunctionBeginUser;
+  if (grid->problem == GRID_SURFACE) PetscCall(SurfaceEvaluate(grid, x, f, g, NULL));
+  else {
+    PetscCall(ProblemObjectiveAndGradient(tao, x, f, g, &grid->q));
+    *f += grid->constant;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode GridHessian(Tao tao, Vec x, Mat H, Mat pre, void *user)
+{
+  Grid *grid = (Grid *)user;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  (void)pre;
+  if (grid->problem == GRID_SURFACE) PetscCall(SurfaceEvaluate(grid, x, NULL, NULL, H));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateGrid(int problem, PetscInt n, Grid *grid)
+{
+  const DMDAStencilType stencil = problem == GRID_SURFACE ? DMDA_STENCIL_BOX : DMDA_STENCIL_STAR;
+
+  PetscFunctionBeginUser;
+  *grid = (Grid){.problem = problem, .n = (int)n};
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, stencil, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &grid->da));
+  PetscCall(DMSetFromOptions(grid->da));
+  PetscCall(DMSetUp(grid->da));
+  PetscCall(DMCreateMatrix(grid->da, &grid->q.H));
+  PetscCall(MatSetOption(grid->q.H, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(DMCreateGlobalVector(grid->da, &grid->q.b));
+  PetscCall(VecDuplicate(grid->q.b, &grid->lower));
+  PetscCall(VecDuplicate(grid->q.b, &grid->upper));
+  PetscCall(FillGridBounds(grid));
+  if (problem != GRID_SURFACE) PetscCall(AssembleQuadratic(grid));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DestroyGrid(Grid *grid)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ProblemDestroy(&grid->q));
+  PetscCall(VecDestroy(&grid->lower));
+  PetscCall(VecDestroy(&grid->upper));
+  PetscCall(DMDestroy(&grid->da));
+  PetscFunctionReturn(0);
+}
+
+/* J picks the unknowns that have a bound; what it picks of the bounds bounds its rows */
+static PetscErrorCode SetRows(Tao tao, Grid *grid)
+{
+  const PetscScalar *l, *u;
+  PetscInt           lo, hi, rstart, count = 0, *bounded;
+  Vec                c, rl, ru;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecGetOwnershipRange(grid->lower, &lo, &hi));
+  PetscCall(PetscMalloc1(hi - lo, &bounded));
+  PetscCall(VecGetArrayRead(grid->lower, &l));
+  PetscCall(VecGetArrayRead(grid->upper, &u));
+  for (PetscInt i = 0; i < hi - lo; i++)
+    if (PetscRealPart(l[i]) > PETSC_NINFINITY || PetscRealPart(u[i]) < PETSC_INFINITY) bounded[count++] = i;
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, hi - lo, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &grid->q.J));
+  PetscCall(MatCreateVecs(grid->q.J, NULL, &c));
+  PetscCall(VecDuplicate(c, &rl));
+  PetscCall(VecDuplicate(c, &ru));
+  PetscCall(VecGetOwnershipRange(c, &rstart, NULL));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCall(MatSetValue(grid->q.J, rstart + k, lo + bounded[k], 1.0, INSERT_VALUES));
+    PetscCall(VecSetValue(rl, rstart + k, l[bounded[k]], INSERT_VALUES));
+    PetscCall(VecSetValue(ru, rstart + k, u[bounded[k]], INSERT_VALUES));
+  }
+  PetscCall(VecRestoreArrayRead(grid->upper, &u));
+  PetscCall(VecRestoreArrayRead(grid->lower, &l));
+  PetscCall(PetscFree(bounded));
+  PetscCall(MatAssemblyBegin(grid->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(grid->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(rl));
+  PetscCall(VecAssemblyEnd(rl));
+  PetscCall(VecAssemblyBegin(ru));
+  PetscCall(VecAssemblyEnd(ru));
+  PetscCall(VecDuplicate(c, &grid->q.g));
+  PetscCall(VecSet(grid->q.g, 0.0));
+  PetscCall(TaoSetInequalityConstraintsRoutine(tao, c, ProblemConstraints, &grid->q));
+  PetscCall(TaoSetJacobianInequalityRoutine(tao, grid->q.J, grid->q.J, ProblemConstant, NULL));
+  PetscCall(TaoSetInequalityBounds(tao, rl, ru));
+  PetscCall(VecDestroy(&c));
+  PetscCall(VecDestroy(&rl));
+  PetscCall(VecDestroy(&ru));
+  PetscFunctionReturn(0);
+}
+
+/* A solver of the given type, with hypre as preconditioner where it has one of its own to choose */
+static PetscErrorCode CreateGridSolver(Grid *grid, const char type[], PetscBool rows, Vec x, Tao *tao)
+{
+  KSP ksp;
+  PC  pc;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
+  PetscCall(TaoSetType(*tao, type));
+  PetscCall(TaoSetSolution(*tao, x));
+  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, GridObjectiveAndGradient, grid));
+  PetscCall(TaoSetHessian(*tao, grid->q.H, grid->q.H, GridHessian, grid));
+  if (rows) PetscCall(SetRows(*tao, grid));
+  else PetscCall(TaoSetVariableBounds(*tao, grid->lower, grid->upper));
+  PetscCall(TaoGetKSP(*tao, &ksp));
+  if (ksp && !rows) {
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(PCSetType(pc, PCHYPRE));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Processor time of all ranks */
+static PetscErrorCode ProcessorTime(PetscReal *seconds)
+{
+  struct rusage usage;
+  PetscReal     local;
+
+  PetscFunctionBeginUser;
+  getrusage(RUSAGE_SELF, &usage);
+  local = (PetscReal)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * (PetscReal)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  PetscCallMPI(MPI_Allreduce(&local, seconds, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation of the bounds */
+static PetscErrorCode Violation(Grid *grid, Vec x, PetscReal *violation)
+{
+  const Vec bounds[2] = {grid->lower, grid->upper};
+  PetscReal most[2];
+  Vec       d;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(x, &d));
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(VecWAXPY(d, -1.0, x, bounds[k]));
+    if (k) PetscCall(VecScale(d, -1.0));
+    PetscCall(VecMax(d, NULL, &most[k]));
+  }
+  PetscCall(VecDestroy(&d));
+  *violation = PetscMax(PetscMax(most[0], most[1]), 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* Solves from u = 0 with the options of the command line and prints the figures */
+static PetscErrorCode Report(Grid *grid, const char type[], PetscBool rows)
+{
+  Tao                tao;
+  Vec                x;
+  PetscReal          f, violation, cpu[2];
+  PetscInt           its, krylov;
+  PetscLogDouble     begin, end;
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(grid->lower, &x));
+  PetscCall(CreateGridSolver(grid, type, rows, x, &tao));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(PetscTime(&begin));
+  PetscCall(ProcessorTime(&cpu[0]));
+  PetscCall(TaoSolve(tao));
+  PetscCall(ProcessorTime(&cpu[1]));
+  PetscCall(PetscTime(&end));
+  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
+  PetscCall(TaoGetLinearSolveIterations(tao, &krylov));
+  PetscCall(Violation(grid, x, &violation));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.15e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.2f|%.2f\n", grid_names[grid->problem], TaoConvergedReasons[reason], (double)f, (double)violation, its, krylov, end - begin, (double)(cpu[1] - cpu[0])));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscFunctionReturn(0);
+}
+
+/* Objective and solution against those of PETSc's TAOTRON */
+static PetscErrorCode Compare(Grid *grid, const char type[], PetscBool rows)
+{
+  Tao                tao, tron;
+  Vec                x, reference;
+  PetscReal          f, best, size, violation;
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(grid->lower, &x));
+  PetscCall(VecDuplicate(grid->lower, &reference));
+  PetscCall(CreateGridSolver(grid, type, rows, x, &tao));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", grid_names[grid->problem], TaoConvergedReasons[reason]));
+  PetscCall(CreateGridSolver(grid, TAOTRON, PETSC_FALSE, reference, &tron));
+  PetscCall(TaoSetTolerances(tron, 1e-12, 0.0, 0.0));
+  PetscCall(TaoSolve(tron));
+  PetscCall(TaoGetSolutionStatus(tron, NULL, &best, NULL, NULL, NULL, NULL));
+  PetscCall(VecNorm(reference, NORM_INFINITY, &size));
+  PetscCall(VecAXPY(reference, -1.0, x));
+  PetscCall(VecNorm(reference, NORM_INFINITY, &violation));
+  PetscCall(ProblemVerdict("  objective against TRON's, relative", PetscAbsReal(f - best) / PetscAbsReal(best), 1e-6));
+  PetscCall(ProblemVerdict("  difference from TRON's solution, relative", violation / size, 1e-3));
+  PetscCall(Violation(grid, x, &violation));
+  PetscCall(ProblemVerdict("  violation, relative", violation / size, 1e-8));
+  PetscCall(TaoDestroy(&tron));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&reference));
+  PetscCall(VecDestroy(&x));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  char      name[64], type[64] = TAOIPFILTER;
+  PetscInt  n    = 24;
+  PetscBool rows = PETSC_FALSE, report = PETSC_FALSE, one;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &n, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-rows", &rows, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-report", &report, NULL));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-solver", type, sizeof(type), NULL));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-problem", name, sizeof(name), &one));
+  PetscCheck(!one || GridFind(name) >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER, "There is no problem %s", name);
+  for (int k = 0; k < GRID_NPROBLEMS; k++) {
+    Grid grid;
+
+    if (one && k != GridFind(name)) continue;
+    PetscCall(CreateGrid(k, n, &grid));
+    PetscCall((report ? Report : Compare)(&grid, type, rows));
+    PetscCall(DestroyGrid(&grid));
+  }
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   testset:
+      output_file: output/ipfilter_grid_1.out
+
+      test:
+         suffix: bounds
+         nsize: {{1 2 3}}
+
+      test:
+         suffix: rows
+         nsize: {{1 2}}
+         args: -rows
+
+TEST*/
