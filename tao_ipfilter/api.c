@@ -324,6 +324,10 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
 
   Level: intermediate
 
+  Note:
+  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is alone; zero where
+  there is none, or both are equal.
+
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/
 PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
@@ -349,8 +353,11 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
 
   Level: intermediate
 
-  Note:
+  Notes:
   `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a force.
+
+  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two bounds is the sum of both,
+  that of a row with equal bounds has either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/

@@ -182,9 +182,9 @@ PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
 
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &pressure));
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], pressure));
+    PetscCall(IPSlackSigma(tao, pressure));
     PetscCall(VecPointwiseMult(pressure, pressure, rc));
-    PetscCall(IPPairGetForce(&ip->pair[IP_SLACK], force));
+    PetscCall(IPSlackForce(tao, force));
     PetscCall(VecAYPX(pressure, -1.0, force));
     PetscCall(MatMultTransposeAdd(ip->jac.inequality, pressure, b, b));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -202,11 +202,8 @@ PetscErrorCode IPBackSubstitute(Tao tao, Vec rc)
 
   PetscFunctionBegin;
   if (ip->mi) PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, rc, slack->dt));
+  if (ip->mi) PetscCall(IPSlackDirection(tao));
   PetscCall(IPBoundsDirection(tao));
-  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDualDirection(&ip->pair[b]));
-  if (ip->mi) {
-    PetscCall(VecWAXPY(ip->dir.lambda, 1.0, slack->z, slack->dz));
-    PetscCall(VecAXPY(ip->dir.lambda, -1.0, ip->at.lambda));
-  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) PetscCall(IPPairDualDirection(&ip->pair[b]));
   PetscFunctionReturn(0);
 }

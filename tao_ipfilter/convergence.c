@@ -5,12 +5,15 @@
    there gives a scale to measure errors by, so it is not left to the iteration to find out. */
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  PetscReal     least = 0.0;
+  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
+  PetscReal     violation = 0.0;
 
   PetscFunctionBegin;
-  if (ip->mi) PetscCall(VecMin(ip->at.c, NULL, &least));
-  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || least < 0.0) PetscFunctionReturn(0);
+  if (ip->mi) {
+    PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &violation));
+  }
+  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0) PetscFunctionReturn(0);
   if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -60,7 +63,7 @@ static PetscErrorCode AbsoluteForce(Tao tao, PetscReal *largest)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sum));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
   PetscCall(VecSet(sum, 0.0));
-  if (ip->mi) PetscCall(AddAbsoluteForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.z[IP_SLACK], ip->pair[IP_SLACK].w, sum));
+  if (ip->mi) PetscCall(AddAbsoluteForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
   if (ip->me) PetscCall(AddAbsoluteForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;

@@ -11,7 +11,7 @@ static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
 
   PetscFunctionBegin;
   PetscCall(TaoComputeGradient(tao, x, g));
-  if (ip->me) {
+  if (ip->me > ip->sides.nall) {
     PetscCall(TaoComputeJacobianEquality(tao, x, tao->jacobian_equality, tao->jacobian_equality_pre));
     PetscCall(MatMultTransposeAdd(tao->jacobian_equality, tao->DE, g, g));
   }

@@ -34,7 +34,7 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ds2));
-  PetscCall(IPPairGetSigma(slack, v));
+  PetscCall(IPSlackSigma(tao, v));
   PetscCall(VecPointwiseMult(ds2, slack->dt, slack->dt));
   PetscCall(VecDot(v, ds2, &sDs));
   PetscCall(VecSum(ds2, &ss));
@@ -140,7 +140,7 @@ static PetscErrorCode DirectionAssemble(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
-  if (ip->mi) PetscCall(IPPairGetSigma(&ip->pair[IP_SLACK], D));
+  if (ip->mi) PetscCall(IPSlackSigma(tao, D));
   PetscCall(IPCondenseMatrix(tao, D));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
   PetscFunctionReturn(0);

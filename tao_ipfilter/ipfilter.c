@@ -29,7 +29,7 @@ static PetscErrorCode DestroyType(Tao tao)
 
 /*MC
   TAOIPFILTER - Interior point with a filter line search, for problems too large to factor:
-  min f(x) subject to c_E(x) = 0, c_I(x) >= 0 and x_l <= x <= x_u
+  min f(x) subject to c_E(x) = 0, c_I(x) >= 0, or c_l <= c_I(x) <= c_u, and x_l <= x <= x_u
 
   Options Database Keys:
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
@@ -139,7 +139,9 @@ static PetscErrorCode DestroyType(Tao tao)
   grad f + J_E^T DE - J^T DI = DL + DU.
 
   Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
-  gradient that `TaoGetGradient()` returns are zero. Inequalities have no upper bounds: state c <= u as u - c >= 0.
+  gradient that `TaoGetGradient()` returns are zero. Rows of the
+  inequality constraints may have two bounds, `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. Where the bounds are
+  equal it is an equality constraint; infinite ones are none.
 
   Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
   `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been called (or

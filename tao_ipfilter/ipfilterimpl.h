@@ -8,11 +8,12 @@
 
    so that c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
 
-   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x.
+   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x. A row with two bounds,
+   0 <= c_I(x) <= range, has one slack with two pairs: t is s and range - s.
 
    The files, each calling none but those above it in this list:
 
-     problem  log, work, pairs, iterate, fixed, bounds, rowscale, jacobian, evaluate, difference
+     problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, jacobian, evaluate, difference
      measure  stiffness, scale, kkt
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
@@ -104,6 +105,7 @@ typedef struct {
 /* Blocks of complementarity pairs */
 enum {
   IP_SLACK,
+  IP_CEILING, /* upper sides of slacks with two */
   IP_LOWER,
   IP_UPPER,
   IP_NPAIRS
@@ -112,7 +114,7 @@ enum {
 /* Pairs (t_i, z_i), t_i z_i -> mu. Where a bound is absent t is PETSC_INFINITY and z is zero. */
 typedef struct {
   PetscInt  n;      /* pairs present, over all ranks; the vectors are NULL when there are none */
-  PetscReal sign;   /* of t's change with x, or with c_I: -1 for upper bounds, +1 for the others */
+  PetscReal sign;   /* of t's change with x, or with c_I: -1 for upper bounds and sides, +1 for the others */
   PetscReal weight; /* sum of the weights of the pairs present */
   Vec       w;      /* weights m_i */
   Vec       t, z;   /* distance to the boundary and its multiplier */
@@ -144,6 +146,17 @@ typedef struct {
   PetscObjectId    pattern_id; /* which pattern: two stamps alike have the same */
   PetscObjectState pattern_state;
 } IPJacobian;
+
+/* What TaoSetInequalityBounds() makes of the rows of c_I: sides.c */
+typedef struct {
+  Vec       sign;         /* +1, -1: upper bound alone, 0: no inequality; NULL: all +1 */
+  Vec       base;         /* the bound that c is measured from; NULL: IL, or 0 */
+  Vec       range;        /* between two bounds, else PETSC_INFINITY; NULL: no row has two */
+  Vec       width;        /* the same in the scale of the iteration */
+  PetscReal constant;     /* what rows that are no inequality have for c; 0: not chosen yet */
+  PetscInt  nequal, nall; /* rows with equal bounds, of this rank and of all */
+  PetscInt *equal;        /* which, from this rank's first row */
+} IPSides;
 
 /* Scales of the rows of c_I and c_E; NULL: 1 */
 typedef struct {
@@ -311,8 +324,9 @@ typedef struct {
   PetscReal     tol; /* of this solve: tao->gatol */
   IPGiven       given;
   IPWork        work;
-  PetscInt      mi, me; /* inequality and equality constraints, all ranks */
-  IS            fixed;  /* variables of this rank with equal bounds; NULL if no rank has one */
+  PetscInt      mi, me; /* inequality and equality constraints, all ranks: rows with equal bounds are both */
+  IPSides       sides;
+  IS            fixed; /* variables of this rank with equal bounds; NULL if no rank has one */
   IPRowScale    rows;
   IPJacobian    jac;
   IPPair        pair[IP_NPAIRS];
@@ -402,6 +416,29 @@ PETSC_INTERN PetscErrorCode IPBoundsDirection(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsAddForces(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPBoundsCenter(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsMultipliers(Tao, Vec, Vec);
+
+/* sides.c */
+PETSC_INTERN PetscErrorCode IPSidesSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPSidesSetUpPairs(Tao);
+PETSC_INTERN PetscErrorCode IPSidesUpdateWidth(Tao);
+PETSC_INTERN PetscErrorCode IPSidesConstraints(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back);
+PETSC_INTERN PetscErrorCode IPSidesMultipliers(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPSidesTakeEquality(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPSidesTakePairs(Tao);
+PETSC_INTERN PetscErrorCode IPSidesReturnPairs(Tao);
+PETSC_INTERN PetscErrorCode IPSidesDestroy(IPSides *);
+
+/* slack.c */
+PETSC_INTERN PetscErrorCode IPSlackSigma(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPSlackForce(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPSlackPressure(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPSlackDirection(Tao);
+PETSC_INTERN PetscErrorCode IPSlackDistance(Tao, Vec, PetscBool trial);
+PETSC_INTERN PetscErrorCode IPSlackViolation(Tao, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPSlackCentral(Tao, Vec, PetscReal, Vec, Vec);
+PETSC_INTERN PetscErrorCode IPSlackKeepInside(Tao, Vec, PetscReal);
+PETSC_INTERN PetscErrorCode IPSlackCenterUpper(Tao, PetscReal);
 
 /* rowscale.c */
 PETSC_INTERN PetscErrorCode IPRowScaleSetUp(Tao, PetscBool *scaled);
@@ -512,6 +549,7 @@ PETSC_INTERN PetscErrorCode IPPenaltyStep(Tao, PetscBool *);
 
 /* warm.c */
 PETSC_INTERN PetscErrorCode IPWarmSetBounds(Tao);
+PETSC_INTERN PetscBool      IPWarmEquality(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPWarmSetEquality(Tao);
 PETSC_INTERN PetscErrorCode IPWarmMeanProduct(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPWarmCenterBounds(Tao);

@@ -30,7 +30,7 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionReturn(0);
 }
 
-/* sum m (lambda - z)^2: the stationarity residual of the slacks in the norm of the weights, squared */
+/* sum m (lambda - z)^2, z being that of both sides: the stationarity residual of the slacks in the norm of the weights, squared */
 static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -40,7 +40,8 @@ static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
   *square = 0.0;
   if (!ip->mi) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &difference));
-  PetscCall(VecWAXPY(difference, -1.0, ip->pair[IP_SLACK].z, ip->at.lambda));
+  PetscCall(IPSlackPressure(tao, difference));
+  PetscCall(VecAYPX(difference, -1.0, ip->at.lambda));
   PetscCall(IPPairWeightedSquare(tao, difference, square));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &difference));
   PetscFunctionReturn(0);

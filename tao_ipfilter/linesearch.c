@@ -9,11 +9,12 @@
 static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
+  IPPair       *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(ip->trial.x, alpha, ip->dir.x, tao->solution));
   if (ip->mi) PetscCall(VecWAXPY(ip->trial.s, alpha, slack->dt, slack->t));
+  if (ceiling->n) PetscCall(VecWAXPY(ceiling->trial, alpha, ceiling->dt, ceiling->t));
   PetscCall(IPBoundsDistance(tao, ip->trial.x, PETSC_TRUE));
   PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
   *finite = PETSC_FALSE;

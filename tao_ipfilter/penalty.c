@@ -1,14 +1,13 @@
-/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho min(c, 0)^2. */
+/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the violations v. */
 #include "ipfilterimpl.h"
 
-/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = rho max(-c, 0) */
+/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = -rho v */
 PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(z, 0.0));
-  PetscCall(VecPointwiseMin(z, c, z));
+  PetscCall(IPSlackViolation(tao, c, z));
   PetscCall(VecPointwiseMult(z, z, ip->stiff.rho));
   PetscCall(VecScale(z, -1.0));
   PetscFunctionReturn(0);
@@ -110,7 +109,7 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
 static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal *value)
 {
   PetscScalar penalty;
-  Vec         force;
+  Vec         force, violation;
 
   PetscFunctionBegin;
   PetscCall(TaoComputeObjective(tao, x, &it->f));
@@ -118,8 +117,11 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   if (IPUndefined(*value)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, x, it->c, it->ce));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
   PetscCall(PenaltyPairForce(tao, it->c, force));
-  PetscCall(VecDot(force, it->c, &penalty));
+  PetscCall(IPSlackViolation(tao, it->c, violation));
+  PetscCall(VecDot(force, violation, &penalty));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   *value -= 0.5 * PetscRealPart(penalty);
   PetscFunctionReturn(0);

@@ -15,7 +15,8 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
   PetscCall(VecShift(ip->at.c, r));
   PetscCall(VecShift(p->t, r));
   PetscCall(IPPairCenter(p, ip->mu));
-  PetscCall(VecCopy(p->z, ip->at.lambda));
+  PetscCall(IPSidesUpdateWidth(tao));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,7 @@
 /*
    Feasibility restoration, where the line search finds no step: Levenberg-Marquardt steps for the violation
 
-     psi(x) = 1/2 sum_i m_i min(c_I,i, 0)^2 + 1/2 w^2 |c_E|^2,
+     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), beyond an upper side c_I,i - range,
 
    each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to bounds. The Hessian as
    metric lets an elastic body follow its surface. Its matrix is the condensed one with D = m/zeta in the violated rows, and
@@ -13,28 +13,19 @@
 #define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
 #define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
 
-/* min(c, 0) */
-static PetscErrorCode RestoreNegative(Vec c, Vec v)
-{
-  PetscFunctionBegin;
-  PetscCall(VecSet(v, 0.0));
-  PetscCall(VecPointwiseMin(v, c, v));
-  PetscFunctionReturn(0);
-}
-
 /* psi at the point of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscReal     square = 0.0, equality = 0.0;
-  Vec           negative;
+  Vec           violation;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &negative));
-    PetscCall(RestoreNegative(it->c, negative));
-    PetscCall(IPPairWeightedSquare(tao, negative, &square));
-    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &negative));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+    PetscCall(IPSlackViolation(tao, it->c, violation));
+    PetscCall(IPPairWeightedSquare(tao, violation, &square));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
   }
   if (ip->me) PetscCall(VecNorm(it->ce, NORM_2, &equality));
   *psi = 0.5 * (square + PetscSqr(ip->search.equality_weight * equality));
@@ -51,7 +42,7 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
   PetscCall(VecSet(g, 0.0));
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(RestoreNegative(ip->at.c, force));
+    PetscCall(IPSlackViolation(tao, ip->at.c, force));
     PetscCall(VecPointwiseMult(force, force, ip->pair[IP_SLACK].w));
     PetscCall(MatMultTranspose(ip->jac.inequality, force, g));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -69,21 +60,24 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
 static PetscErrorCode RestoreAssemble(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  Vec                D  = ip->restore.D;
-  const PetscScalar *c;
+  Vec                D  = ip->restore.D, violation;
+  const PetscScalar *v;
   PetscScalar       *d;
   PetscInt           n;
 
   PetscFunctionBegin;
   if (ip->mi) {
     PetscCall(VecAXPBY(D, 1.0 / ip->restore.zeta, 0.0, ip->pair[IP_SLACK].w));
-    PetscCall(VecGetLocalSize(ip->at.c, &n));
-    PetscCall(VecGetArrayRead(ip->at.c, &c));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+    PetscCall(IPSlackViolation(tao, ip->at.c, violation));
+    PetscCall(VecGetLocalSize(violation, &n));
+    PetscCall(VecGetArrayRead(violation, &v));
     PetscCall(VecGetArray(D, &d));
     for (PetscInt i = 0; i < n; i++)
-      if (PetscRealPart(c[i]) >= 0.0) d[i] = 0.0;
+      if (PetscRealPart(v[i]) == 0.0) d[i] = 0.0;
     PetscCall(VecRestoreArray(D, &d));
-    PetscCall(VecRestoreArrayRead(ip->at.c, &c));
+    PetscCall(VecRestoreArrayRead(violation, &v));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
   }
   ip->aug.delta    = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
   ip->aug.centered = PETSC_FALSE;
@@ -91,7 +85,7 @@ static PetscErrorCode RestoreAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Its right-hand side: the forces -J^T D c of the violation and those of the bounds */
+/* Its right-hand side: the forces -J^T D v of the violation and those of the bounds */
 static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -101,7 +95,8 @@ static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
   PetscCall(VecSet(rhs, 0.0));
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(VecPointwiseMult(force, ip->restore.D, ip->at.c));
+    PetscCall(IPSlackViolation(tao, ip->at.c, force));
+    PetscCall(VecPointwiseMult(force, ip->restore.D, force));
     PetscCall(VecScale(force, -1.0));
     PetscCall(MatMultTranspose(ip->jac.inequality, force, rhs));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -185,7 +180,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
-  PetscCall(IPCentralPair(ip->at.c, ip->stiff.rho, ip->mu, ip->trial.s, z));
+  PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->trial.s, z));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
@@ -211,7 +206,11 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscReal       theta, phi;
 
   PetscFunctionBegin;
-  if (ip->mi) PetscCall(RestoreChooseSlacks(tao, theta0));
+  if (ip->mi) {
+    PetscCall(RestoreChooseSlacks(tao, theta0));
+    PetscCall(IPSlackKeepInside(tao, ip->trial.s, 1e-3));
+    PetscCall(IPSlackDistance(tao, ip->trial.s, PETSC_TRUE));
+  }
   PetscCall(IPIterateCopyPoint(&ip->at, &ip->trial));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_TRUE));
   PetscCall(IPMeritMeasureTrial(tao, &theta, &phi));
@@ -229,7 +228,7 @@ static PetscErrorCode RestoreLeave(Tao tao)
   if (ip->mi) {
     PetscCall(VecCopy(ip->trial.s, ip->at.s));
     PetscCall(IPPairCenter(&ip->pair[IP_SLACK], ip->mu));
-    PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+    PetscCall(IPSlackCenterUpper(tao, ip->mu));
   }
   if (ip->me) PetscCall(IPEstimateMultipliers(tao));
   ip->bar.nerrors       = 0;

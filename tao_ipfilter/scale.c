@@ -17,12 +17,14 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPScale      *s  = &ip->scale;
-  PetscReal     c, t;
+  PetscReal     c, t, upper = 0.0;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &c));
   PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
+  if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
+  s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length), 10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
   s->product  = s->length * s->pressure;

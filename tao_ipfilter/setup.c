@@ -17,7 +17,6 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   Vec           c    = tao->constraints_inequality;
 
   PetscFunctionBegin;
-  PetscCheck(!tao->IU, comm, PETSC_ERR_SUP, "TAOIPFILTER takes no upper bounds of inequality constraints: state c_I(x) <= u as u - c_I(x) >= 0");
   PetscCall(VecGetSize(c, &ip->mi));
   PetscCall(DuplicateAfresh(c, &tao->DI));
   if (!ip->mi) PetscFunctionReturn(0);
@@ -36,18 +35,27 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetUpEqualities(Tao tao)
+/* The caller's equality constraints, and behind them on each rank the rows of c_I with equal bounds: a vector of that layout, or NULL */
+static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           c  = tao->constraints_equality;
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  PetscInt      own = 0, local = 0;
 
   PetscFunctionBegin;
-  PetscCall(VecGetSize(c, &ip->me));
-  PetscCall(DuplicateAfresh(c, &tao->DE));
+  *layout = NULL;
+  if (tao->eq_constrained) {
+    PetscCall(VecGetSize(tao->constraints_equality, &own));
+    PetscCall(VecGetLocalSize(tao->constraints_equality, &local));
+    PetscCall(DuplicateAfresh(tao->constraints_equality, &tao->DE));
+  }
+  ip->me = own + ip->sides.nall;
   if (!ip->me) PetscFunctionReturn(0);
-  PetscCheck(tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
-  PetscCall(DuplicateAfresh(c, &ip->at.y));
-  PetscCall(DuplicateAfresh(c, &ip->best.y));
+  PetscCheck(!own || tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
+  PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), layout));
+  PetscCall(VecSetSizes(*layout, local + ip->sides.nequal, PETSC_DETERMINE));
+  PetscCall(VecSetType(*layout, VECSTANDARD));
+  PetscCall(DuplicateAfresh(*layout, &ip->at.y));
+  PetscCall(DuplicateAfresh(*layout, &ip->best.y));
   PetscFunctionReturn(0);
 }
 
@@ -76,6 +84,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(IPDirectDestroy(&ip->direct));
   PetscCall(KSPDestroy(&ip->lin.flexible));
   PetscCall(ISDestroy(&ip->fixed));
+  PetscCall(IPSidesDestroy(&ip->sides));
   PetscFunctionReturn(0);
 }
 
@@ -89,13 +98,14 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   ip->mi = ip->me = 0;
   if (!tao->gradient) PetscCall(VecDuplicate(x, &tao->gradient));
   if (tao->ineq_constrained) PetscCall(SetUpInequalities(tao));
-  if (tao->eq_constrained) PetscCall(SetUpEqualities(tao));
-  c  = ip->mi ? tao->constraints_inequality : NULL;
-  ce = ip->me ? tao->constraints_equality : NULL;
+  PetscCall(IPSidesSetUp(tao));
+  PetscCall(SetUpEqualities(tao, &ce));
+  c = ip->mi ? tao->constraints_inequality : NULL;
   PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
   PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* the constraints are evaluated anew on return to it */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
+  PetscCall(VecDestroy(&ce));
   PetscCall(DuplicateAfresh(x, &ip->rx));
   PetscCall(DuplicateAfresh(x, &ip->stiff.hdiag));
   PetscCall(DuplicateAfresh(x, &ip->lin.residual));
@@ -103,22 +113,32 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether v, made in TaoSetUp(), still is laid out as its model; there is none where n is 0 */
-static PetscErrorCode SameLayout(Vec v, Vec model, PetscInt n, PetscBool *same)
+/* Whether v, made in TaoSetUp(), still has as many entries on all ranks as a vector of the caller's and some more; either may be NULL */
+static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
-  PetscInt  size = 0, local[2] = {0, 0};
+  PetscInt  local[2] = {0, 0};
   PetscBool equal;
 
   PetscFunctionBegin;
-  if (model) PetscCall(VecGetSize(model, &size));
-  equal = (PetscBool)(size == n);
-  if (equal && n) {
-    PetscCall(VecGetLocalSize(v, &local[0]));
-    PetscCall(VecGetLocalSize(model, &local[1]));
-    equal = (PetscBool)(local[0] == local[1]);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)model)));
+  if (v) PetscCall(VecGetLocalSize(v, &local[0]));
+  if (model) PetscCall(VecGetLocalSize(model, &local[1]));
+  equal = (PetscBool)(local[0] == local[1] + more);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
   *same = (PetscBool)(*same && equal);
+  PetscFunctionReturn(0);
+}
+
+/* Rows of c_I by the bounds that they have now; what was made of their Jacobian is dropped where any is, or was, no plain one */
+static PetscErrorCode SetUpSides(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  PetscBool     had = (PetscBool)(ip->sides.sign != NULL);
+
+  PetscFunctionBegin;
+  PetscCall(IPSidesSetUp(tao));
+  if (!had && !ip->sides.sign) PetscFunctionReturn(0);
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPJacobianDestroy(&ip->jac));
   PetscFunctionReturn(0);
 }
 
@@ -127,13 +147,12 @@ PetscErrorCode IPSetUpSizes(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   PetscBool     same = PETSC_TRUE;
-  PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetSize(ip->rx, &n));
-  PetscCall(SameLayout(ip->rx, tao->solution, n, &same));
-  if (tao->ineq_constrained) PetscCall(SameLayout(ip->at.c, tao->constraints_inequality, ip->mi, &same));
-  if (tao->eq_constrained) PetscCall(SameLayout(ip->at.ce, tao->constraints_equality, ip->me, &same));
+  PetscCall(SetUpSides(tao));
+  PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
+  PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
+  PetscCall(SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&tao->gradient));
   PetscCall(KSPReset(tao->ksp));

@@ -40,6 +40,7 @@ static PetscErrorCode ScaleRows(Tao tao)
   PetscCall(IPRowScaleSetUp(tao, &scaled));
   if (!scaled) PetscFunctionReturn(0);
   if (ip->rows.inequality) PetscCall(ForgetSystem(tao));
+  PetscCall(IPSidesUpdateWidth(tao));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
@@ -77,6 +78,8 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscCall(IPFixedSetUp(tao, &other_fixed));
   PetscCall(IPRowScaleReset(tao, &other_scales));
   if (other_fixed || other_scales) PetscCall(ForgetSystem(tao));
+  PetscCall(IPSidesSetUpPairs(tao));
+  PetscCall(IPSidesUpdateWidth(tao));
   PetscCall(IPBoundsSetUp(tao));
   PetscCall(IPIterateBind(tao));
   PetscCall(IPBoundsPush(tao));
@@ -133,6 +136,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPSlackDistance(tao, ip->at.s, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);
@@ -266,6 +270,7 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscCall(RestoreBest(tao));
   PetscCall(IPSetMultipliers(tao));
   if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
+  if (ip->mi) PetscCall(IPSidesReturnPairs(tao));
   tao->fc       = ip->at.f;
   tao->residual = ip->kkt.error;
   tao->cnorm    = ip->kkt.inf_pr;

@@ -11,6 +11,8 @@ static PetscErrorCode StartCold(Tao tao)
   if (ip->mi) {
     PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt.s0));
     PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0));
+    PetscCall(IPSlackKeepInside(tao, ip->at.s, 0.5));
+    PetscCall(IPSlackCenterUpper(tao, ip->mu));
     PetscCall(VecSet(ip->at.lambda, 0.0));
   }
   PetscFunctionReturn(0);
@@ -87,8 +89,8 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
   ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
-  PetscCall(IPCentralPair(ip->at.c, ip->stiff.rho, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
-  PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
   PetscFunctionReturn(0);
 }
 
@@ -100,7 +102,7 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscReal     force, imbalance, length, difference;
 
   PetscFunctionBegin;
-  PetscCall(IPStationarity(tao, ip->at.z[IP_SLACK], ip->rx));
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(tao->gradient, NORM_2, &force));
   PetscCall(VecNorm(ip->rx, NORM_2, &imbalance));
   *mismatch = PetscMin(1.0, force > 0.0 ? imbalance / force : 1.0);
@@ -117,16 +119,17 @@ static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
   const PetscReal nearly  = 10.0;
-  PetscReal       least_s = 1.0, least_z = 1.0;
+  PetscReal       least_s = 1.0, least_z = 1.0, least_upper = 1.0;
 
   PetscFunctionBegin;
   *solves = PETSC_FALSE;
   if (ip->mi) {
     PetscCall(VecMin(ip->at.s, NULL, &least_s));
     PetscCall(VecMin(ip->at.z[IP_SLACK], NULL, &least_z));
-    PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+    PetscCall(IPSlackPressure(tao, ip->at.lambda));
   }
-  if (!(least_s > 0.0) || !(least_z > 0.0)) PetscFunctionReturn(0);
+  if (ip->pair[IP_CEILING].n) PetscCall(VecMin(ip->pair[IP_CEILING].t, NULL, &least_upper));
+  if (!(PetscMin(PetscMin(least_s, least_upper), least_z) > 0.0)) PetscFunctionReturn(0);
   PetscCall(IPBarrierAverage(tao, &ip->mu));
   PetscCall(IPComputeKKT(tao));
   *solves = (PetscBool)(ip->kkt.error <= nearly * ip->tol);
@@ -147,6 +150,7 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(VecCopy(ip->given.warm_s, slack->t));
   PetscCall(VecCopy(ip->given.warm_z, slack->z));
   PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
+  PetscCall(IPSidesTakePairs(tao));
   if (IPWarmBounds(ip)) PetscCall(IPWarmSetBounds(tao));
   PetscCall(WarmSolves(tao, &solves));
   if (solves) PetscFunctionReturn(0);
@@ -154,13 +158,13 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q));
-  PetscCall(VecPointwiseDivide(q, slack->z, ip->stiff.rho));
+  PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff.rho));
   PetscCall(VecAYPX(q, -1.0, slack->t));
   PetscCall(MeanProduct(tao, q, &mean));
   ip->mu = PetscMax(average, mismatch * ip->opt.mu_warm * (mean > 0.0 ? mean : 1.0));
-  PetscCall(IPCentralPair(q, ip->stiff.rho, ip->mu, slack->t, slack->z));
+  PetscCall(IPSlackCentral(tao, q, ip->mu, slack->t, slack->z));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q));
-  PetscCall(VecCopy(slack->z, ip->at.lambda));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
   PetscFunctionReturn(0);
 }
 
@@ -203,14 +207,14 @@ PetscErrorCode IPStartPoint(Tao tao)
   PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
     if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
-  if (ip->me && ip->opt.start == IP_START_WARM && ip->given.warm_y) PetscCall(IPWarmSetEquality(tao));
+  if (IPWarmEquality(ip)) PetscCall(IPWarmSetEquality(tao));
   if (!ip->mi && IPWarmBounds(ip)) PetscCall(StartWarmBounds(tao));
   else if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
   else if (ip->opt.start == IP_START_WARM && ip->given.warm_s) PetscCall(StartWarm(tao));
   else PetscCall(StartPredicted(tao));
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
-  if (ip->me && !(ip->opt.start == IP_START_WARM && ip->given.warm_y)) PetscCall(IPEstimateMultipliers(tao));
+  if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEstimateMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

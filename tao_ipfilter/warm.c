@@ -18,13 +18,22 @@ PetscErrorCode IPWarmSetBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of the equality constraints, given or estimated */
+/* Whether the multipliers of all equality constraints are given, be they rows with equal bounds */
+PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
+{
+  const PetscBool own = (PetscBool)(ip->me > ip->sides.nall);
+
+  return (PetscBool)(ip->me && ip->opt.start == IP_START_WARM && (!own || ip->given.warm_y) && (!ip->sides.nall || ip->given.warm_s));
+}
+
+/* Those multipliers */
 PetscErrorCode IPWarmSetEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(ip->given.warm_y, ip->at.y));
+  if (ip->me > ip->sides.nall) PetscCall(IPSidesEquality(ip->given.warm_y, ip->at.y, PETSC_FALSE));
+  if (ip->sides.nall) PetscCall(IPSidesTakeEquality(tao, ip->given.warm_z, ip->at.y));
   if (ip->rows.equality) PetscCall(VecPointwiseDivide(ip->at.y, ip->at.y, ip->rows.equality));
   PetscFunctionReturn(0);
 }

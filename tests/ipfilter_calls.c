@@ -1,6 +1,7 @@
 static char help[] = "TAO's own calls on a TAOIPFILTER: convergence tests, tolerances, multipliers, warm starts, rows with two bounds.\n\n";
 
 #include "ipfilter_problem.h"
+#include "attempt.h"
 
 /* min sum (x_i - x_{i-1})^2 / 2 + x_i^2 / 2 - b_i x_i of n unknowns, subject to rows x_i + x_{i+1} within [l_i, u_i], to the sum of all
    x_i = total, and to bounds */
@@ -253,7 +254,7 @@ static PetscErrorCode CopyMultipliers(Tao from, Tao to, PetscBool rows, PetscBoo
 }
 
 /* A solved problem from its own solution, in a new solver: no or one iteration; then with the load changed a little, fewer than from cold */
-static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool bounds, PetscBool active)
+static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool bounds)
 {
   Chain              chain;
   Tao                first, again;
@@ -266,7 +267,7 @@ static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool b
   PetscCall(CreateChain(40, &chain));
   PetscCall(FillVec(chain.lower, PETSC_NINFINITY, -0.1));
   PetscCall(FillVec(chain.upper, 0.5, PETSC_INFINITY));
-  PetscCall(FillVec(chain.q.g, active ? 1.2 : 0.15, 0.15));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
   PetscCall(VecDuplicate(chain.q.b, &x));
   PetscCall(VecDuplicate(chain.q.b, &y));
   PetscCall(CreateChainSolver(&chain, rows, total, bounds, x, &first));
@@ -277,7 +278,7 @@ static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool b
   PetscCall(CopyMultipliers(first, again, rows, total, bounds));
   PetscCall(TaoSolve(again));
   PetscCall(TaoGetSolutionStatus(again, &its[1], &f[1], NULL, NULL, NULL, &reason));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? (active ? ", rows" : ", rows that do not press") : "", total ? ", equality" : "", bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? ", rows" : "", total ? ", equality" : "", bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
   if (its[1] <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
   else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n", its[1], its[0]));
   PetscCall(ProblemVerdict("  change of the objective, relative", PetscAbsReal(f[1] - f[0]) / PetscAbsReal(f[0]), 1e-7));
@@ -403,6 +404,143 @@ static PetscErrorCode TestConstraintTolerances(void)
   PetscFunctionReturn(0);
 }
 
+/* Bounds of row r by its kind: two sides, an upper one, a lower one, equal ones, none; shift moves them */
+static PetscErrorCode FillSides(Chain *chain, PetscInt kinds, PetscReal shift)
+{
+  const PetscReal lower[5] = {0.9, PETSC_NINFINITY, 1.3, 0.7, PETSC_NINFINITY}, upper[5] = {1.0, 0.8, PETSC_INFINITY, 0.7, PETSC_INFINITY};
+  PetscInt        lo, hi;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecGetOwnershipRange(chain->row_lower, &lo, &hi));
+  for (PetscInt r = lo; r < hi; r++) {
+    PetscCall(VecSetValue(chain->row_lower, r, lower[r % kinds] + shift, INSERT_VALUES));
+    PetscCall(VecSetValue(chain->row_upper, r, upper[r % kinds] + shift, INSERT_VALUES));
+  }
+  PetscCall(VecAssemblyBegin(chain->row_lower));
+  PetscCall(VecAssemblyEnd(chain->row_lower));
+  PetscCall(VecAssemblyBegin(chain->row_upper));
+  PetscCall(VecAssemblyEnd(chain->row_upper));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation of the sides, and product of a row's multiplier with the distance from the side that it presses on */
+static PetscErrorCode MeasureSides(Chain *chain, Vec c, Vec DI, PetscReal measures[2])
+{
+  const PetscScalar *v, *d, *l, *u;
+  PetscInt           n;
+
+  PetscFunctionBeginUser;
+  measures[0] = measures[1] = 0.0;
+  PetscCall(VecGetLocalSize(c, &n));
+  PetscCall(VecGetArrayRead(c, &v));
+  PetscCall(VecGetArrayRead(DI, &d));
+  PetscCall(VecGetArrayRead(chain->row_lower, &l));
+  PetscCall(VecGetArrayRead(chain->row_upper, &u));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal distance = PetscMin(1.0, PetscRealPart(d[i] > 0.0 ? v[i] - l[i] : u[i] - v[i]));
+
+    measures[0] = PetscMax(measures[0], PetscMax(PetscRealPart(l[i] - v[i]), PetscRealPart(v[i] - u[i])));
+    measures[1] = PetscMax(measures[1], PetscAbsScalar(d[i] * distance));
+  }
+  PetscCall(VecRestoreArrayRead(chain->row_upper, &u));
+  PetscCall(VecRestoreArrayRead(chain->row_lower, &l));
+  PetscCall(VecRestoreArrayRead(DI, &d));
+  PetscCall(VecRestoreArrayRead(c, &v));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, measures, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* The optimality conditions of the chain with the sides as they are: balance of forces, sides, multipliers */
+static PetscErrorCode CheckSides(Tao tao, Chain *chain, Vec x)
+{
+  Vec                g, c, DI;
+  PetscReal          norm, measures[2];
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", TaoConvergedReasons[reason]));
+  PetscCall(TaoGetDualVariables(tao, NULL, &DI));
+  PetscCall(VecDuplicate(x, &g));
+  PetscCall(VecDuplicate(DI, &c));
+  PetscCall(MatMult(chain->q.J, x, c));
+  PetscCall(MeasureSides(chain, c, DI, measures));
+  PetscCall(MatMult(chain->q.H, x, g));
+  PetscCall(VecAXPY(g, -1.0, chain->q.b));
+  PetscCall(VecScale(g, -1.0));
+  PetscCall(MatMultTransposeAdd(chain->q.J, DI, g, g));
+  PetscCall(VecNorm(g, NORM_INFINITY, &norm));
+  PetscCall(ProblemVerdict("  forces out of balance", norm, 1e-7));
+  PetscCall(ProblemVerdict("  violation", measures[0], 1e-8));
+  PetscCall(ProblemVerdict("  multiplier times distance", measures[1], 1e-7));
+  PetscCall(VecDestroy(&g));
+  PetscCall(VecDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* Rows with bounds of all kinds, or of the first ones; then again from the solution, with other bounds, and with bounds that are
+   all equal */
+static PetscErrorCode TestSides(PetscInt kinds, const char name[])
+{
+  Chain    chain;
+  Tao      tao;
+  Vec      x;
+  PetscInt its;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(31, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(FillSides(&chain, kinds, 0.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "rows with %s\n", name));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(CopyMultipliers(tao, tao, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetIterationNumber(tao, &its));
+  if (its <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: %" PetscInt_FMT " iterations\n", its));
+  PetscCall(TaoIPFilterSetWarmStart(tao, NULL, NULL));
+  PetscCall(FillSides(&chain, kinds, 0.1));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(FillSides(&chain, 1, 0.05));
+  PetscCall(VecCopy(chain.row_lower, chain.row_upper));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* A lower bound above its upper one */
+static PetscErrorCode TestCrossedSides(void)
+{
+  Chain          chain;
+  Tao            tao;
+  Vec            x;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(31, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecSet(chain.row_lower, 2.0));
+  PetscCall(VecSet(chain.row_upper, 1.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(AttemptBegin());
+  ierr = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks("crossed sides", ierr));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "crossed sides: %s\n", ierr ? attempt_sentence : "no error"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -411,12 +549,15 @@ int main(int argc, char **argv)
   PetscCall(TestConvergenceTests());
   PetscCall(TestConstraintTolerances());
   PetscCall(TestBoundMultipliers());
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, PETSC_FALSE));
-  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_TRUE, PETSC_FALSE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE));
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
+  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_TRUE));
+  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_TRUE, PETSC_TRUE));
+  PetscCall(TestSides(1, "two sides"));
+  PetscCall(TestSides(2, "two sides or an upper one"));
+  PetscCall(TestSides(5, "bounds of all kinds"));
+  PetscCall(TestCrossedSides());
   PetscCall(PetscFinalize());
   return 0;
 }
