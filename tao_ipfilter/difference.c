@@ -1,8 +1,6 @@
 /* A Hessian of the Lagrangian by differences of its gradient, where the caller gives none. */
 #include "ipfilterimpl.h"
 
-#define IP_DIFFERENCE_MAX 1000 /* unknowns: each costs a gradient */
-
 /* Gradient of f + DE^T c_E - DI^T c_I at x. Leaves the Jacobians at x. */
 static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
 {
@@ -86,7 +84,6 @@ PetscErrorCode IPDifferenceHessian(Tao tao)
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(tao->solution, &n));
   PetscCall(VecGetSize(tao->solution, &N));
-  PetscCheck(N <= IP_DIFFERENCE_MAX, comm, PETSC_ERR_ARG_WRONGSTATE, "TAOIPFILTER needs TaoSetHessian(): with %" PetscInt_FMT " unknowns, more than %d, it does not difference gradients", N, IP_DIFFERENCE_MAX);
   PetscCall(MatCreateAIJ(comm, n, n, N, N, n, NULL, N - n, NULL, &H));
   PetscCall(TaoSetHessian(tao, H, H, DifferenceHessian, NULL));
   PetscCall(MatDestroy(&H));

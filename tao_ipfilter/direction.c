@@ -11,6 +11,7 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscRe
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
   PetscCall(MatMult(tao->hessian, d, Wd));
+  PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
   PetscCall(VecDot(d, d, &dd));
   if (ip->cond.shifted) {

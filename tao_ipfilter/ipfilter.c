@@ -123,7 +123,9 @@ static PetscErrorCode DestroyType(Tao tao)
   Constraints that depend on one another are regularized, by proximal terms that leave nothing of them in the solution.
 
   `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()` returns, as a matrix of
-  type AIJ, BAIJ, SBAIJ or dense; without it gradients are differenced, up to 1,000 unknowns. Jacobians of other types are converted to
+  type AIJ, BAIJ, SBAIJ or dense; without it gradients are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a `MATLMVMBFGS` learns from the steps of
+  the solve, whose options have the prefix `-tao_ipfilter_`; the matrix that is assembled and preconditioned has a multiple of the identity in
+  its place, the Krylov method multiplies with all of it. Jacobians of other types are converted to
   AIJ at every evaluation. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
 
   The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained

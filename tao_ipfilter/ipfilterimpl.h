@@ -13,7 +13,7 @@
 
    The files, each calling none but those above it in this list:
 
-     problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, jacobian, evaluate, difference
+     problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, jacobian, evaluate, difference, quasinewton
      measure  stiffness, scale, kkt
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
@@ -94,6 +94,19 @@ typedef enum {
   IP_EQUALITIES,
   IP_NSPACES
 } IPSpace;
+
+/* The limited-memory approximation B of the Hessian, where the caller gives none: quasinewton.c */
+typedef struct {
+  Mat              B;                    /* NULL: the caller's Hessian, or differences */
+  Mat              A;                    /* the condensed matrix with all of B */
+  PetscReal        sigma;                /* B is this multiple of the identity, and a matrix of low rank */
+  PetscInt         npairs;               /* steps of this solve that B has learnt from */
+  PetscBool        begun;                /* in this solve */
+  Vec              x, gradient;          /* the last point, and the objective's gradient there, */
+  Mat              inequality, equality; /* and the caller's Jacobians, */
+  PetscObjectState inequality_state, equality_state;
+  Vec              sum; /* of all damped changes of the gradient */
+} IPQuasiNewton;
 
 /* Scratch vectors; whoever gets one gives it back */
 #define IP_MAX_WORK 8
@@ -329,6 +342,7 @@ typedef struct {
   IS            fixed; /* variables of this rank with equal bounds; NULL if no rank has one */
   IPRowScale    rows;
   IPJacobian    jac;
+  IPQuasiNewton qn;
   IPPair        pair[IP_NPAIRS];
   IPIterate     at, best, trial; /* at.x is tao->solution; at.s and at.z are the pairs'; best: smallest KKT error */
   IPDirection   dir;
@@ -458,6 +472,13 @@ PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
 
 /* difference.c */
 PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
+
+/* quasinewton.c */
+PETSC_INTERN PetscErrorCode IPQuasiNewtonSetUp(Tao);
+PETSC_INTERN void           IPQuasiNewtonReset(IPQuasiNewton *);
+PETSC_INTERN PetscErrorCode IPQuasiNewtonAdd(Tao, Vec, Vec);
+PETSC_INTERN Mat            IPQuasiNewtonOperator(const TAO_IPFILTER *);
+PETSC_INTERN PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *);
 
 /* ---- measure ---- */
 

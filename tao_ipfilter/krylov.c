@@ -78,7 +78,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscBool     guess, direct;
 
   PetscFunctionBegin;
-  PetscCall(KSPSetOperators(ksp, ip->cond.A, ip->cond.A));
+  PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond.A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* takes no guess */

@@ -52,7 +52,7 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Ad));
-  PetscCall(MatMult(ip->cond.A, ip->dir.x, Ad));
+  PetscCall(MatMult(IPQuasiNewtonOperator(ip), ip->dir.x, Ad));
   PetscCall(VecDot(ip->dir.x, Ad, &curvature));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Ad));
   PetscCall(VecNorm(ip->dir.x, NORM_2, &size));
@@ -139,6 +139,7 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hd));
   PetscCall(MatMult(tao->hessian, ip->dir.x, Hd));
+  PetscCall(IPQuasiNewtonAdd(tao, ip->dir.x, Hd));
   PetscCall(VecDot(Hd, ip->dir.x, &dHd));
   PetscCall(VecDot(tao->gradient, ip->dir.x, &gd));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hd));

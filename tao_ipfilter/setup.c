@@ -88,6 +88,24 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Without TaoSetHessian(): differences of gradients for a small problem, a limited-memory approximation for a large one. Either is made
+   anew with other sizes. */
+static PetscErrorCode SetUpHessian(Tao tao)
+{
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscInt large = 1000;
+  PetscInt       n;
+
+  PetscFunctionBegin;
+  if (tao->hessian && !ip->qn.B) PetscFunctionReturn(0);
+  PetscCall(VecGetSize(tao->solution, &n));
+  PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT " unknowns, more than %" PetscInt_FMT ", it does not difference gradients", n, large);
+  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
+  if (n <= large) PetscCall(IPDifferenceHessian(tao));
+  else PetscCall(IPQuasiNewtonSetUp(tao));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoSetUp_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -109,7 +127,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(DuplicateAfresh(x, &ip->rx));
   PetscCall(DuplicateAfresh(x, &ip->stiff.hdiag));
   PetscCall(DuplicateAfresh(x, &ip->lin.residual));
-  if (!tao->hessian) PetscCall(IPDifferenceHessian(tao));
+  PetscCall(SetUpHessian(tao));
   PetscFunctionReturn(0);
 }
 
@@ -175,6 +193,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ip->given.warm_upper));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->rec.ksp_iterations));
+  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
   PetscCall(KSPDestroy(&tao->ksp));
   PetscCall(PetscFree(tao->data));
   PetscFunctionReturn(0);

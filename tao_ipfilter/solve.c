@@ -100,7 +100,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   PetscFunctionBegin;
   *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY};
   ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
-  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA)};
+  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B), .curved = (PetscBool)(ip->qn.B != NULL)};
   ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
   ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
   ip->shift        = (IPShift){.delta = 0.0};
@@ -109,6 +109,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   tao->ksp_its     = 0;
   tao->ksp_tot_its = 0;
   tao->reason      = TAO_CONTINUE_ITERATING;
+  IPQuasiNewtonReset(&ip->qn);
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
