@@ -74,6 +74,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(IPJacobianDestroy(&ip->jac));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPFilteredDestroy(&ip->filtered));
   PetscCall(KSPDestroy(&ip->lin.flexible));
   PetscCall(ISDestroy(&ip->fixed));
   PetscFunctionReturn(0);
@@ -147,6 +148,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(FreeSizes(tao));
+  PetscCall(PetscContainerDestroy(&ip->filtered.kept));
   PetscCall(VecDestroy(&ip->given.slack_mass));
   PetscCall(VecDestroy(&ip->given.primal_mass));
   PetscCall(VecDestroy(&ip->given.warm_s));
