@@ -174,17 +174,24 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Gives up the oldest directions */
-PetscErrorCode IPBasisTruncate(IPBasis *b, PetscInt n)
+/* Keeps n directions: the last ones, and of the others those of the largest worth */
+PetscErrorCode IPBasisTruncate(IPBasis *b, PetscInt n, PetscInt last, const PetscReal worth[])
 {
+  PetscInt  *order;
+  PetscReal *sorted;
   PetscBool *keep;
 
   PetscFunctionBegin;
   if (n >= b->n) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(b->n, &keep));
-  for (PetscInt j = 0; j < b->n; j++) keep[j] = (PetscBool)(j >= b->n - n);
+  PetscCall(PetscMalloc3(b->n, &order, b->n, &sorted, b->n, &keep));
+  for (PetscInt j = 0; j < b->n; j++) {
+    order[j]  = j;
+    sorted[j] = j >= b->n - last ? PETSC_MAX_REAL : worth[j];
+  }
+  PetscCall(PetscSortRealWithArrayInt(b->n, sorted, order));
+  for (PetscInt j = 0; j < b->n; j++) keep[order[j]] = (PetscBool)(j >= b->n - n);
   PetscCall(BasisSelect(b, keep));
-  PetscCall(PetscFree(keep));
+  PetscCall(PetscFree3(order, sorted, keep));
   PetscCall(BasisFactor(b));
   PetscFunctionReturn(0);
 }

@@ -104,22 +104,38 @@ static PetscErrorCode FilteredEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* What rounding makes of f at tao->solution, which may be the difference of much larger terms */
+static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
+{
+  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal eps = 1e4 * PETSC_MACHINE_EPSILON;
+  PetscScalar     terms;
+  Vec             Hx;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
+  PetscCall(VecPointwiseMult(Hx, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecDot(Hx, tao->solution, &terms));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
+  *rounding = eps * (PetscRealPart(terms) + PetscAbsReal(ip->at.f));
+  PetscFunctionReturn(0);
+}
+
 /* Whether f rises by 1/2 v^T (grad f + grad f at the centre), as a quadratic one does, and c_I by J v */
 static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal tolerance = 1e-6, rounding = 1e-9; /* of the largest work so far: f may be the difference of much larger terms */
+  const PetscReal tolerance = 1e-6;
   PetscScalar     work[2];
-  PetscReal       size[2], error, sum;
+  PetscReal       size[2], error, rounding = 0.0;
   Vec             expected;
 
   PetscFunctionBegin;
   PetscCall(VecDot(v, ip->filtered.gradient, &work[0]));
   PetscCall(VecDot(v, tao->gradient, &work[1]));
-  sum               = PetscAbsScalar(work[0]) + PetscAbsScalar(work[1]);
-  ip->filtered.work = PetscMax(ip->filtered.work, sum);
-  error             = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
-  *quadratic        = (PetscBool)(error <= tolerance * sum + rounding * ip->filtered.work);
+  PetscCall(FilteredRounding(tao, &rounding));
+  error      = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
+  *quadratic = (PetscBool)(error <= tolerance * (PetscAbsScalar(work[0]) + PetscAbsScalar(work[1])) + rounding);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &expected));
   PetscCall(MatMultAdd(ip->jac.inequality, v, c_centre, expected));
   PetscCall(VecNorm(expected, NORM_INFINITY, &size[0]));
@@ -224,12 +240,20 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscFunctionReturn(0);
 }
 
-/* Makes room: the oldest quarter of the directions goes, and what the solution has of them stays in the centre */
+/* Makes room: a quarter of the directions goes, those that W has least to do with and so answer least to other constraints and gaps. What
+   the solution has of them stays in the centre. */
 static PetscErrorCode FilteredMakeRoom(Tao tao, IPBasis *basis)
 {
+  IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
+  const PetscInt last = basis->max / 8;
+  PetscReal     *coupling;
+
   PetscFunctionBegin;
-  PetscCall(IPBasisTruncate(basis, basis->max - PetscMax(basis->max / 4, 1)));
-  PetscCall(IPReducedForget(&((TAO_IPFILTER *)tao->data)->filtered.reduced));
+  PetscCall(PetscMalloc1(basis->max, &coupling));
+  PetscCall(IPReducedCoupling(&f->reduced, coupling));
+  PetscCall(IPBasisTruncate(basis, basis->max - basis->max / 4, last, coupling));
+  PetscCall(PetscFree(coupling));
+  PetscCall(IPReducedForget(&f->reduced));
   PetscCall(FilteredCentre(tao, basis));
   PetscFunctionReturn(0);
 }
@@ -356,7 +380,6 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
   if (*begun) PetscCall(FilteredSetUp(tao, &kept->basis, begun));
   f->nfutile = f->ncentred = 0;
   f->halved                = PETSC_INFINITY;
-  f->work                  = 0.0;
   ip->mu                   = 0.0;
   if (*begun) PetscCall(FilteredSolveReduced(tao, &kept->basis, begun));
   f->on = *begun;

@@ -297,6 +297,19 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
+/* q_W^T K_WW^-1 q_W over p^T K p of every direction: the part of its energy that W can take up, from 0 to 1 */
+PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal coupling[])
+{
+  const IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  if (r->first) {
+    for (PetscInt j = 0; j < s->k; j++) coupling[j] = 1.0 - s->T[j + j * s->kmax] / s->G[j + j * s->kmax];
+  }
+  PetscCallMPI(MPI_Bcast(coupling, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
 /* Forgets the directions; the active set stays */
 PetscErrorCode IPReducedForget(IPReduced *r)
 {
