@@ -174,24 +174,94 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Keeps n directions: the last ones, and of the others those of the largest worth */
-PetscErrorCode IPBasisTruncate(IPBasis *b, PetscInt n, PetscInt last, const PetscReal worth[])
+/* T of n x n, columns by falling worth: the directions P T that make T^T E T diagonal and T^T P^T K P T = I, of the first n directions; E, in
+   columns of length max, is overwritten */
+static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[], PetscReal T[])
 {
-  PetscInt  *order;
-  PetscReal *sorted;
-  PetscBool *keep;
+  PetscReal   *G, *values, *work, size;
+  PetscBLASInt nb, ld, type = 1, lwork, info;
 
   PetscFunctionBegin;
-  if (n >= b->n) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc3(b->n, &order, b->n, &sorted, b->n, &keep));
-  for (PetscInt j = 0; j < b->n; j++) {
-    order[j]  = j;
-    sorted[j] = j >= b->n - last ? PETSC_MAX_REAL : worth[j];
+  PetscCall(PetscBLASIntCast(n, &nb));
+  PetscCall(PetscBLASIntCast(b->max, &ld));
+  PetscCall(PetscMalloc2(b->max * b->max, &G, n, &values));
+  PetscCall(PetscArraycpy(G, b->gram, b->max * b->max));
+  lwork = -1;
+  PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, &size, &lwork, &info));
+  PetscCall(PetscBLASIntCast((PetscInt)size, &lwork));
+  PetscCall(PetscMalloc1(lwork, &work));
+  PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, work, &lwork, &info));
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv said %d of %d directions", (int)info, (int)nb);
+  for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(T + j * n, E + (n - 1 - j) * b->max, n));
+  PetscCall(PetscFree(work));
+  PetscCall(PetscFree2(G, values));
+  PetscFunctionReturn(0);
+}
+
+/* The first k of the n vectors become their combinations with the columns of T, of length n; some rows at a time, so that it takes no memory */
+static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], Vec v[])
+{
+  const PetscInt  chunk = 128;
+  const PetscReal one = 1.0, zero = 0.0;
+  PetscBLASInt    nb, kb, rows;
+  PetscScalar   **a, *old, *new;
+  PetscInt        local;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(n, &nb));
+  PetscCall(PetscBLASIntCast(k, &kb));
+  PetscCall(VecGetLocalSize(v[0], &local));
+  PetscCall(PetscMalloc2(chunk * n, &old, chunk * k, &new));
+  PetscCall(VecGetArrays(v, n, &a));
+  for (PetscInt start = 0; start < local; start += chunk) {
+    PetscCall(PetscBLASIntCast(PetscMin(chunk, local - start), &rows));
+    for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(old + j * rows, a[j] + start, rows));
+    PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &rows, &kb, &nb, &one, old, &rows, T, &nb, &zero, new, &rows));
+    for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(a[j] + start, new + j *rows, rows));
   }
-  PetscCall(PetscSortRealWithArrayInt(b->n, sorted, order));
-  for (PetscInt j = 0; j < b->n; j++) keep[order[j]] = (PetscBool)(j >= b->n - n);
+  PetscCall(VecRestoreArrays(v, n, &a));
+  PetscCall(PetscFree2(old, new));
+  PetscFunctionReturn(0);
+}
+
+/* The Gram matrix where the first n directions have become k orthonormal ones, their couplings to the others included */
+static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
+{
+  PetscReal *old;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(b->max * b->max, &old));
+  PetscCall(PetscArraycpy(old, b->gram, b->max * b->max));
+  for (PetscInt j = 0; j < k; j++) {
+    for (PetscInt i = 0; i < k; i++) b->gram[i + j * b->max] = i == j ? 1.0 : 0.0;
+    for (PetscInt i = n; i < b->n; i++) {
+      PetscReal sum = 0.0;
+
+      for (PetscInt l = 0; l < n; l++) sum += T[l + j * n] * old[i + l * b->max];
+      b->gram[i + j * b->max] = b->gram[j + i * b->max] = sum;
+    }
+  }
+  PetscCall(PetscFree(old));
+  PetscFunctionReturn(0);
+}
+
+/* Keeps the last directions, and of the others' span the `best` of largest worth p^T E p / p^T K p; E, of columns of length max, is overwritten */
+PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscReal E[])
+{
+  const PetscInt n = b->n - last;
+  PetscReal     *T;
+  PetscBool     *keep;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(n * n, &T, b->n, &keep));
+  PetscCall(BasisRotation(b, n, E, T));
+  PetscCallMPI(MPI_Bcast(T, (PetscMPIInt)(n * n), MPIU_REAL, 0, PetscObjectComm((PetscObject)b->p[0])));
+  PetscCall(BasisCombine(n, best, T, b->p));
+  PetscCall(BasisCombine(n, best, T, b->q));
+  PetscCall(BasisCombineGram(b, n, best, T));
+  for (PetscInt j = 0; j < b->n; j++) keep[j] = (PetscBool)(j < best || j >= n);
   PetscCall(BasisSelect(b, keep));
-  PetscCall(PetscFree3(order, sorted, keep));
+  PetscCall(PetscFree2(T, keep));
   PetscCall(BasisFactor(b));
   PetscFunctionReturn(0);
 }

@@ -240,19 +240,19 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscFunctionReturn(0);
 }
 
-/* Makes room: a quarter of the directions goes, those that W has least to do with and so answer least to other constraints and gaps. What
-   the solution has of them stays in the centre. */
+/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so answers most to other
+   constraints and gaps. What the solution has of the rest stays in the centre. */
 static PetscErrorCode FilteredMakeRoom(Tao tao, IPBasis *basis)
 {
   IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
-  const PetscInt last = basis->max / 8;
-  PetscReal     *coupling;
+  const PetscInt last = basis->max / 8, best = basis->max / 2;
+  PetscReal     *E;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(basis->max, &coupling));
-  PetscCall(IPReducedCoupling(&f->reduced, coupling));
-  PetscCall(IPBasisTruncate(basis, basis->max - basis->max / 4, last, coupling));
-  PetscCall(PetscFree(coupling));
+  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
+  PetscCall(IPReducedCoupling(&f->reduced, E));
+  PetscCall(IPBasisCompress(basis, best, last, E));
+  PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(&f->reduced));
   PetscCall(FilteredCentre(tao, basis));
   PetscFunctionReturn(0);

@@ -565,7 +565,7 @@ PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
 PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
-PETSC_INTERN PetscErrorCode IPBasisTruncate(IPBasis *, PetscInt n, PetscInt last, const PetscReal worth[]);
+PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
 PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
 
@@ -588,7 +588,7 @@ PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec);
 PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
-PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, PetscReal coupling[]);
+PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, PetscBool *solved);
 
 /* kept.c, beside the public functions */

@@ -297,16 +297,17 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* q_W^T K_WW^-1 q_W over p^T K p of every direction: the part of its energy that W can take up, from 0 to 1 */
-PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal coupling[])
+/* Q_W^T K_WW^-1 Q_W on all ranks, its columns of the length there is room for: what W takes up of the directions' energy */
+PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal E[])
 {
   const IPReducedSystem *s = &r->system;
+  const PetscInt         n = s->kmax * s->kmax;
 
   PetscFunctionBegin;
   if (r->first) {
-    for (PetscInt j = 0; j < s->k; j++) coupling[j] = 1.0 - s->T[j + j * s->kmax] / s->G[j + j * s->kmax];
+    for (PetscInt i = 0; i < n; i++) E[i] = s->G[i] - s->T[i];
   }
-  PetscCallMPI(MPI_Bcast(coupling, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscCallMPI(MPI_Bcast(E, (PetscMPIInt)n, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscFunctionReturn(0);
 }
 
