@@ -51,6 +51,7 @@ typedef struct {
   PetscInt  direct;         /* systems solved by MUMPS on the whole matrix */
   PetscInt  failures;       /* systems that nothing solved */
   PetscReal backward_error; /* largest of a direction that was used: ||b - A d|| / (||diag(A) d|| + ||b||) */
+  PetscInt  subspaces;      /* the filtered subspace method was begun, and left for the interior point method */
 } TaoIPFilterFallbacks;
 
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);
@@ -82,5 +83,7 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetRegularizations(Tao, PetscInt *, Petsc
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetFallbacks(Tao, TaoIPFilterFallbacks *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
 PETSC_EXTERN PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao, void *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetSubspace(Tao, PetscContainer *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 
 #endif

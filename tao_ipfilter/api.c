@@ -165,6 +165,8 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C", attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 

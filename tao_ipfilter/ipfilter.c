@@ -107,6 +107,9 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               to the filter subspace
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
                                                               H_ii for some i; 0: always
+. -tao_ipfilter_subspace <false> (false,true,auto)          - the filtered subspace method, for quadratic programs whose
+                                                              constraints touch few unknowns
+. -tao_ipfilter_subspace_max <80>                           - directions that it keeps, of two vectors each
 . -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with its inertia, from the start
 . -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
                                                               where the Krylov method fails; 0: never
@@ -132,6 +135,12 @@ static PetscErrorCode DestroyType(Tao tao)
   iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns are
   filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory`
   (its options have the prefix `-tao_ipfilter_direct_`); else the solve ends. `TaoIPFilterGetFallbacks()` counts this.
+
+  With `-tao_ipfilter_subspace` a quadratic objective under linear inequalities that touch few unknowns W is minimized over span{e_i, i in W} + span(P), exactly,
+  by an active set method on the first rank; the residual that is left, preconditioned by the `PC` of the Krylov method for H alone, is the next direction in P.
+  The directions serve all later solves with the same Hessian, whatever constraints and loads: `TaoIPFilterSetSubspace()`. The end is judged as ever, by the KKT error made of the caller's
+  gradient. auto takes it where the routines of Hessian and Jacobian leave their matrices alone, W is no more than half of the unknowns, the `PC` is `PCAMGF`, and nothing but
+  the default is asked of start, forcing and measure. Where it does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
   An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
   constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of
@@ -161,11 +170,19 @@ static PetscErrorCode DestroyType(Tao tao)
         large-scale nonlinear programming", Mathematical Programming 106, 2006.
 . * - N.-Y. Chiang and V. M. Zavala, "An inertia-free filter line-search algorithm for large-scale nonlinear
         programming", Computational Optimization and Applications 64, 2016.
-- * - J. Nocedal, A. Waechter and R. A. Waltz, "Adaptive barrier update strategies for nonlinear interior methods",
+. * - J. Nocedal, A. Waechter and R. A. Waltz, "Adaptive barrier update strategies for nonlinear interior methods",
         SIAM Journal on Optimization 19, 2009.
+. * - M. Hintermueller, K. Ito and K. Kunisch, "The primal-dual active set strategy as a semismooth Newton method",
+        SIAM Journal on Optimization 13, 2002.
+. * - L. F. Portugal, J. J. Judice and L. N. Vicente, "A comparison of block pivoting and interior-point algorithms for
+        linear least squares problems with nonnegative variables", Mathematics of Computation 63, 1994.
+. * - M. L. Parks, E. de Sturler, G. Mackey, D. D. Johnson and S. Maiti, "Recycling Krylov subspaces for sequences of linear
+        systems", SIAM Journal on Scientific Computing 28, 2006.
+- * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27, 2009:
+        truncated nonsmooth Newton multigrid, the nearest relative of the filtered subspace method.
 
 .seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
-          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `PCAMGF`
+          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetSubspace()`, `PCAMGF`
 M*/
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
 {

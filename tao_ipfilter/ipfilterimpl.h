@@ -17,6 +17,7 @@
      measure  stiffness, scale, kkt
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
+     space    basis, compliance, activeset, reduced, kept, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
@@ -54,6 +55,12 @@ typedef enum {
   IP_SCALING_NONE
 } IPScaling;
 
+typedef enum {
+  IP_SUBSPACE_FALSE,
+  IP_SUBSPACE_TRUE,
+  IP_SUBSPACE_AUTO
+} IPSubspaceUse;
+
 /* What the user may choose; the names are those of the options in opts.c */
 typedef struct {
   PetscReal     acceptable_tol;
@@ -77,6 +84,8 @@ typedef struct {
   PetscReal     bound_push, unbounded_factor;
   PetscReal     direct_memory;
   PetscBool     direct_always;
+  IPSubspaceUse subspace;
+  PetscInt      subspace_max;
 } IPOptions;
 
 /* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
@@ -318,6 +327,80 @@ typedef struct {
   Vec       D;    /* m/zeta in the violated rows */
 } IPRestoration;
 
+/* Directions P of the filtered subspace, zero on the constraints' unknowns W; the oldest first */
+typedef struct {
+  PetscInt   n, max;
+  Vec       *p, *q;         /* p_j, and K p_j; NULL where not yet needed */
+  PetscReal *gram, *factor; /* P^T K P, columns of length max, and its Cholesky factor, the lower triangle */
+} IPBasis;
+
+/* C = J_W K_WW^-1 J_W^T, on the first rank */
+typedef struct {
+  PetscInt   m, n;
+  Mat        F, J; /* K_WW factored; J_W */
+  Vec        b, x; /* of W, without arrays of their own use */
+  PetscInt   ncolumns, maxcolumns;
+  PetscInt  *column; /* where the column of a row stands; negative: nowhere yet */
+  PetscReal *C;      /* the columns */
+} IPCompliance;
+
+static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
+{
+  return c->C + (size_t)c->column[row] * (size_t)c->m;
+}
+
+/* The contact problem with w eliminated, as activeset.c states it */
+typedef struct {
+  PetscInt         m, k, kmax;     /* constraints; directions, and room for them */
+  PetscReal       *JZ, *T, *h, *t; /* columns of length m and kmax */
+  const PetscReal *G;              /* P^T K P */
+  PetscReal       *lambda, *gap, *y;
+  PetscReal        length; /* size of the terms of a gap */
+} IPReducedSystem;
+
+/* The constraints that are active, and the factors that belong to them */
+typedef struct {
+  PetscInt   m, n, k; /* constraints; the active ones that something gives way to; directions in V */
+  PetscBool *active, factored;
+  PetscInt  *rows;
+  PetscReal *L, *V, *H, *r;
+} IPActiveSet;
+
+/* The contact problem on the subspace; n and m are zero on all ranks but the first */
+typedef struct {
+  PetscBool       first;
+  PetscInt        n, m; /* unknowns W, constraints */
+  VecScatter      to_W, to_rows;
+  Vec             on_W, on_rows;
+  IPCompliance    compliance;
+  IPReducedSystem system;
+  IPActiveSet     set;
+  PetscReal      *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
+  PetscInt        nsteps, nactive;
+} IPReduced;
+
+/* What a filtered subspace keeps from one solve to the next */
+typedef struct {
+  PC               pc; /* the Krylov method's, set up with K alone */
+  PetscObjectId    K_id;
+  PetscObjectState K_state;
+  IPBasis          basis;
+} IPKept;
+
+/* The filtered subspace method, while it is on */
+typedef struct {
+  PetscBool      constant; /* the routines of Hessian and Jacobian have left their matrices alone: a quadratic program */
+  PetscBool      on;
+  PetscContainer kept; /* an IPKept */
+  IPReduced      reduced;
+  Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
+  PetscReal      f;                   /* and f there */
+  PetscReal     *pg, *y;              /* P^T grad f there; coefficients of the directions */
+  PetscInt       ncentred;            /* steps in a row without a new direction */
+  PetscInt       nfutile;             /* steps since the KKT error has last been halved, */
+  PetscReal      halved;              /* and what it was then */
+} IPFiltered;
+
 /* What a TaoSolve() did */
 typedef struct {
   PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
@@ -328,6 +411,8 @@ typedef struct {
   PetscInt             nrestored;              /* restorations */
   PetscInt             ntiny;                  /* steps in a row that are as small as rounding */
   PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
+  PetscInt             napplications;          /* of the preconditioner in the filtered subspace method, */
+  PetscInt             nreduced, npivots;      /* its reduced problems, and the active sets that they took */
   PetscReal            best_error;             /* KKT error of the best iterate */
   char                 reason[256];
 } IPRecord;
@@ -362,6 +447,7 @@ typedef struct {
   IPSearch      search;
   IPRelaxation  relax;
   IPRestoration restore;
+  IPFiltered    filtered;
   IPRecord      rec;
 } TAO_IPFILTER;
 
@@ -379,7 +465,7 @@ static inline PetscBool IPUndefined(PetscReal value)
 /* ---- problem ---- */
 
 /* log.c */
-PETSC_INTERN PetscLogEvent  TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve;
+PETSC_INTERN PetscLogEvent  TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend, TAO_IPFilterReduced;
 PETSC_INTERN PetscErrorCode IPLogRegister(void);
 
 /* work.c */
@@ -520,6 +606,7 @@ PETSC_INTERN PetscErrorCode IPResidualRefine(Tao, Vec, Vec, PetscBool, PetscErro
 PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
 
 /* krylov.c */
+PETSC_INTERN PetscErrorCode IPKrylovRecord(Tao, PetscInt its);
 PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
 
 /* direct.c */
@@ -533,6 +620,51 @@ PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal target, Petsc
 PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscBool *usable);
 PETSC_INTERN PetscErrorCode IPEstimateMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
+
+/* ---- space ---- */
+
+/* basis.c */
+PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);
+PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
+PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
+PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
+PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
+
+/* compliance.c */
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, Mat J, PetscBool *factored);
+PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
+PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscBool transposed, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceColumns(IPCompliance *, PetscInt n, const PetscInt rows[]);
+
+/* activeset.c */
+PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
+PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
+PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+
+/* reduced.c */
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec);
+PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, PetscBool *solved);
+
+/* kept.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPKeptGet(Tao, IPKept **);
+PETSC_INTERN PetscErrorCode IPKeptReset(IPKept *);
+PETSC_INTERN PetscErrorCode IPKeptUpdate(Tao, IPKept *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);
+
+/* filteredsubspace.c */
+PETSC_INTERN PetscErrorCode IPFilteredBegin(Tao, PetscBool *begun);
+PETSC_INTERN PetscErrorCode IPFilteredStep(Tao, PetscBool *done);
+PETSC_INTERN PetscErrorCode IPFilteredEnd(Tao);
+PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 
 /* ---- step ---- */
 
@@ -609,7 +741,7 @@ PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
 /* ---- type ---- */
 
 /* opts.c */
-PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[];
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[], *const IPSubspaceUses[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 

@@ -11,7 +11,8 @@ typedef struct {
   PetscInt  reached; /* and when */
 } StallTest;
 
-static PetscErrorCode KrylovRecord(Tao tao, PetscInt its)
+/* Counts a linear solve of so many iterations */
+PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -93,7 +94,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscCall(KSPSetInitialGuessNonzero(ksp, guess));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(KSPGetConvergedReason(ksp, &ip->lin.reason));
-  PetscCall(KrylovRecord(tao, its));
+  PetscCall(IPKrylovRecord(tao, its));
   ip->lin.its = its;
   PetscFunctionReturn(0);
 }

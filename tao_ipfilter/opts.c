@@ -5,6 +5,7 @@ const char *const        IPStarts[]       = {"cold", "predict", "warm", "IPStart
 const char *const        IPBarrierRules[] = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
 const char *const        IPKKTMeasures[]  = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
 const char *const        IPForcings[]     = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
+const char *const        IPSubspaceUses[] = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[]     = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
@@ -74,6 +75,7 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   opt->max_mu_later  = 1;
   opt->max_soc       = 4;
   opt->acceptable_it = 15;
+  opt->subspace_max  = 80;
   PetscFunctionReturn(0);
 }
 
@@ -99,6 +101,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, opt->max_soc, &opt->max_soc, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it", "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, opt->acceptable_it, &opt->acceptable_it, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct", "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, opt->direct_always, &opt->direct_always, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "filtered subspace method in place of the interior point method", TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
+  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max", "directions that the filtered subspace method keeps", TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 4));
   PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "print a line an iteration", TAOIPFILTER, opt->monitor, &opt->monitor, NULL));
   PetscOptionsHeadEnd();
   PetscCall(KSPSetFromOptions(tao->ksp));

@@ -82,6 +82,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(IPJacobianDestroy(&ip->jac));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPFilteredDestroy(&ip->filtered));
   PetscCall(KSPDestroy(&ip->lin.flexible));
   PetscCall(ISDestroy(&ip->fixed));
   PetscCall(IPSidesDestroy(&ip->sides));
@@ -184,6 +185,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(FreeSizes(tao));
+  PetscCall(PetscContainerDestroy(&ip->filtered.kept));
   PetscCall(VecDestroy(&ip->given.slack_mass));
   PetscCall(VecDestroy(&ip->given.primal_mass));
   PetscCall(VecDestroy(&ip->given.warm_s));

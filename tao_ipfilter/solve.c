@@ -242,10 +242,66 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Goes on from the best iterate by the interior point method, where the filtered subspace does not lead to the end */
+static PetscErrorCode LeaveSubspace(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  const IPGiven given = ip->given;
+  Vec           s = NULL, z = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n", (double)ip->rec.best_error));
+  PetscCall(IPFilteredEnd(tao));
+  ip->rec.fallbacks.subspaces++;
+  PetscCall(RestoreBest(tao));
+  if (ip->rec.best_error < PETSC_INFINITY) {
+    PetscCall(VecDuplicate(ip->best.s, &s));
+    PetscCall(VecDuplicate(ip->best.s, &z));
+    PetscCall(VecCopy(ip->best.s, s));
+    PetscCall(VecCopy(ip->best.z[IP_SLACK], z));
+    PetscCall(IPRowScalePair(tao, s, z, PETSC_TRUE));
+    ip->given.warm_s = s;
+    ip->given.warm_z = z;
+  }
+  PetscCall(IPStartPoint(tao));
+  ip->given = given;
+  PetscCall(VecDestroy(&s));
+  PetscCall(VecDestroy(&z));
+  PetscFunctionReturn(0);
+}
+
+/* One step of the method that is on */
+static PetscErrorCode TakeStep(Tao tao)
+{
+  PetscBool done = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (((TAO_IPFILTER *)tao->data)->filtered.on) {
+    PetscCall(IPFilteredStep(tao, &done));
+    if (!done) PetscCall(LeaveSubspace(tao));
+  } else PetscCall(TakeNewtonStep(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Which Hessian and inequality Jacobian the caller's matrices hold */
+static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
+{
+  PetscFunctionBegin;
+  states[0] = states[1] = 0;
+  PetscCall(PetscObjectStateGet((PetscObject)tao->hessian, &states[0]));
+  if (((TAO_IPFILTER *)tao->data)->mi) PetscCall(PetscObjectStateGet((PetscObject)tao->jacobian_inequality, &states[1]));
+  PetscFunctionReturn(0);
+}
+
 /* The starting point; *finite is false where it is none. Ends the solve there and where it is stationary. */
 static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
 {
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  PetscObjectState before[2], after[2];
+  PetscBool        begun;
+
   PetscFunctionBegin;
+  PetscCall(GetStates(tao, before));
   PetscCall(FirstPoint(tao, finite));
   if (!*finite) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
@@ -255,8 +311,11 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPTestFirstPoint(tao));
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(GetStates(tao, after));
+  ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
-  PetscCall(IPStartPoint(tao));
+  PetscCall(IPFilteredBegin(tao, &begun));
+  if (!begun) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);
 }
@@ -268,6 +327,7 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPFilteredEnd(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPSetMultipliers(tao));
   if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
@@ -291,7 +351,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   if (!finite) PetscFunctionReturn(0);
   while (tao->reason == TAO_CONTINUE_ITERATING) {
     PetscTryTypeMethod(tao, update, tao->niter, tao->user_update);
-    PetscCall(TakeNewtonStep(tao));
+    PetscCall(TakeStep(tao));
     if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(AssessIterate(tao));
   }
   PetscCall(EndSolve(tao));

@@ -30,6 +30,7 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g, %s, which gatol %g is held against; in the problem's units %g; mu %g\n", (double)ip->kkt.error, ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance", (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(ViewConstraints(tao, viewer));
   if (ip->qn.B) PetscCall(PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn.npairs));
+  if (ip->rec.nreduced) PetscCall(PetscViewerASCIIPrintf(viewer, "filtered subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT ", active sets %" PetscInt_FMT "\n", ip->rec.fallbacks.subspaces ? ", then interior point" : "", ip->rec.napplications, ip->rec.nreduced, ip->rec.npivots));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->rec.nsystems, ip->rec.nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
   PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec.nrestored));

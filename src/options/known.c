@@ -20,6 +20,7 @@ const char *const OptionsOurs[] = {
   "tao_ipfilter_kappa_soc", "tao_ipfilter_kkt", "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions",
   "tao_ipfilter_mu_reductions_first", "tao_ipfilter_obj_max_inc", "tao_ipfilter_predict_forcing", "tao_ipfilter_predict_mu",
   "tao_ipfilter_row_ratio", "tao_ipfilter_s_phi", "tao_ipfilter_s_theta", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
+  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max",
   "tao_ipfilter_tau_min", "tao_ipfilter_theta_max_fact", "tao_ipfilter_theta_min_fact", "tao_ipfilter_theta_mu", "tao_ipfilter_tol",
   "tao_ipfilter_unbounded_factor", "tao_ipfilter_warm_mu", "traceback", NULL
 };

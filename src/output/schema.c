@@ -27,6 +27,7 @@ static const ReportField fallback_fields[] = {
   FIELD(TaoIPFilterFallbacks, direct, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f by MUMPS")}),
   FIELD(TaoIPFilterFallbacks, failures, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f failed")}),
   FIELD(TaoIPFilterFallbacks, backward_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "backward error at most %.1e")}),
+  FIELD(TaoIPFilterFallbacks, subspaces, FIELD_INT, ""),
   END,
 };
 const ReportRecord SchemaFallbacks = {sizeof(TaoIPFilterFallbacks), PETSC_TRUE, fallback_fields};

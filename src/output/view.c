@@ -39,7 +39,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     const char                 *before = "linear solves: ";
     char                        text[64];
 
-    if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures) continue;
+    if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures && !linear->subspaces) continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  ", report->steps[s].step));
     for (const ReportField *field = SchemaFallbacks.fields; field->name; ++field) {
       const char *said = TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text));
@@ -48,6 +48,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", said));
       before = ", ";
     }
+    if (linear->subspaces) PetscCall(PetscViewerASCIIPrintf(viewer, "; the filtered subspace left %" PetscInt_FMT " times for the interior point method", linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);

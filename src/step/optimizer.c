@@ -36,6 +36,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
+  if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
   PetscFunctionReturn(0);
 }
@@ -87,13 +88,12 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
 }
 
 /* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero, but for its own residual */
-static PetscErrorCode OptimizerReportOurs(Tao tao, StepReport *report)
+static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, StepReport *report)
 {
-  static const PCAMGFCounts none = {0, 0, 0, 0};
-  const PetscInt           *its;
-  TaoIPFilterFallbacks      fallbacks;
-  PetscInt                  n, systems, filtered, indefinite;
-  KSP                       ksp;
+  const PetscInt      *its;
+  TaoIPFilterFallbacks fallbacks;
+  PetscInt             n, systems, filtered, indefinite;
+  KSP                  ksp;
 
   PetscFunctionBegin;
   PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
@@ -107,11 +107,11 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, StepReport *report)
   PetscCall(ReportFallbacks(report, &fallbacks));
   PetscCall(TaoIPFilterGetKKTError(tao, &report->kkt_error, &report->kkt_error_unscaled));
   PetscCall(TaoGetKSP(tao, &ksp));
-  if (ksp) PetscCall(ReportPreconditioner(ksp, &none, report));
+  if (ksp) PetscCall(ReportPreconditioner(ksp, before, report));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, Vec u, StepReport *report)
+static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u, StepReport *report)
 {
   TaoConvergedReason reason;
   const char        *sentence  = NULL;
@@ -127,7 +127,7 @@ static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, V
   if (unbounded) PetscCall(FlightReport(sim, u, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
-  if (ours) PetscCall(OptimizerReportOurs(tao, report));
+  if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
   else {
     PetscCall(TaoGetSolutionStatus(tao, NULL, NULL, &residual, &infeasibility, NULL, NULL));
     report->kkt_error = report->kkt_error_unscaled = PetscMax(residual, infeasibility);
@@ -152,12 +152,38 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscFunctionReturn(0);
 }
 
+/* What the next solve with the same stiffness begins with */
+static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
+{
+  PetscContainer space;
+
+  PetscFunctionBegin;
+  PetscCall(TaoIPFilterGetSubspace(tao, &space));
+  PetscCall(PetscObjectReference((PetscObject)space));
+  PetscCall(PetscContainerDestroy(&sim->subspace));
+  sim->subspace = space;
+  PetscFunctionReturn(0);
+}
+
+/* What the preconditioner has done before this solve, whose subspace may have been kept from others */
+static PetscErrorCode OptimizerGetCounts(Tao tao, PCAMGFCounts *counts)
+{
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(counts, sizeof(*counts)));
+  PetscCall(TaoGetKSP(tao, &ksp));
+  if (ksp) PetscCall(ReportGetCounts(ksp, counts));
+  PetscFunctionReturn(0);
+}
+
 /* resume: start from u as it is, with the pressures of the last solve */
 PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   Simulation     sim = p->sim;
   Tao            tao;
   PetscBool      ours, valid;
+  PCAMGFCounts   before;
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
@@ -165,12 +191,14 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   PetscCall(OptimizerStart(p, resume, tao, u, &valid));
   if (valid) {
     PetscCall(TaoSetSolution(tao, u));
+    PetscCall(OptimizerGetCounts(tao, &before));
     PetscCall(PetscTime(&t0));
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
-    PetscCall(OptimizerReport(sim, tao, ours, u, report));
+    PetscCall(OptimizerReport(sim, tao, ours, &before, u, report));
     if (sim->interrupted) PetscCall(InterruptReport(sim, report));
+    if (ours) PetscCall(OptimizerKeepSubspace(sim, tao));
     if (p->J && report->converged) PetscCall(OptimizerKeepContact(p, tao, ours, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   PetscCall(TaoDestroy(&tao));

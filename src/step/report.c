@@ -85,6 +85,7 @@ PetscErrorCode ReportFallbacks(StepReport *report, const TaoIPFilterFallbacks *s
   sum->filters += solve->filters;
   sum->direct += solve->direct;
   sum->failures += solve->failures;
+  sum->subspaces += solve->subspaces;
   sum->backward_error = PetscMax(sum->backward_error, solve->backward_error);
   PetscFunctionReturn(0);
 }

@@ -212,6 +212,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(DeadLoadsDestroy(&s->loads));
   PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(PetscContainerDestroy(&s->subspace));
   PetscCall(ElasticityDestroy(&s->elasticity));
   PetscCall(MatDestroy(&s->K));
   PetscCall(VecDestroy(&s->mass));

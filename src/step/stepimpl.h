@@ -114,6 +114,7 @@ struct _n_Simulation {
   KSP                  ksp; /* of a quadratic step without contact */
   LoadPath             path;
   ContactMemory        memory;
+  PetscContainer       subspace;      /* what the optimizer keeps from one load step to the next; NULL before the first */
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u */
   PetscReal           *pressure, *gap, *stress;

@@ -1,0 +1,204 @@
+/* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner and directions of K. */
+#include "ipfilterimpl.h"
+
+/* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */
+PetscErrorCode IPKeptReset(IPKept *kept)
+{
+  PetscFunctionBegin;
+  if (kept->pc) PetscCall(PCSetReusePreconditioner(kept->pc, PETSC_FALSE));
+  PetscCall(PCDestroy(&kept->pc));
+  PetscCall(IPBasisDestroy(&kept->basis));
+  kept->K_id = 0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode KeptDestroy(void *data)
+{
+  PetscFunctionBegin;
+  PetscCall(IPKeptReset((IPKept *)data));
+  PetscCall(PetscFree(data));
+  PetscFunctionReturn(0);
+}
+
+/* Made where there is none yet */
+PetscErrorCode IPKeptGet(Tao tao, IPKept **kept)
+{
+  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+
+  PetscFunctionBegin;
+  if (!f->kept) {
+    PetscCall(PetscNew(kept));
+    PetscCall(PetscContainerCreate(PetscObjectComm((PetscObject)tao), &f->kept));
+    PetscCall(PetscContainerSetPointer(f->kept, *kept));
+    PetscCall(PetscContainerSetUserDestroy(f->kept, KeptDestroy));
+  }
+  PetscCall(PetscContainerGetPointer(f->kept, (void **)kept));
+  PetscFunctionReturn(0);
+}
+
+/* K with whole rows, where the preconditioner reads rows and K is half of a matrix */
+static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
+{
+  MatNullSpace modes;
+  PetscBool    half;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)K, MATSEQSBAIJ, &half));
+  if (half && rows) {
+    PetscCall(MatConvert(K, MATBAIJ, MAT_INITIAL_MATRIX, whole));
+    PetscCall(MatGetNearNullSpace(K, &modes));
+    PetscCall(MatSetNearNullSpace(*whole, modes));
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)K));
+    *whole = K;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* B: the Krylov method's preconditioner of K alone, without a filter. It then knows K by name only, so that a copy of it takes no memory. */
+static PetscErrorCode KeptSetUpPC(PC pc, Mat K, PetscBool *possible)
+{
+  Mat            whole;
+  PetscBool      amgf;
+  PCFailedReason failed;
+  PC             amg;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (amgf) PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
+  PetscCall(KeptGetWhole(K, amgf, &whole));
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
+  PetscCall(PCSetOperators(pc, whole, whole));
+  PetscCall(PCSetUp(pc));
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
+  if (amgf) {
+    PetscCall(PCAMGFGetAMGPC(pc, &amg));
+    PetscCall(PCSetOperators(amg, K, K));
+  }
+  PetscCall(PCSetOperators(pc, K, K));
+  PetscCall(MatDestroy(&whole));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  *possible = (PetscBool)!failed;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, possible, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)K)));
+  PetscFunctionReturn(0);
+}
+
+/* Brings it up to date with K, the constraints' unknowns and the fixed variables; *possible is false where the preconditioner cannot be */
+PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  Mat              K  = tao->hessian;
+  PC               pc;
+  PetscObjectState state;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  PetscCall(PetscObjectStateGet((PetscObject)K, &state));
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  if (kept->K_id != ((PetscObject)K)->id || kept->pc != pc || kept->basis.max != ip->opt.subspace_max) {
+    PetscCall(IPKeptReset(kept));
+    PetscCall(PetscObjectReference((PetscObject)pc));
+    kept->pc = pc;
+    PetscCall(IPBasisCreate(ip->opt.subspace_max, &kept->basis));
+  }
+  if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
+    PetscCall(KeptSetUpPC(pc, K, possible));
+    PetscCall(IPBasisMultiply(&kept->basis, K));
+  }
+  kept->K_id    = ((PetscObject)K)->id;
+  kept->K_state = state;
+  if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
+  PetscCall(IPBasisRestrict(&kept->basis, K, ip->cond.filter));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
+{
+  IPKept *kept;
+
+  PetscFunctionBegin;
+  PetscCall(IPKeptGet(tao, &kept));
+  *space = ((TAO_IPFILTER *)tao->data)->filtered.kept;
+  PetscFunctionReturn(0);
+}
+
+/* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of another kind keeps its own */
+PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
+{
+  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPKept     *kept;
+  const char *own, *theirs;
+  PC          pc;
+  PetscBool   type, prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)space));
+  PetscCall(PetscContainerDestroy(&f->kept));
+  f->kept = space;
+  PetscCall(PetscContainerGetPointer(space, (void **)&kept));
+  if (!kept->pc) PetscFunctionReturn(0);
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, ((PetscObject)kept->pc)->type_name, &type));
+  PetscCall(PCGetOptionsPrefix(pc, &own));
+  PetscCall(PCGetOptionsPrefix(kept->pc, &theirs));
+  PetscCall(PetscStrcmp(own, theirs, &prefix));
+  if (type && prefix) PetscCall(KSPSetPC(tao->ksp, kept->pc));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterSetSubspace - Hands on what the filtered subspace method of another solver has kept
+
+  Logically Collective
+
+  Input Parameters:
++ tao   - the `TAOIPFILTER`, after `TaoSetFromOptions()`
+- space - what `TaoIPFilterGetSubspace()` of a solver with the same Hessian has given
+
+  Level: advanced
+
+  Notes:
+  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with that Hessian,
+  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by this call. Directions are multiplied anew where
+  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
+
+  The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidHeaderSpecific(space, PETSC_CONTAINER_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetSubspace_C", (Tao, PetscContainer), (tao, space));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterGetSubspace - Gets what the filtered subspace method keeps for later solves
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. space - preconditioner and directions, owned by `tao`: reference it to have it outlive the solver
+
+  Options Database Keys:
++ -tao_ipfilter_subspace <false> (false,true,auto) - the filtered subspace method in place of the interior point method
+- -tao_ipfilter_subspace_max <80>                  - directions that it keeps, two vectors each
+
+  Level: advanced
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscAssertPointer(space, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetSubspace_C", (Tao, PetscContainer *), (tao, space));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,39 @@
+"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the ranks, for little more than CG takes without contact."""
+import json
+
+
+def steps(name):
+    with open(name + ".json") as file:
+        summary = json.load(file)
+    return summary["steps"], summary["contact_free"]["iterations"]
+
+
+def forces(step):
+    return [component for pair in step["pairs"] for component in pair["force"]]
+
+
+def difference(a, b):
+    """Largest of all load steps: of the energies, and of the pairs' forces against the largest of them"""
+    energy = max(abs(x["energy"] - y["energy"]) / y["energy"] for x, y in zip(a, b))
+    force = max(abs(f - g) / max(map(abs, forces(y))) for x, y in zip(a, b) for f, g in zip(forces(x), forces(y)))
+    return energy, force
+
+
+def verdict(what, value, limit):
+    print(f"{what}: below {limit:g}" if value <= limit else f"{what}: {value:g} is above {limit:g}")
+
+
+for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5), (1.5, 1.2)):
+    interior, _ = steps(scene)
+    alone, _ = steps(f"{scene}_1")
+    for n in ranks:
+        run, free = steps(f"{scene}_{n}")
+        print(f"{scene}, {n} ranks")
+        energy, force = difference(run, interior)
+        verdict("  energy against the interior point method's", energy, 1e-8)
+        verdict("  forces", force, 1e-7)
+        verdict("  energy and forces against those of one rank", max(difference(run, alone)), 1e-9)
+        verdict("  AMG applications of the first load step by those without contact", run[0]["amg_applications"] / free, cost[0])
+        verdict("  of a later one", max(step["amg_applications"] for step in run[1:]) / free, cost[1])
+        print("  the AMG was set up", "once" if sum(step["amg_setups"] for step in run) == 1 else "MORE THAN ONCE")
+        print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")

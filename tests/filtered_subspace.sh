@@ -1,0 +1,17 @@
+# The filtered subspace method on shipped scenes, against the interior point method, on several numbers of ranks. Tolerances and
+# what it may cost are in filtered_subspace.py.
+run() {
+  name=$1
+  ranks=$2
+  scene=$3
+  shift 3
+  launch=()
+  [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
+  timeout 300 "${launch[@]}" "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/$scene.yaml" -quiet -refine 0 -contact_updates 1 -tao_gatol 1e-10 -summary "$name.json" "$@" 2> /dev/null || echo "$name: exit code $?"
+}
+
+run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false
+for ranks in 1 3; do run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true -contact_free; done
+run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false
+for ranks in 1 5; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -contact_free; done
+"$PYTHON" "$AMGF_DIR/tests/filtered_subspace.py"
