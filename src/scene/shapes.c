@@ -46,6 +46,8 @@ static const ShapeKey tube_arc_keys[] = {
   KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
   KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
