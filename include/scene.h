@@ -77,8 +77,8 @@ typedef struct {
   PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
   Material         material;
   ElementType      element;
-  PetscReal        grading[3]; /* size of the last cell over the first: box, octants: along each axis; half_ellipse: of the
-                                          core along depth and across, of the ring to the arc; 0 stands for 1 */
+  PetscReal        grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells; half_ellipse:
+                                          of the core along depth and across, of the ring to the arc; 0 stands for 1 */
   PetscInt         even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
   PetscInt         layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
   PetscBool        curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */

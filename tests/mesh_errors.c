@@ -97,6 +97,7 @@ static PetscErrorCode BadShapes(void)
     {"extent backwards", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {1, 0}})},
     {"-3 cells around", TUBE(.cells = {1, -3, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
     {"too few cells around", TUBE(.cells = {1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 180}, .extent = {0, 1}})},
+    {"tube graded by -1", TUBE(.cells = {1, 2, 1}, .grading = {-1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
     {"huge tube", TUBE(.cells = {100000, 100000, 100000}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
     {"depth along the axis", PRISM(.cells = {2, 2, 1}, .layers = 1, .ellipse = {.axis = 2, .depth = 5, .half = -1, .semi_axes = {1, 1}, .extent = {0, 1}})},
     {"half along the depth", PRISM(.cells = {2, 2, 1}, .layers = 1, .ellipse = {.axis = 2, .depth = 0, .half = 3, .semi_axes = {1, 1}, .extent = {0, 1}})},

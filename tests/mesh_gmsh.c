@@ -19,11 +19,11 @@ static const char tets[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames
 
 static const char hex20[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
                             "$Nodes\n20\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n$EndNodes\n"
-                            "$Elements\n1\n1 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n";
+                            "$Elements\n2\n2 16 2 2 1 1 4 8 5 10 16 18 11\n1 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n";
 
 static const char hex27[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
                             "$Nodes\n27\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n21 1 1 0\n22 1 0 1\n23 0 1 1\n24 2 1 1\n25 1 2 1\n26 1 1 2\n27 1 1 1\n$EndNodes\n"
-                            "$Elements\n1\n1 12 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27\n$EndElements\n";
+                            "$Elements\n2\n2 10 2 2 1 1 4 8 5 10 16 18 11 23\n1 12 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27\n$EndElements\n";
 
 static const char flat[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
                            "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 2 1 1 2 3 4\n$EndElements\n";
@@ -151,7 +151,7 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 3}}
       args: -malloc_dump 0
-      filter: sed -e "s|8-node hexahedra: .*|8-node hexahedra|"
+      filter: sed -e "s|mesh of hexahedra: .*|mesh of hexahedra|"
       output_file: output/mesh_gmsh_1.out
 
 TEST*/

@@ -50,22 +50,24 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
 
 static PetscErrorCode MeshReadGrid(MPI_Comm comm, const SceneBody *body, GmshFile *file, MeshBody *mesh)
 {
-  PetscInt64 size[2];
+  PetscInt64 size[3];
 
   PetscFunctionBegin;
   PetscCall(GmshFileOpen(comm, body, file));
   PetscCall(GmshFileGetGrid(comm, file, body, &mesh->grid));
   size[0] = mesh->grid.ncells;
   size[1] = mesh->grid.nvertices;
-  PetscCallMPI(MPI_Bcast(size, 2, MPIU_INT64, 0, comm));
+  size[2] = mesh->grid.curve ? 1 : 0;
+  PetscCallMPI(MPI_Bcast(size, 3, MPIU_INT64, 0, comm));
   mesh->ncells    = size[0];
   mesh->nvertices = size[1];
+  mesh->quadratic = size[2] ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[])
 {
-  GmshFile file = {NULL, NULL};
+  GmshFile file = {.name = NULL};
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) {

@@ -1,5 +1,6 @@
 /* MeshCreate: level 0 on rank 0, distribution, refinement, layout of the unknowns */
 #include "meshimpl.h"
+#include <petscsf.h>
 
 /* Level 0 is refined before it is distributed while it has fewer cells a rank: coarser partitions are badly balanced */
 #define MESH_MIN_CELLS_PER_RANK 32
@@ -35,31 +36,20 @@ static PetscErrorCode MeshCheckNames(MPI_Comm comm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode MeshRefine(DM *dm, PetscInt levels)
-{
-  PetscFunctionBegin;
-  for (PetscInt l = 0; l < levels; ++l) {
-    DM fine;
-
-    PetscCall(DMPlexSetRefinementUniform(*dm, PETSC_TRUE));
-    PetscCall(DMRefine(*dm, PetscObjectComm((PetscObject)*dm), &fine));
-    PetscCall(DMDestroy(dm));
-    *dm = fine;
-  }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode MeshDistribute(DM *dm)
+static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves)
 {
   PetscPartitioner partitioner;
   DM               distributed;
+  PetscSF          migration;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetPartitioner(*dm, &partitioner));
   PetscCall(PetscPartitionerSetType(partitioner, "metis"));
   PetscCall(PetscPartitionerSetFromOptions(partitioner));
-  PetscCall(DMPlexDistribute(*dm, 0, NULL, &distributed));
+  PetscCall(DMPlexDistribute(*dm, 0, &migration, &distributed));
   if (distributed) {
+    PetscCall(MeshCurvesDistribute(migration, distributed, curves));
+    PetscCall(PetscSFDestroy(&migration));
     PetscCall(DMDestroy(dm));
     *dm = distributed;
   }
@@ -112,8 +102,9 @@ static PetscErrorCode MeshSetSection(DM dm)
 
   Notes:
   The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The mesh is generated on rank 0,
-  or read there by PETSc from Gmsh files, and distributed as coarse as its balance allows; refinement is parallel. Refined
-  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map.
+  or read there from Gmsh files, and distributed as coarse as its balance allows; refinement is parallel. Refined
+  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file
+  of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
   Bodies never share vertices, also where they come from one Gmsh file and touch there.
 
@@ -127,6 +118,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   PetscInt64  ncells = 0, nvertices = 0, finecells;
   PetscInt    before = 0;
   MeshBody   *meshes;
+  MeshCurves  curves;
 
   PetscFunctionBegin;
   PetscCall(MeshInitializePackage());
@@ -149,15 +141,20 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
 
   PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, dm));
+  PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, &curves));
   PetscCall(MeshDestroyBodies(nbodies, meshes));
   PetscCall(PetscFree(meshes));
   if (size > 1) {
     for (PetscInt64 n = ncells; before < refine && n < MESH_MIN_CELLS_PER_RANK * size; n *= 8) ++before;
     PetscCall(MeshRefine(dm, before));
-    PetscCall(MeshDistribute(dm));
+    PetscCall(MeshCurvesApply(&curves, before, *dm));
+    PetscCall(MeshCurvesRefine(before, *dm, &curves));
+    PetscCall(MeshDistribute(dm, &curves));
   }
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(MeshCurvesApply(&curves, refine - before, *dm));
+  PetscCall(MeshCurvesDestroy(&curves));
   PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(MeshSetSection(*dm));
   PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));

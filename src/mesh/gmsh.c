@@ -1,35 +1,17 @@
-/* Bodies from Gmsh files: read by PETSc on rank 0, cut out of its mesh volume by volume */
+/* Bodies from Gmsh files: read on rank 0, cut out of its mesh volume by volume */
 #include "meshimpl.h"
-#include <petscviewer.h>
 
-/* On rank 0. PETSc labels cells and facets with their physical tags: in formats 4 these are the tags of their entities, in format 2
-   the first of their own, which the number of the entity follows. (Its labels by name would take that for a tag.)
-   The options are not the user's, whose own meshes must not change */
-static PetscErrorCode GmshReadFile(const char file[], DM *dm)
+/* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k */
+static const PetscInt corner_at[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+
+/* On rank 0 */
+static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
 {
-  PetscErrorCode ierr;
-  PetscOptions   options;
-  char           complaint[256];
-  FILE          *stream;
-  float          version = 0;
+  char complaint[256];
 
   PetscFunctionBegin;
-  PetscCall(GmshCheckFile(file, sizeof(complaint), complaint));
+  PetscCall(GmshMeshRead(file, mesh, sizeof(complaint), complaint));
   PetscCheck(!complaint[0], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s", complaint);
-  stream = fopen(file, "r");
-  if (stream) {
-    if (fscanf(stream, "$MeshFormat %f", &version) != 1) version = 0;
-    (void)fclose(stream);
-  }
-  PetscCall(PetscOptionsCreate(&options));
-  PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_multiple_tags", version >= 4 ? "true" : "false"));
-  PetscCall(PetscOptionsSetValue(options, "-dm_plex_gmsh_periodic", "false"));
-  PetscCall(PetscOptionsPush(options));
-  ierr = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, file, PETSC_TRUE, dm);
-  PetscCall(PetscOptionsPop());
-  PetscCall(PetscOptionsDestroy(&options));
-  if (ierr) *dm = NULL;
-  PetscCall(ierr);
   PetscFunctionReturn(0);
 }
 
@@ -39,7 +21,7 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscErrorCode ierr = 0;
   PetscMPIInt    rank;
   PetscBool      same = PETSC_FALSE;
-  PetscInt       dim  = 3;
+  PetscInt       dim;
 
   PetscFunctionBegin;
   if (file->name) PetscCall(PetscStrcmp(file->name, body->gmsh.file, &same));
@@ -47,10 +29,10 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(GmshFileClose(file));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->dm);
+  if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh of 8-node hexahedra: %s", body->name, body->gmsh.file, error.message);
-  if (file->dm) PetscCall(DMGetDimension(file->dm, &dim));
+  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh of hexahedra: %s", body->name, body->gmsh.file, error.message);
+  dim = file->mesh.dim;
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
   PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
   file->name = body->gmsh.file;
@@ -60,121 +42,117 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
 PetscErrorCode GmshFileClose(GmshFile *file)
 {
   PetscFunctionBegin;
-  PetscCall(DMDestroy(&file->dm));
+  PetscCall(GmshMeshDestroy(&file->mesh));
   file->name = NULL;
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode GmshHasTag(DM dm, const char sets[], PetscInt tag, PetscInt point, PetscBool *has)
+/* Is the element a cell of the volume? */
+static PetscBool GmshIsWithin(const GmshMesh *mesh, const GmshElement *element, PetscInt volume)
 {
-  DMLabel label;
-
-  PetscFunctionBegin;
-  *has = PETSC_FALSE;
-  PetscCall(DMGetLabel(dm, sets, &label));
-  if (label) PetscCall(DMLabelStratumHasPoint(label, tag, point, has));
-  PetscFunctionReturn(0);
+  return element->type->dim == 3 && GmshMeshHasTag(mesh, element, volume) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* The hexahedra of the body's volume with their vertices numbered anew; number: new number of each vertex, PETSC_DECIDE without one */
-static PetscErrorCode GmshCutVolume(DM dm, const SceneBody *body, PetscInt tag, PetscInt number[], ShapeGrid *grid)
+/* The hexahedra of the body's volume with their vertices numbered anew; number: new number by the place of each node, PETSC_DECIDE
+   without one; facets: of all cells, sorted */
+static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[], GmshFacets *facets, ShapeGrid *grid)
 {
-  PetscInt           cstart, cend, vstart, vend;
-  PetscSection       section;
-  Vec                coordinates;
-  const PetscScalar *x;
-
   PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(PetscMalloc1(8 * (cend - cstart), &grid->cells));
-  for (PetscInt v = 0; v < vend - vstart; ++v) number[v] = PETSC_DECIDE;
-  for (PetscInt c = cstart; c < cend; ++c) {
-    DMPolytopeType type;
-    PetscInt       vertices[8];
-    PetscBool      within;
+  PetscCall(PetscMalloc1(8 * mesh->nelements, &grid->cells));
+  for (PetscInt v = 0; v < mesh->nnodes; ++v) number[v] = PETSC_DECIDE;
+  for (PetscInt e = 0; e < mesh->nelements; ++e) {
+    const GmshElement *element = &mesh->elements[e];
+    PetscInt64         corners[8];
 
-    PetscCall(GmshHasTag(dm, "Cell Sets", tag, c, &within));
-    if (!within) continue;
-    PetscCall(DMPlexGetCellType(dm, c, &type));
-    PetscCheck(type == DM_POLYTOPE_HEXAHEDRON, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8 nodes are read", body->gmsh.volume, body->gmsh.file, DMPolytopeTypes[type]);
-    PetscCall(MeshGetCellVertices(dm, c, vertices));
+    if (!GmshIsWithin(mesh, element, volume)) continue;
+    PetscCheck(element->type->ncorners == 8, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8, 20 or 27 nodes are read", body->gmsh.volume, body->gmsh.file, element->type->name);
     for (PetscInt a = 0; a < 8; ++a) {
-      if (number[vertices[a] - vstart] < 0) number[vertices[a] - vstart] = grid->nvertices++;
-      grid->cells[8 * grid->ncells + a] = number[vertices[a] - vstart];
+      PetscInt place;
+
+      corners[a] = mesh->nodes[element->first + a];
+      PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + corner_at[a]], &place));
+      if (number[place] < 0) number[place] = grid->nvertices++;
+      grid->cells[8 * grid->ncells + a] = number[place];
     }
+    PetscCall(GmshFacetsAdd(element->type, e, corners, facets));
     ++grid->ncells;
   }
-  PetscCall(DMGetCoordinateSection(dm, &section));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  PetscCall(PetscMalloc1(3 * grid->nvertices, &grid->coordinates));
-  for (PetscInt v = vstart; v < vend; ++v) {
-    PetscInt offset;
-
-    if (number[v - vstart] < 0) continue;
-    PetscCall(PetscSectionGetOffset(section, v, &offset));
-    for (PetscInt d = 0; d < 3; ++d) grid->coordinates[3 * number[v - vstart] + d] = PetscRealPart(x[offset + d]);
-  }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  GmshFacetsSort(facets);
   PetscFunctionReturn(0);
 }
 
-/* A facet's vertices if it bounds the volume; a facet between two of its cells is inside */
-static PetscErrorCode GmshGetBoundingFacet(DM dm, PetscInt volume, PetscInt facet, PetscInt vertices[4], PetscBool *bounds)
+static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt number[], ShapeGrid *grid)
 {
-  const PetscInt *cells;
-  PetscInt        ncells, nwithin = 0, npoints, n = 0, vstart, vend, *closure = NULL;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * grid->nvertices, &grid->coordinates));
+  for (PetscInt v = 0; v < mesh->nnodes; ++v) {
+    if (number[v] >= 0) PetscCall(PetscArraycpy(grid->coordinates + 3 * number[v], mesh->x + 3 * v, 3));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Of second order, unless its edges are straight all the same */
+static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
+{
+  PetscReal bulge = 0, size = 0;
+  PetscInt  c = 0;
 
   PetscFunctionBegin;
-  *bounds = PETSC_FALSE;
-  PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
-  PetscCall(DMPlexGetSupport(dm, facet, &cells));
-  for (PetscInt c = 0; c < ncells; ++c) {
-    PetscBool within;
+  *quadratic = PETSC_FALSE;
+  for (PetscInt v = 3; v < 3 * grid->nvertices; ++v) size = PetscMax(size, PetscAbsReal(grid->coordinates[v] - grid->coordinates[v % 3]));
+  PetscCall(PetscMalloc1(81 * grid->ncells, &grid->curve));
+  for (PetscInt e = 0; e < mesh->nelements; ++e) {
+    const GmshElement *element = &mesh->elements[e];
+    PetscReal          x[GMSH_MAX_NODES][3], off;
 
-    PetscCall(GmshHasTag(dm, "Cell Sets", volume, cells[c], &within));
-    if (within) ++nwithin;
+    if (!GmshIsWithin(mesh, element, volume)) continue;
+    for (PetscInt a = 0; a < element->type->nnodes; ++a) {
+      PetscInt place;
+
+      PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + a], &place));
+      PetscCall(PetscArraycpy(x[a], mesh->x + 3 * place, 3));
+    }
+    off   = GmshGetCurve((PetscInt)element->type->nnodes, (const PetscReal(*)[3])x, grid->curve + 81 * c);
+    bulge = PetscMax(bulge, off);
+    if (element->type->nnodes > 8) *quadratic = PETSC_TRUE;
+    ++c;
   }
-  if (nwithin != 1) PetscFunctionReturn(0);
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(DMPlexGetTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
-  for (PetscInt p = 0; p < npoints && n < 4; ++p) {
-    if (closure[2 * p] >= vstart && closure[2 * p] < vend) vertices[n++] = closure[2 * p] - vstart;
-  }
-  PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
-  *bounds = PETSC_TRUE;
+  if (bulge <= PETSC_SQRT_MACHINE_EPSILON * size) PetscCall(PetscFree(grid->curve));
   PetscFunctionReturn(0);
 }
 
 /* A facet may be on several surfaces and is listed once for each */
-static PetscErrorCode GmshCutSurfaces(DM dm, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
+static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *facets, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
-  PetscInt       fstart, fend;
-  PetscSegBuffer facets, facetface;
+  PetscSegBuffer vertices, facetface;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, &fend));
-  PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 1024, &facets));
+  PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 1024, &vertices));
   PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 256, &facetface));
   for (PetscInt face = 0; face < nsurfaces; ++face) {
-    for (PetscInt f = fstart; f < fend; ++f) {
-      PetscInt  vertices[4] = {0}, *slot;
-      PetscBool has;
+    for (PetscInt e = 0; e < mesh->nelements; ++e) {
+      const GmshElement *element = &mesh->elements[e];
+      PetscInt64         corners[4];
+      PetscInt          *slot;
 
-      PetscCall(GmshHasTag(dm, "Face Sets", surfaces[face], f, &has));
-      if (has) PetscCall(GmshGetBoundingFacet(dm, volume, f, vertices, &has));
-      if (!has) continue;
-      PetscCall(PetscSegBufferGetInts(facets, 4, &slot));
-      for (PetscInt a = 0; a < 4; ++a) slot[a] = number[vertices[a]];
+      if (element->type->dim != 2 || element->type->ncorners != 4 || !GmshMeshHasTag(mesh, element, surfaces[face])) continue;
+      for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + a];
+      if (!GmshFacetsBound(facets, corners)) continue;
+      PetscCall(PetscSegBufferGetInts(vertices, 4, &slot));
+      for (PetscInt a = 0; a < 4; ++a) {
+        PetscInt place;
+
+        PetscCall(GmshMeshFindNode(mesh, (PetscInt)corners[a], &place));
+        slot[a] = number[place];
+      }
       PetscCall(PetscSegBufferGetInts(facetface, 1, &slot));
       *slot = face;
       ++grid->nfacets;
     }
   }
-  PetscCall(PetscSegBufferExtractAlloc(facets, &grid->facets));
+  PetscCall(PetscSegBufferExtractAlloc(vertices, &grid->facets));
   PetscCall(PetscSegBufferExtractAlloc(facetface, &grid->facetface));
-  PetscCall(PetscSegBufferDestroy(&facets));
+  PetscCall(PetscSegBufferDestroy(&vertices));
   PetscCall(PetscSegBufferDestroy(&facetface));
   PetscFunctionReturn(0);
 }
@@ -212,17 +190,24 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
 }
 
 /* On rank 0; volume: its tag */
-static PetscErrorCode GmshCutBody(DM dm, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid)
+static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid)
 {
-  PetscInt vstart, vend, *number;
+  GmshFacets facets = {0, 0, NULL};
+  PetscInt  *number;
+  PetscBool  quadratic;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(PetscMalloc1(vend - vstart, &number));
-  PetscCall(GmshCutVolume(dm, body, volume, number, grid));
+  PetscCall(PetscMalloc1(mesh->nnodes, &number));
+  PetscCall(GmshCutVolume(mesh, body, volume, number, &facets, grid));
   PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells", body->gmsh.volume, body->gmsh.file);
-  PetscCall(GmshCutSurfaces(dm, volume, nsurfaces, surfaces, number, grid));
+  PetscCall(GmshCutCoordinates(mesh, number, grid));
+  if (body->curved) {
+    PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));
+    if (!quadratic) PetscCall(ShapeGridBend(grid));
+  }
+  PetscCall(GmshCutSurfaces(mesh, &facets, nsurfaces, surfaces, number, grid));
   PetscCall(GmshCheckVertices(body, grid));
+  PetscCall(GmshFacetsDestroy(&facets));
   PetscCall(PetscFree(number));
   PetscFunctionReturn(0);
 }
@@ -238,7 +223,7 @@ PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *b
   PetscCall(GmshGetVolumeTag(comm, body, &volume));
   PetscCall(GmshGetPhysicalNames(comm, body, 2, &n, &surfaces, &tags));
   PetscCall(RankErrorBegin(&error));
-  if (file->dm) ierr = GmshCutBody(file->dm, body, volume, n, tags, grid);
+  if (file->mesh.nelements) ierr = GmshCutBody(&file->mesh, body, volume, n, tags, grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
   PetscCall(NamesDestroy(&n, &surfaces));

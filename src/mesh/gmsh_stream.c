@@ -1,4 +1,4 @@
-/* Words and numbers of a Gmsh file, text or binary, read as PETSc reads them: the same blanks are skipped */
+/* Words and numbers of a Gmsh file, text or binary, the same blanks skipped as by PETSc's own reader */
 #include "meshimpl.h"
 #include <ctype.h>
 #include <limits.h>
@@ -83,7 +83,8 @@ PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 val
   return PETSC_TRUE;
 }
 
-PetscBool GmshGetReals(GmshStream *in, PetscInt64 n)
+/* values may be NULL */
+PetscBool GmshGetReals(GmshStream *in, PetscInt64 n, PetscReal values[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
     double value;
@@ -92,6 +93,7 @@ PetscBool GmshGetReals(GmshStream *in, PetscInt64 n)
       if (!GmshGetBytes(in, 8, &value)) return PETSC_FALSE;
     } else if (fscanf(in->file, "%le", &value) != 1) return GmshWrong(in, feof(in->file) ? "it ends too early" : "a coordinate is expected where other text stands");
     if (PetscIsInfOrNanReal(value)) return GmshWrong(in, "a coordinate is not a finite number");
+    if (values) values[i] = (PetscReal)value;
   }
   return PETSC_TRUE;
 }

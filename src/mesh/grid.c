@@ -69,6 +69,7 @@ PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
   PetscCall(PetscFree(grid->coordinates));
   PetscCall(PetscFree(grid->facets));
   PetscCall(PetscFree(grid->facetface));
+  PetscCall(PetscFree(grid->curve));
   PetscFunctionReturn(0);
 }
 

@@ -21,6 +21,7 @@ typedef struct {
   PetscReal *coordinates; /* 3 parameters a vertex; for a shape without a map, its place [length] */
   PetscInt  *facets;      /* 4 vertices a facet */
   PetscInt  *facetface;   /* index of each facet's face in the names that MeshGetFaceNames() gives */
+  PetscReal *curve;       /* 27 places a cell, tensor order, of the quadratic cell that refinement follows; NULL: it has straight edges */
 } ShapeGrid;
 
 PETSC_INTERN PetscErrorCode ShapeGridDestroy(ShapeGrid *);
@@ -110,22 +111,71 @@ PETSC_INTERN PetscBool GmshExpectNext(GmshStream *, const char section[]);
 PETSC_INTERN PetscBool GmshGetBytes(GmshStream *, size_t n, void *value);
 /* n whole numbers of 4 or 8 bytes; n finite reals; n counts; a count that format 2 writes as a word, also in binary files */
 PETSC_INTERN PetscBool GmshGetNumbers(GmshStream *, int width, PetscInt64 n, PetscInt64 values[]);
-PETSC_INTERN PetscBool GmshGetReals(GmshStream *, PetscInt64 n);
+PETSC_INTERN PetscBool GmshGetReals(GmshStream *, PetscInt64 n, PetscReal values[]);
 PETSC_INTERN PetscBool GmshGetCounts(GmshStream *, const char what[], PetscInt64 n, PetscInt64 counts[]);
 PETSC_INTERN PetscBool GmshGetCountWord(GmshStream *, const char what[], PetscInt64 *count);
 
-/* gmsh_check.c. Not collective: what is wrong with the file's form and numbers, in a sentence of so many characters, or "" */
-PETSC_INTERN PetscErrorCode GmshCheckFile(const char file[], size_t length, char sentence[]);
+/* gmsh_types.c: what an element is, by Gmsh's number of its type */
+#define GMSH_MAX_NODES 27
+
+typedef struct {
+  const char *name;
+  PetscInt64  dim, nnodes, ncorners; /* the corners are the first of its nodes */
+} GmshType;
+
+PETSC_INTERN const GmshType *GmshGetType(PetscInt64 type);
+
+/* gmsh_facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first */
+typedef struct {
+  PetscInt64 nodes[4], across, element;
+} GmshFacet;
+
+typedef struct {
+  PetscInt64 n, max;
+  GmshFacet *list;
+} GmshFacets;
+
+PETSC_INTERN PetscErrorCode GmshFacetsAdd(const GmshType *, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *);
+PETSC_INTERN void           GmshFacetsSort(GmshFacets *);
+PETSC_INTERN PetscBool      GmshFacetsAgree(const GmshFacets *, GmshStream *);
+PETSC_INTERN PetscBool      GmshFacetsBound(const GmshFacets *, const PetscInt64 corners[4]);
+PETSC_INTERN PetscErrorCode GmshFacetsDestroy(GmshFacets *);
+
+/* gmsh_read.c: the mesh of a file. Not collective; what is wrong with its form and numbers, in a sentence of so many characters, or "" */
+typedef struct {
+  const GmshType *type;
+  PetscInt        label, first; /* its number of physical tags and they follow one another from tags[label] on; its nodes from nodes[first] */
+} GmshElement;
+
+typedef struct {
+  PetscInt     dim;                     /* the largest of its elements */
+  PetscInt     nnodes, *number, *place; /* numbers of the nodes, ascending, and which of the coordinates are theirs */
+  PetscReal   *x;
+  PetscInt     nelements, *tags, *nodes;
+  GmshElement *elements;
+} GmshMesh;
+
+PETSC_INTERN PetscErrorCode GmshMeshRead(const char file[], GmshMesh *, size_t length, char sentence[]);
+PETSC_INTERN PetscErrorCode GmshMeshDestroy(GmshMesh *);
+PETSC_INTERN PetscBool      GmshMeshHasTag(const GmshMesh *, const GmshElement *, PetscInt tag);
+PETSC_INTERN PetscErrorCode GmshMeshFindNode(const GmshMesh *, PetscInt number, PetscInt *place);
 
 /* gmsh_names.c, collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags may be NULL */
 PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags);
 /* Error if the file has no physical volume of the body's name */
 PETSC_INTERN PetscErrorCode GmshGetVolumeTag(MPI_Comm, const SceneBody *, PetscInt *tag);
 
+/* gmsh_order2.c: the 27 places of a cell from as many nodes as it has; the largest distance from the trilinear cell of its corners [length] */
+PETSC_INTERN const PetscInt GmshHexahedronEnds[20][2];
+PETSC_INTERN PetscReal      GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[81]);
+
+/* arcs.c: a curve for a grid of straight cells whose surface stands for a curved one */
+PETSC_INTERN PetscErrorCode ShapeGridBend(ShapeGrid *);
+
 /* gmsh.c: a Gmsh file, read on rank 0; bodies that come from one file one after another share it */
 typedef struct {
   const char *name;
-  DM          dm; /* NULL on the other ranks */
+  GmshMesh    mesh; /* without elements on the other ranks */
 } GmshFile;
 PETSC_INTERN PetscErrorCode GmshFileOpen(MPI_Comm, const SceneBody *, GmshFile *);
 PETSC_INTERN PetscErrorCode GmshFileClose(GmshFile *);
@@ -144,6 +194,7 @@ typedef struct {
   PetscInt64 ncells, nvertices;
   PetscInt   nfaces;
   char     **faces;
+  PetscBool  quadratic; /* its grid has a curve */
   ShapeGrid  grid;
 } MeshBody;
 PETSC_INTERN PetscErrorCode MeshCreateBodies(MPI_Comm, PetscInt nbodies, const SceneBody[], MeshBody[]);
@@ -155,6 +206,21 @@ PETSC_INTERN PetscErrorCode MeshMapVertices(DM, PetscInt nbodies, const SceneBod
 /* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: also in bodies that are mapped after
    refinement */
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
+
+/* refine.c: so many uniform refinements of a mesh in place */
+PETSC_INTERN PetscErrorCode MeshRefine(DM *, PetscInt levels);
+
+/* curves.c: the quadratic cells of a mesh: [81 a cell of a quadratic body, 0 of others], carried along as it is distributed */
+typedef struct {
+  PetscSection section; /* NULL: no body has any */
+  Vec          places;
+} MeshCurves;
+PETSC_INTERN PetscErrorCode MeshCurvesCreate(DM level0, PetscInt nbodies, const MeshBody[], MeshCurves *);
+PETSC_INTERN PetscErrorCode MeshCurvesDistribute(PetscSF, DM distributed, MeshCurves *);
+/* fine: the mesh that the curves belong to, refined. Moves its vertices onto them; replaces them by those of its cells */
+PETSC_INTERN PetscErrorCode MeshCurvesApply(const MeshCurves *, PetscInt levels, DM fine);
+PETSC_INTERN PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *);
+PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
 
 /* level0.c: all bodies at level 0, on rank 0, with their labels */
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], DM *);

@@ -22,6 +22,7 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscCall(ShapeCheckCount(comm, body, "radially", n[0]));
   PetscCall(ShapeCheckCount(comm, body, "around the axis", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of cells is %" PetscInt_FMT, body->name, (double)angle, n[1]);
   PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
   *ncells    = (PetscInt64)n[0] * n[1] * n[2];
@@ -55,7 +56,11 @@ static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid
       for (PetscInt i = 0; i <= n[0]; ++i, p += 3) {
         const PetscInt index[3] = {i, j, k};
 
-        for (PetscInt d = 0; d < 3; ++d) p[d] = ((n[d] - index[d]) * range[d][0] + index[d] * range[d][1]) / n[d];
+        for (PetscInt d = 0; d < 3; ++d) {
+          const PetscReal part = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
+
+          p[d] = (1 - part) * range[d][0] + part * range[d][1];
+        }
       }
     }
   }

@@ -46,6 +46,8 @@ static const ShapeKey tube_arc_keys[] = {
   KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
   KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
   KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
@@ -197,7 +199,7 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
     }
   }
   if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveMesh(keys->file, &body->gmsh.file));
-  else if (body->shape != SHAPE_BOX) {
+  if (body->shape != SHAPE_BOX) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
     if (text) PetscCall(SceneParseAnswer(keys, key, text, &body->curved));
@@ -242,7 +244,7 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
       PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
     }
   }
-  if (!body->curved && body->shape != SHAPE_BOX && body->shape != SHAPE_GMSH) PetscCall(PetscViewerASCIIPrintf(viewer, "curved: false\n"));
+  if (!body->curved && body->shape != SHAPE_BOX) PetscCall(PetscViewerASCIIPrintf(viewer, "curved: false\n"));
   PetscFunctionReturn(0);
 }
 

@@ -258,6 +258,7 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Pet
 PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
 {
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   sim->npoints = 0;
   PetscCall(PetscFree(sim->points));
   for (PetscInt p = 0; sim->linearization && p < report->npairs; ++p) {
@@ -277,5 +278,6 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(PairVerticesDestroy(&vertices));
     PetscCall(PairRowsDestroy(&rows));
   }
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,7 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
-PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
+PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces;
 
 /* The events of the phases: ours, the preconditioner's, the estimator's */
 static const struct {
@@ -32,6 +32,7 @@ PetscErrorCode StepEventsRegister(void)
   PetscCall(PetscLogEventRegister("SimAssembly", classid, &SIM_Assembly));
   PetscCall(PetscLogEventRegister("SimContact", classid, &SIM_Contact));
   PetscCall(PetscLogEventRegister("SimSolve", classid, &SIM_Solve));
+  PetscCall(PetscLogEventRegister("SimForces", classid, &SIM_Forces));
   PetscFunctionReturn(0);
 }
 

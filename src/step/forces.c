@@ -147,6 +147,7 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, StepRepor
   ForceSum *sides;
 
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscCalloc1(2 * report->npairs, &sides));
   for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(sim, p, u, weighted, &sides[2 * p]));
   PetscCall(ForceSumReduce(sim->comm, 2 * report->npairs, sides));
@@ -161,6 +162,7 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, StepRepor
     for (PetscInt c = 0; c < 3; ++c) report->contact_force[c] += pair->force[c];
   }
   PetscCall(PetscFree(sides));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -196,6 +198,7 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, StepRepor
   PetscInt  *sharers;
 
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(ForceFieldGet(sim, u, reaction, &field));
   PetscCall(PetscCalloc2(report->nfaces, &sums, field.n, &sharers));
   PetscCall(ForcesCountSharers(sim, field.rstart, sharers));
@@ -211,6 +214,7 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, StepRepor
     PetscCall(PetscArraycpy(report->faces[f].moment, sums[f].moment, 3));
   }
   PetscCall(PetscFree2(sums, sharers));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

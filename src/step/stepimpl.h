@@ -13,7 +13,7 @@
 #include <petscamgf.h>
 
 /* events.c */
-PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve;
+PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces;
 PETSC_INTERN PetscErrorCode StepEventsRegister(void);
 PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
 PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);

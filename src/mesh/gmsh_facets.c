@@ -1,0 +1,98 @@
+/* Quadrilaterals of a Gmsh file's cells, found by their corners */
+#include "meshimpl.h"
+#include <stdlib.h>
+
+/* The quadrilaterals of hexahedra, prisms and pyramids, in the corners' order of Gmsh; by the number of corners */
+static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
+
+static const struct {
+  int n;
+  const int (*corners)[4];
+} quadrilaterals[9] = {
+  [5] = {1, pyramid},
+  [6] = {3, prism},
+  [8] = {6, hexahedron}};
+
+static GmshFacet GmshFacetOf(const PetscInt64 corners[4], PetscInt64 element)
+{
+  GmshFacet facet = {.element = element};
+  int       least = 0;
+
+  for (int a = 0; a < 4; ++a) {
+    int at = a;
+
+    if (corners[a] < corners[least]) least = a;
+    for (; at > 0 && facet.nodes[at - 1] > corners[a]; --at) facet.nodes[at] = facet.nodes[at - 1];
+    facet.nodes[at] = corners[a];
+  }
+  facet.across = corners[(least + 2) % 4];
+  return facet;
+}
+
+/* Those of a cell; other elements have none */
+PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *facets)
+{
+  const int n = type->dim == 3 ? quadrilaterals[type->ncorners].n : 0;
+
+  PetscFunctionBegin;
+  if (facets->n + n > facets->max) {
+    facets->max = 2 * facets->max + 64;
+    PetscCall(PetscRealloc((size_t)facets->max * sizeof(*facets->list), &facets->list));
+  }
+  for (int f = 0; f < n; ++f) {
+    PetscInt64 corners[4];
+
+    for (int a = 0; a < 4; ++a) corners[a] = nodes[quadrilaterals[type->ncorners].corners[f][a]];
+    facets->list[facets->n++] = GmshFacetOf(corners, element);
+  }
+  PetscFunctionReturn(0);
+}
+
+static int GmshCompareFacets(const void *a, const void *b)
+{
+  const PetscInt64 *x = ((const GmshFacet *)a)->nodes, *y = ((const GmshFacet *)b)->nodes;
+
+  for (int i = 0; i < 4; ++i) {
+    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+void GmshFacetsSort(GmshFacets *facets)
+{
+  if (facets->n) qsort(facets->list, (size_t)facets->n, sizeof(*facets->list), GmshCompareFacets);
+}
+
+/* Sorted: cells that meet in four nodes must have the same facet there, and no more than two meet */
+PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
+{
+  for (PetscInt64 i = 1; i < facets->n; ++i) {
+    const GmshFacet *here = &facets->list[i], *before = here - 1;
+
+    if (GmshCompareFacets(here, before)) continue;
+    if (here->across != before->across) return GmshWrong(in, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
+    if (i > 1 && !GmshCompareFacets(here, here - 2)) return GmshWrong(in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
+  }
+  return PETSC_TRUE;
+}
+
+/* Sorted: is there exactly one with these corners? A facet between two cells is inside */
+PetscBool GmshFacetsBound(const GmshFacets *facets, const PetscInt64 corners[4])
+{
+  const GmshFacet  wanted = GmshFacetOf(corners, 0);
+  const GmshFacet *end    = facets->list + facets->n, *found;
+
+  found = facets->n ? (const GmshFacet *)bsearch(&wanted, facets->list, (size_t)facets->n, sizeof(wanted), GmshCompareFacets) : NULL;
+  if (!found) return PETSC_FALSE;
+  if (found > facets->list && !GmshCompareFacets(found - 1, &wanted)) return PETSC_FALSE;
+  return found + 1 < end && !GmshCompareFacets(found + 1, &wanted) ? PETSC_FALSE : PETSC_TRUE;
+}
+
+PetscErrorCode GmshFacetsDestroy(GmshFacets *facets)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(facets->list));
+  facets->n = facets->max = 0;
+  PetscFunctionReturn(0);
+}
