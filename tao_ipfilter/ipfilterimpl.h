@@ -17,7 +17,7 @@
      measure  stiffness, scale, kkt
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
-     step     filter, merit, barrier, regularize, direction, linesearch, penalty, warm, start, relax, restore
+     step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
 */
@@ -574,6 +574,9 @@ PETSC_INTERN PetscBool      IPWarmEquality(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPWarmSetEquality(Tao);
 PETSC_INTERN PetscErrorCode IPWarmMeanProduct(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPWarmCenterBounds(Tao);
+
+/* freestep.c */
+PETSC_INTERN PetscErrorCode IPFreeStep(Tao, PetscBool *, PetscReal *);
 
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
