@@ -16,7 +16,7 @@ linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
-.PHONY: debug sanitize memcheck tidy fuzz nlp
+.PHONY: debug sanitize memcheck tidy fuzz nlp grid
 
 debug:
 	@$(call linked_tree,build/debug)
@@ -72,3 +72,11 @@ nlp: all
 	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) -c tests/stress/nlp_ipopt.c -o build/nlp/ipopt.o
 	gcc build/nlp/ipopt.o -o build/nlp/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/nlp.py --folder build/nlp
+
+# Obstacle problems on a grid beside TRON and IPOPT; the table goes to tests/stress/grid.md. GRID="--sizes 100 300" runs some
+GRID ?=
+grid: all
+	@mkdir -p build/grid
+	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/ipfilter_grid.c -o build/grid/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
+	gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(shell pkg-config --cflags ipopt) tests/stress/grid_ipopt.c -o build/grid/ipopt $(shell pkg-config --libs ipopt) -lm
+	$(PYTHON) -B tests/stress/grid.py --folder build/grid $(GRID)

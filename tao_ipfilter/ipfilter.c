@@ -52,7 +52,8 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_slack_init <1>                              - cold start: slacks
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
 . -tao_ipfilter_predict_mu <0.3>                            - predicted start: mu as a fraction of mean length x mean
-                                                              pressure
+                                                              pressure, with bounds alone of a step without them x the
+                                                              gradient there
 . -tao_ipfilter_predict_forcing <0.1>                       - predicted start: forces out of balance, as a fraction of
                                                               those the constraints transmit
 . -tao_ipfilter_warm_mu <0.03>                              - warm start: least mu as a fraction of the mean product length

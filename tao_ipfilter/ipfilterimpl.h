@@ -18,7 +18,7 @@
      system   assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented
      space    basis, compliance, activeset, reduced, kept, filteredsubspace
-     step     filter, merit, barrier, regularize, direction, linesearch, penalty, warm, start, relax, restore
+     step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
 */
@@ -706,6 +706,9 @@ PETSC_INTERN PetscBool      IPWarmEquality(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPWarmSetEquality(Tao);
 PETSC_INTERN PetscErrorCode IPWarmMeanProduct(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPWarmCenterBounds(Tao);
+
+/* freestep.c */
+PETSC_INTERN PetscErrorCode IPFreeStep(Tao, PetscBool *, PetscReal *);
 
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);

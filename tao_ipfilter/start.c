@@ -187,10 +187,13 @@ static PetscErrorCode StartWarmBounds(Tao tao)
 static PetscErrorCode StartBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     x;
+  PetscReal     x, energy;
+  PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
+  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD) PetscCall(IPFreeStep(tao, &moved, &energy));
+  if (moved) ip->mu = ip->opt.mu_start * energy;
+  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
   }
