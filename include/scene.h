@@ -126,6 +126,7 @@ typedef struct {
   GapType   gap;
   PetscReal distance;     /* facets further apart never pair [length]; 0: chosen from the size of the faces */
   PetscReal interference; /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
+  PetscInt  interference_ramp; /* that it follows; PETSC_DECIDE: all of it is there from the start */
   PetscBool smooth;       /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
 

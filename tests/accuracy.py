@@ -59,6 +59,19 @@ error = abs(run["steps"][-1]["pairs"][0]["normal_force"] / exact - 1)
 say("shrink fit: the true force is within twice the target, or the run refuses", run["exit_code"] == (0 if run["accuracy"]["reached"] else 4) and (error <= 6e-3 or not run["accuracy"]["reached"]), (error, run["accuracy"]))
 say("shrink fit: two meshes at least", len(run["accuracy"]["levels"]) >= 2, run["accuracy"])
 
+for name in ("rings_8_2.2", "rings_20_2.2", "rings_facets"):
+    run = load(name)
+    accuracy = run["accuracy"]
+    error = abs(run["steps"][-1]["pairs"][0]["normal_force"] / exact - 1)
+    stated = accuracy["levels"][-1]["error"]
+    say(name + ": " + ("the target is reached, and the true force is within twice the error stated" if accuracy["reached"] else "a plain refusal"), error <= 2 * stated and run["exit_code"] == (0 if accuracy["reached"] else 4), (error, accuracy))
+
+pin_force = 620.3  # of meshes refined in the plane alone: 654.3, 632.2, 624.3, 621.6
+run, refused = load("pin"), load("pin_refused")
+error = abs(abs(run["steps"][-1]["pairs"][0]["force"][0]) / pin_force - 1)
+say("pin: the target is reached, and the true force is within twice the error stated", run["accuracy"]["reached"] and error <= 2 * run["accuracy"]["levels"][-1]["error"], (error, run["accuracy"]))
+say("pin: a target out of reach is refused", refused["exit_code"] == 4 and not refused["accuracy"]["reached"], refused["accuracy"])
+
 beam, fine = load("cantilever"), load("cantilever_fine")
 truth = fine["steps"][-1]["energy"] + (fine["steps"][-1]["energy"] - beam["steps"][-1]["energy"]) / 3
 error = abs(beam["steps"][-1]["energy"] / truth - 1)

@@ -17,6 +17,23 @@ contact:
   - fit: {mortar: outer.inner, nonmortar: inner.outer}
 YAML
 
+# The same rings from Gmsh files, with the shape of the circles and on the facets of the first mesh, which refinement sharpens
+"$PYTHON" "$AMGF_DIR/tests/gmsh_rings.py" write
+sed 's/curved: true/curved: false/' rings_8_2.2.yaml > rings_facets.yaml
+
+# A pin in a hole, half of both, moved by a hundredth of its radius
+cat > pin.yaml <<'YAML'
+bodies:
+  - pin: {shape: tube_arc, axis: z, center: [0.004, 0, 0], radii: [1, 9.996], angles: [0, 180], extent: [0, 0.5], cells: [5, 24, 1], grading: [1/4, 1, 1], young: 210000, poisson: 0.3}
+  - plate: {shape: tube_arc, axis: z, radii: [10, 60], angles: [0, 180], extent: [0, 0.5], cells: [7, 20, 1], grading: [16, 1, 1], young: 210000, poisson: 0.3}
+symmetry: [pin.amin, pin.amax, pin.lmin, pin.lmax, plate.amin, plate.amax, plate.lmin, plate.lmax]
+contact:
+  - joint: {mortar: plate.inner, nonmortar: pin.outer, distance: 1, interference: true}
+displacements:
+  - rim: {face: plate.outer, value: [0, 0, 0]}
+  - bore: {face: pin.inner, value: [0.02, 0, free]}
+YAML
+
 run() { # summary, scene, options
   name=$1
   scene=$2
@@ -36,6 +53,10 @@ run cylinder_single cylinder -accuracy 1e-1 -accuracy_max_dofs 10000
 run cantilever cantilever -accuracy 1e-2
 "$contact" shrink.yaml -quiet -summary shrink.json -accuracy 3e-3 -accuracy_max_dofs 1e4 2> /dev/null
 run cantilever_fine cantilever -refine 2
+for rings in rings_8_2.2 rings_20_2.2; do run $rings $rings -accuracy 3e-3; done
+run rings_facets rings_facets -accuracy 3e-3 -accuracy_max_dofs 5e3
+run pin pin -accuracy 2e-2
+run pin_refused pin -accuracy 3e-3 -accuracy_max_dofs 2e4
 PYTHONPATH=$AMGF_DIR/share/scenes "$PYTHON" "$AMGF_DIR/tests/accuracy.py"
 
 for wrong in '-accuracy 0' '-accuracy 2' '-accuracy little' '-accuracy 0.1 -accuracy_share 1' '-accuracy 0.1 -error_estimate 0'; do

@@ -2,18 +2,23 @@
 #include "sceneimpl.h"
 
 /* true, false, or a length */
-static PetscErrorCode SceneReadInterference(SceneKeys keys, SceneContactPair *pair)
+static PetscErrorCode SceneReadInterference(SceneKeys keys, Scene scene, SceneContactPair *pair)
 {
   char        key[SCENE_KEY_LENGTH];
-  const char *text;
+  const char *text, *ramp;
   PetscBool   any = PETSC_FALSE, none = PETSC_FALSE;
 
   PetscFunctionBegin;
+  pair->interference_ramp = PETSC_DECIDE;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &ramp, "contact_%s_ramp", pair->name));
+  if (ramp) PetscCall(SceneReadRampName(keys, scene, "contact", pair->name, &pair->interference_ramp));
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_interference", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (ramp && !text) PetscCall(SceneKeysComplain(keys, "contact_%s_ramp is what an interference follows, but %s is missing", pair->name, key));
   if (!text) PetscFunctionReturn(0);
   PetscCall(PetscStrcasecmp(text, "true", &any));
   PetscCall(PetscStrcasecmp(text, "false", &none));
+  if (ramp && (any || none)) PetscCall(SceneKeysComplain(keys, "%s is %s; one that follows a ramp is the largest overlap that is meant", key, text));
   if (any) pair->interference = PETSC_INFINITY;
   else if (!none) {
     PetscCall(SceneParseReal(keys, key, text, &pair->interference));
@@ -22,7 +27,7 @@ static PetscErrorCode SceneReadInterference(SceneKeys keys, SceneContactPair *pa
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
+static PetscErrorCode SceneReadPair(SceneKeys keys, Scene scene, SceneContactPair *pair)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -40,7 +45,7 @@ static PetscErrorCode SceneReadPair(SceneKeys keys, SceneContactPair *pair)
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_distance", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseReal(keys, key, text, &pair->distance));
-  PetscCall(SceneReadInterference(keys, pair));
+  PetscCall(SceneReadInterference(keys, scene, pair));
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_smooth", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   pair->smooth = PETSC_TRUE;
@@ -57,7 +62,7 @@ PetscErrorCode SceneReadContact(SceneKeys keys, Scene scene)
   PetscCall(PetscCalloc1(scene->npairs, &scene->pairs));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     scene->pairs[p].name = names[p];
-    PetscCall(SceneReadPair(keys, &scene->pairs[p]));
+    PetscCall(SceneReadPair(keys, scene, &scene->pairs[p]));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);

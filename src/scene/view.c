@@ -97,6 +97,7 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
   else if (pair->interference > 0) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", interference: "));
     PetscCall(SceneViewReal(viewer, pair->interference));
+    if (pair->interference_ramp >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[pair->interference_ramp].name));
   }
   if (!pair->smooth) PetscCall(PetscViewerASCIIPrintf(viewer, ", smooth: false"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));

@@ -2,14 +2,22 @@
 #include "stepimpl.h"
 #include <math.h>
 
-static PetscErrorCode AttemptLinearizeGap(Simulation sim, Vec u, ContactLinearization *lin)
+/* Of the faces as they are */
+static PetscErrorCode AttemptLinearizeFaces(Simulation sim, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  *lin = NULL;
-  if (!sim->contact) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Contact, NULL, NULL, NULL, NULL));
   PetscCall(ContactLinearize(sim->contact, u, lin));
   PetscCall(PetscLogEventEnd(SIM_Contact, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* As a load step has it that ends at this time */
+static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
+{
+  PetscFunctionBegin;
+  PetscCall(AttemptLinearizeFaces(sim, u, lin));
+  PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
 
@@ -70,8 +78,9 @@ static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
    Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its own (as deep as a
    penalty lets it), they become sim->linearization.
 */
-static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
+static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
 {
+  Simulation           sim  = p->sim;
   ContactLinearization wide = NULL;
   PetscReal            moved, least = 0.0, allowed;
   Vec                  du, gap;
@@ -82,7 +91,7 @@ static PetscErrorCode AttemptFindMissed(Simulation sim, Vec u_linearized, Vec u,
   if (2.0 * moved > *reach) { /* both faces may have moved */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
-    PetscCall(AttemptLinearizeGap(sim, u_linearized, &wide));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, &wide));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
@@ -111,7 +120,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
-    if (report->converged) PetscCall(AttemptFindMissed(p->sim, u_linearized, u, sol->gap, &reach, &missed));
+    if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
   PetscFunctionReturn(0);
 }
@@ -134,8 +143,9 @@ static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepRepor
    A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a step that was
    too large left it deeper in the other body than the search looks. The second is no solution; the first is one only without it.
 */
-static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *slid)
+static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *slid)
 {
+  Simulation           sim = p->sim;
   ContactLinearization deep;
   PetscBool           *lost;
   PetscReal            distance, depth, moved, least = 0.0;
@@ -151,7 +161,7 @@ static PetscErrorCode AttemptFindLost(Simulation sim, Vec u_linearized, Vec u, C
     PetscCall(VecDestroy(&du));
     PetscCall(ContactGetReach(sim->contact, &distance, &depth));
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
-    PetscCall(AttemptLinearizeGap(sim, u, &deep));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, &deep));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
@@ -174,9 +184,10 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 }
 
 /* From u_linearized, whose gap u was found with, to where the gap is linearized next: at u, as at_u is, or short of it */
-static PetscErrorCode AttemptNextLinearization(Simulation sim, GapDamping *damping, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
+static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapDamping *damping, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
-  PetscBool damped;
+  Simulation sim = p->sim;
+  PetscBool  damped;
 
   PetscFunctionBegin;
   PetscCall(GapDampingAdvance(damping, report->gap_change, u, u_linearized, &damped));
@@ -185,7 +196,7 @@ static PetscErrorCode AttemptNextLinearization(Simulation sim, GapDamping *dampi
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
   if (damped) {
     PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(AttemptLinearizeGap(sim, u_linearized, at_u));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
   }
   sim->linearization = *at_u;
   *at_u              = NULL;
@@ -207,8 +218,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, Vec u_linearized, Vec u, StepR
   PetscCall(AttemptLinearized(p, (PetscBool)(report->contact_updates > 0), u_linearized, u, report, sol));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
-  PetscCall(AttemptLinearizeGap(sim, u, at_u));
-  PetscCall(AttemptFindLost(sim, u_linearized, u, *at_u, report, slid));
+  PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
+  PetscCall(AttemptFindLost(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
@@ -234,7 +245,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
       PetscCall(VecDuplicate(u, &u_linearized));
       PetscCall(VecCopy(sim->path.u, u_linearized));
     }
-    PetscCall(AttemptNextLinearization(sim, &damping, u, u_linearized, report, at_u));
+    PetscCall(AttemptNextLinearization(p, &damping, u, u_linearized, report, at_u));
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
   PetscCall(GapDampingDestroy(&damping));
@@ -275,7 +286,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   Vec                  u;
 
   PetscFunctionBegin;
-  if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeGap(sim, sim->path.u, &sim->upcoming));
+  if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeFaces(sim, sim->path.u, &sim->upcoming));
   if (sim->contact && sim->path.time == 0.0 && !report->cuts) {
     PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
     PetscCall(StartWarn(sim, sim->upcoming));
@@ -286,6 +297,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (sim->contact) {
     sim->linearization = sim->upcoming;
     sim->upcoming      = NULL;
+    PetscCall(InterferenceAdd(sim, time, 1.0, sim->linearization));
     PetscCall(AttemptContact(&p, u, report, &sol, &at_u));
   } else PetscCall(AttemptSolve(&p, PETSC_FALSE, u, report, &sol));
 
@@ -295,9 +307,13 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     sim->upcoming = at_u;
+    if (sim->contact) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
   } else if (sim->contact) {
     if (report->contact_updates) PetscCall(ContactLinearizationDestroy(&sim->linearization));
-    else sim->upcoming = sim->linearization;
+    else {
+      sim->upcoming = sim->linearization;
+      PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
+    }
     sim->linearization = good;
     PetscCall(ContactLinearizationDestroy(&at_u));
   }

@@ -116,7 +116,7 @@ struct _n_Simulation {
   ContactMemory        memory;
   PetscContainer       subspace;      /* what the optimizer keeps from one load step to the next; NULL before the first */
   ContactLinearization linearization; /* of the last solve */
-  ContactLinearization upcoming;      /* at path.u */
+  ContactLinearization upcoming;      /* at path.u, of the faces as they are */
   PetscReal           *pressure, *gap, *stress;
   PetscInt             npoints;
   ContactPoint        *points;
@@ -187,6 +187,9 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 {
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
+
+/* interference.c: overlaps that follow a ramp; gaps that wait for their load step are those of the faces as they are */
+PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
 /* flight.c */
 PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
