@@ -90,11 +90,13 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
   PetscFunctionReturn(0);
 }
 
-/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last */
-static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last)
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last. With bounds
+   alone also a few percent of b: those forces may be small against what the start had, and no direction at all would do. */
+static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
-  const PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
+  PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
 
+  if (!ip->mi) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
   return PetscMax(loose, last);
 }
 
@@ -103,8 +105,9 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last)
    continued to what convergence asks for. matrix tells that A is new. */
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal last   = ip->opt.forcing_last * ip->tol * ip->scale.dual;
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal last = ip->opt.forcing_last * ip->tol * ip->scale.dual;
+  PetscReal       norm;
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;
 
@@ -112,7 +115,10 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
   PetscCall(IPCondenseRHS(tao, rc, rhs));
   if (ip->me) PetscCall(IPAugmentedSolve(tao, rhs, ce, ip->dir.x, matrix, usable));
-  else PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, ForcingTarget(ip, last), usable));
+  else {
+    PetscCall(VecNorm(rhs, NORM_2, &norm));
+    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, ForcingTarget(ip, last, norm), usable));
+  }
   if (*usable) PetscCall(IPBackSubstitute(tao, rc));
   if (*usable && !ip->me && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {

@@ -61,6 +61,18 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
   PetscFunctionReturn(0);
 }
 
+/* Sizes at the point that the step has led to, in the place of those of a start that may have lain anywhere */
+static PetscErrorCode FreeMeasure(Tao tao)
+{
+  IPFirst *first = &((TAO_IPFILTER *)tao->data)->first;
+
+  PetscFunctionBegin;
+  first->f = ((TAO_IPFILTER *)tao->data)->at.f;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &first->x));
+  PetscFunctionReturn(0);
+}
+
 /* Moves x along the step, if that lowers the objective; *energy is the mean size of the step times that of the gradient there, per unknown */
 PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
 {
@@ -85,6 +97,7 @@ PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(FreeMeasure(tao));
   PetscCall(VecNorm(tao->gradient, NORM_1, &gradient));
   *energy = step * gradient / n;
   PetscFunctionReturn(0);
