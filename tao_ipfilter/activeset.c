@@ -101,11 +101,11 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
   PetscFunctionReturn(0);
 }
 
-/* H = T + V^T V, factored */
+/* H = T + V^T V, its diagonal raised by as little as a body needs that no active constraint holds; *factored is false where H is indefinite */
 static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
-  const PetscReal shift = 1e-14, one = 1.0;
-  PetscBLASInt    n, k, info;
+  const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
+  PetscBLASInt    n, k, info                      = 1;
 
   PetscFunctionBegin;
   *factored = PETSC_TRUE;
@@ -114,12 +114,14 @@ static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReduce
   PetscCall(PetscBLASIntCast(s->k, &k));
   PetscCall(PetscFree(set->H));
   PetscCall(PetscMalloc1(s->k * s->k, &set->H));
-  for (PetscInt j = 0; j < s->k; j++) {
-    for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax];
+  for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
+    for (PetscInt j = 0; j < s->k; j++) {
+      for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax];
+      set->H[j + j * s->k] += shift * s->G[j + j * s->kmax];
+    }
+    if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &k));
+    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &k, &info));
   }
-  if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &k));
-  for (PetscInt j = 0; j < s->k; j++) set->H[j + j * s->k] += shift * s->G[j + j * s->kmax];
-  PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &k, &info));
   *factored = (PetscBool)!info;
   PetscFunctionReturn(0);
 }

@@ -85,8 +85,10 @@ static PetscErrorCode FilteredCentre(Tao tao, const IPBasis *basis)
   PetscCall(VecCopy(ip->at.c, f->c));
   f->f = ip->at.f;
   if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, f->pg));
   PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -219,7 +221,7 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscB
   PetscFunctionReturn(0);
 }
 
-/* B r for a residual that is zero on W, made zero there; *definite is false where B is not */
+/* d = B r for a residual that is zero on W; *definite is false where B is not */
 static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -229,7 +231,6 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscCall(PetscLogEventBegin(TAO_IPFilterApply, tao, r, d, NULL));
   PetscCall(PCApply(pc, r, d));
   PetscCall(PetscLogEventEnd(TAO_IPFilterApply, tao, r, d, NULL));
-  PetscCall(VecISSet(d, ip->cond.filter, 0.0));
   PetscCall(IPFixedZero(tao, d));
   PetscCall(VecDot(r, d, &rd));
   *definite = (PetscBool)(PetscRealPart(rd) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(rd)));
@@ -258,6 +259,41 @@ static PetscErrorCode FilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
+/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual */
+static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal rounding = 1e-11;
+  PetscScalar     energy, size;
+  Vec             Kd;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
+  PetscCall(MatMult(tao->hessian, d, Kd));
+  PetscCall(VecDot(d, Kd, &energy));
+  PetscCall(VecPointwiseMult(Kd, d, ip->stiff.hdiag));
+  PetscCall(VecDot(d, Kd, &size));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
+  *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
+  PetscFunctionReturn(0);
+}
+
+/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a solve, and where it fails */
+static PetscErrorCode FilteredPrecondition(Tao tao, IPKept *kept, Vec r, Vec d, PetscBool *definite)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  PetscBool     singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
+  PetscCall(FilteredIsSingular(tao, d, &singular));
+  if (!singular) PetscFunctionReturn(0);
+  PetscCall(IPKeptHold(tao, kept, definite));
+  if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  PetscFunctionReturn(0);
+}
+
 /* A direction from the residual r = -ip->rx, zero on W */
 static PetscErrorCode FilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *extended)
 {
@@ -268,7 +304,8 @@ static PetscErrorCode FilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *ex
   PetscFunctionBegin;
   if (basis->n == basis->max) PetscCall(FilteredMakeRoom(tao, basis));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
-  PetscCall(FilteredApplyPC(tao, kept->pc, r, d, extended));
+  PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
+  PetscCall(VecISSet(d, ((TAO_IPFILTER *)tao->data)->cond.filter, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
     PetscCall(IPBasisAppend(basis, tao->hessian, d, extended));
@@ -277,16 +314,19 @@ static PetscErrorCode FilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *ex
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
   if (!*extended) PetscFunctionReturn(0);
   PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
-/* -ip->rx without its part on W. *exact is false where that part, or the violation of the constraints, is what the reduced problem should
-   have made vanish, but by rounding, or by a problem that is not quadratic, has not. */
+/* -ip->rx without its part on W. *exact is false where the reduced problem has left something that it should have made vanish, by rounding
+   or as the problem is not quadratic: that part, the violation of the constraints, or what holds up the rest for long. */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     all, off;
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt for_long = 8;
+  PetscReal      all, off;
 
   PetscFunctionBegin;
   PetscCall(VecAXPBY(r, -1.0, 0.0, ip->rx));
@@ -294,13 +334,14 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecISSet(r, ip->cond.filter, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all && PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
+  if (ip->filtered.nfutile && ip->filtered.nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
 /* Whether the KKT error still falls: by half in so many steps */
 static PetscBool FilteredProgresses(IPFiltered *f, PetscReal error)
 {
-  const PetscInt patience = 100;
+  const PetscInt patience = 60;
 
   f->nfutile++;
   if (error <= 0.5 * f->halved) {
@@ -348,6 +389,7 @@ static PetscErrorCode FilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *po
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedSetUp(&f->reduced, tao->hessian, ip->jac.inequality, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) {
     PetscCall(VecDuplicate(tao->solution, &f->centre));
     PetscCall(VecDuplicate(tao->solution, &f->gradient));
@@ -356,7 +398,6 @@ static PetscErrorCode FilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *po
     PetscCall(FilteredGuess(tao));
     PetscCall(FilteredCentre(tao, basis));
   }
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

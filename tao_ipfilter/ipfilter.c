@@ -108,7 +108,7 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               to the filter subspace
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
                                                               H_ii for some i; 0: always
-. -tao_ipfilter_subspace <false> (false,true,auto)          - the filtered subspace method, for quadratic programs whose
+. -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for quadratic programs whose
                                                               constraints touch few unknowns
 . -tao_ipfilter_subspace_max <80>                           - directions that it keeps, of two vectors each
 . -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with its inertia, from the start

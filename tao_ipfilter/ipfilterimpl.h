@@ -381,7 +381,8 @@ typedef struct {
 
 /* What a filtered subspace keeps from one solve to the next */
 typedef struct {
-  PC               pc; /* the Krylov method's, set up with K alone */
+  PC               pc;   /* the Krylov method's, set up with K alone, */
+  PetscBool        held; /* or with K + J^T D J, for bodies that only the constraints hold */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
@@ -656,6 +657,7 @@ PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Ve
 /* kept.c, beside the public functions */
 PETSC_INTERN PetscErrorCode IPKeptGet(Tao, IPKept **);
 PETSC_INTERN PetscErrorCode IPKeptReset(IPKept *);
+PETSC_INTERN PetscErrorCode IPKeptHold(Tao, IPKept *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPKeptUpdate(Tao, IPKept *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);

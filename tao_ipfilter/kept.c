@@ -9,6 +9,7 @@ PetscErrorCode IPKeptReset(IPKept *kept)
   PetscCall(PCDestroy(&kept->pc));
   PetscCall(IPBasisDestroy(&kept->basis));
   kept->K_id = 0;
+  kept->held = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -55,20 +56,18 @@ static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
   PetscFunctionReturn(0);
 }
 
-/* B: the Krylov method's preconditioner of K alone, without a filter. It then knows K by name only, so that a copy of it takes no memory. */
-static PetscErrorCode KeptSetUpPC(PC pc, Mat K, PetscBool *possible)
+/* B: the Krylov method's preconditioner of A without a filter. It then knows A as K, so that A takes no memory. */
+static PetscErrorCode KeptSetUpPC(IPKept *kept, Mat A, Mat K, PetscBool *possible)
 {
-  Mat            whole;
+  PC             pc = kept->pc, amg;
   PetscBool      amgf;
   PCFailedReason failed;
-  PC             amg;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (amgf) PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
-  PetscCall(KeptGetWhole(K, amgf, &whole));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
-  PetscCall(PCSetOperators(pc, whole, whole));
+  PetscCall(PCSetOperators(pc, A, A));
   PetscCall(PCSetUp(pc));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
   if (amgf) {
@@ -76,10 +75,45 @@ static PetscErrorCode KeptSetUpPC(PC pc, Mat K, PetscBool *possible)
     PetscCall(PCSetOperators(amg, K, K));
   }
   PetscCall(PCSetOperators(pc, K, K));
-  PetscCall(MatDestroy(&whole));
   PetscCall(PCGetFailedReason(pc, &failed));
   *possible = (PetscBool)!failed;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, possible, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)K)));
+  PetscFunctionReturn(0);
+}
+
+/* B of K alone */
+static PetscErrorCode KeptSetUpFree(IPKept *kept, Mat K, PetscBool *possible)
+{
+  PetscBool amgf;
+  Mat       whole;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
+  PetscCall(KeptGetWhole(K, amgf, &whole));
+  PetscCall(KeptSetUpPC(kept, whole, K, possible));
+  PetscCall(MatDestroy(&whole));
+  kept->held = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* B of K + J^T D J, D as stiff as the bodies are: for bodies that nothing but the constraints holds */
+PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
+{
+  TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscInt systems = ip->rec.nsystems, filtered = ip->rec.nfiltered;
+  Vec            D;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The Hessian is singular: its preconditioner is made with the constraints in it\n"));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(IPCondenseMatrix(tao, D));
+  ip->rec.nsystems  = systems; /* none of Newton's */
+  ip->rec.nfiltered = filtered;
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(KeptSetUpPC(kept, ip->cond.A, tao->hessian, possible));
+  PetscCall(MatDestroy(&ip->cond.A));
+  kept->held = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -102,7 +136,8 @@ PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
     PetscCall(IPBasisCreate(ip->opt.subspace_max, &kept->basis));
   }
   if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
-    PetscCall(KeptSetUpPC(pc, K, possible));
+    if (kept->held) PetscCall(IPKeptHold(tao, kept, possible));
+    else PetscCall(KeptSetUpFree(kept, K, possible));
     PetscCall(IPBasisMultiply(&kept->basis, K));
   }
   kept->K_id    = ((PetscObject)K)->id;
@@ -187,7 +222,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 . space - preconditioner and directions, owned by `tao`: reference it to have it outlive the solver
 
   Options Database Keys:
-+ -tao_ipfilter_subspace <false> (false,true,auto) - the filtered subspace method in place of the interior point method
++ -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
 - -tao_ipfilter_subspace_max <80>                  - directions that it keeps, two vectors each
 
   Level: advanced

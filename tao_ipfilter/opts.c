@@ -75,6 +75,7 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   opt->max_mu_later  = 1;
   opt->max_soc       = 4;
   opt->acceptable_it = 15;
+  opt->subspace      = IP_SUBSPACE_AUTO;
   opt->subspace_max  = 80;
   PetscFunctionReturn(0);
 }

@@ -132,25 +132,19 @@ static PetscErrorCode Solve(Tao tao, PetscReal *f, PetscInt *its, PetscInt *left
   PetscFunctionReturn(0);
 }
 
-/* Solution and multipliers of a solver against the interior point method's; the objectives' difference is of second order */
-static PetscErrorCode Compare(const char what[], Membrane *m, Tao tao, PetscInt *interior)
+/* Solution and forces of two solvers; the objectives' difference, relative, is of second order */
+static PetscErrorCode CompareSolutions(Membrane *m, Tao tao, Tao other, PetscReal objective)
 {
-  Vec                x, y, DI, DY, force;
-  Tao                other;
-  PetscReal          f, g, size, error;
-  PetscInt           left;
-  TaoConvergedReason reason, expected;
+  Vec       x, z, y, DI, DY, force;
+  PetscReal size, error;
 
   PetscFunctionBeginUser;
   PetscCall(TaoGetSolution(tao, &x));
+  PetscCall(TaoGetSolution(other, &z));
   PetscCall(VecDuplicate(x, &y));
+  PetscCall(VecCopy(z, y));
   PetscCall(VecDuplicate(x, &force));
-  PetscCall(CreateTao(m, y, "false", &other));
-  PetscCall(Solve(other, &g, interior, &left));
-  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, &reason));
-  PetscCall(TaoGetConvergedReason(other, &expected));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", what, reason == expected ? "the same end" : TaoConvergedReasons[reason]));
-  PetscCall(ProblemVerdict("  objective, relative", PetscAbsReal(f - g) / PetscAbsReal(g), 1e-8));
+  PetscCall(ProblemVerdict("  objective, relative", objective, 1e-8));
   PetscCall(VecNorm(y, NORM_INFINITY, &size));
   PetscCall(VecAXPY(y, -1.0, x));
   PetscCall(VecNorm(y, NORM_INFINITY, &error));
@@ -163,9 +157,31 @@ static PetscErrorCode Compare(const char what[], Membrane *m, Tao tao, PetscInt 
   PetscCall(VecAXPY(force, -1.0, y));
   PetscCall(VecNorm(force, NORM_INFINITY, &error));
   PetscCall(ProblemVerdict("  forces, relative", error / size, 1e-7));
-  PetscCall(TaoDestroy(&other));
   PetscCall(VecDestroy(&y));
   PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* A solver against the interior point method: its end and its solution */
+static PetscErrorCode Compare(const char what[], Membrane *m, Tao tao, PetscInt *interior)
+{
+  Vec                x, y;
+  Tao                other;
+  PetscReal          f, g;
+  PetscInt           left;
+  TaoConvergedReason reason, expected;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetSolution(tao, &x));
+  PetscCall(VecDuplicate(x, &y));
+  PetscCall(CreateTao(m, y, "false", &other));
+  PetscCall(Solve(other, &g, interior, &left));
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, &reason));
+  PetscCall(TaoGetConvergedReason(other, &expected));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", what, reason == expected ? "the same end" : TaoConvergedReasons[reason]));
+  PetscCall(CompareSolutions(m, tao, other, PetscAbsReal(f - g) / PetscAbsReal(g)));
+  PetscCall(TaoDestroy(&other));
+  PetscCall(VecDestroy(&y));
   PetscFunctionReturn(0);
 }
 
@@ -219,7 +235,7 @@ static PetscErrorCode TestKept(PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* One solve of a membrane, and whether the interior point method had to go on */
+/* One solve of a membrane, and whether the interior point method had to go on; negative: it may */
 static PetscErrorCode TestOne(const char what[], PetscInt n, Membrane *m, PetscInt leaves)
 {
   PetscReal f;
@@ -234,7 +250,7 @@ static PetscErrorCode TestOne(const char what[], PetscInt n, Membrane *m, PetscI
   PetscCall(CreateTao(m, x, "true", &tao));
   PetscCall(Solve(tao, &f, &its, &left));
   PetscCall(Compare(what, m, tao, &interior));
-  PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
+  if (leaves >= 0) PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(ProblemDestroy(&m->q));
@@ -252,7 +268,7 @@ int main(int argc, char **argv)
   PetscCall(TestKept(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 1));
-  PetscCall(TestOne("an indefinite Hessian", n, &indefinite, 1));
+  PetscCall(TestOne("an indefinite Hessian", n, &indefinite, -1));
   PetscCall(PetscFinalize());
   return 0;
 }

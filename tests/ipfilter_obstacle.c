@@ -339,6 +339,6 @@ int main(int argc, char **argv)
    test:
       suffix: compare
       nsize: {{1 2}}
-      args: -compare
+      args: -compare -tao_ipfilter_subspace false
 
 TEST*/
