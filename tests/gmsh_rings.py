@@ -1,6 +1,7 @@
 """Meshes and scenes for gmsh_rings.sh, two thick rings that overlap, and their exact answer: python gmsh_rings.py write|judge.
 
-Quarters of rings as a mesh file has them: hexahedra with 8, 20 or 27 nodes, those of second order on the true circles too.
+Quarters of rings as a mesh file has them: hexahedra with 8, 20 or 27 nodes, those of second order on the true circles too. And cones, rings
+whose radii shrink along the axis, which have no closed form: coarse against fine.
 """
 import sys
 
@@ -11,7 +12,7 @@ from summaries import load, say
 
 YOUNG, POISSON, HEIGHT, OVERLAP = 1000, 0.3, 1, 0.03
 RADII = {"inner": (20, 25.015), "outer": (24.985, 30)}
-AROUND, ACROSS = {"inner": 12, "outer": 15}, 2
+AROUND, ACROSS, ALONG = {"inner": 12, "outer": 15}, 2, {0: 1, -0.2: 2}  # cells; along the axis by the taper, change of radius over height
 
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
 EDGES = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 1, 0), (2, 0, 1), (1, 2, 0), (2, 2, 1), (0, 2, 1), (1, 0, 2), (0, 1, 2), (2, 1, 2), (1, 2, 2)]
@@ -22,9 +23,9 @@ QUADRILATERALS = {8: (3, 4), 20: (16, 8), 27: (10, 9)}
 SIDES = ("in", "out", "begin", "end", "low", "high")  # of the three directions: across, around, along
 
 
-def ring(name, nodes, number):
+def ring(name, nodes, taper, number):
     """Elements of a ring: (type, physical tag, dimension, nodes); number: of a node by its place on the grid of half cells"""
-    cells = (ACROSS, AROUND[name], 1)
+    cells = (ACROSS, AROUND[name], ALONG[taper])
     volume = 1 + list(RADII).index(name)
     kind, places = HEXAHEDRA[nodes]
     at = lambda *place: number.setdefault((name, *place), len(number) + 1)
@@ -41,19 +42,20 @@ def ring(name, nodes, number):
             yield kind, 10 * volume + side, 2, [at(*p) for p in place.tolist()]
 
 
-def place(name, i, j, k):
-    radius = RADII[name][0] + (RADII[name][1] - RADII[name][0]) * i / (2 * ACROSS)
+def place(taper, name, i, j, k):
+    height = HEIGHT * k / 2
+    radius = RADII[name][0] + (RADII[name][1] - RADII[name][0]) * i / (2 * ACROSS) + taper * height
     angle = np.pi / 2 * j / (2 * AROUND[name])
-    return radius * np.cos(angle), radius * np.sin(angle), HEIGHT * k / 2
+    return radius * np.cos(angle), radius * np.sin(angle), height
 
 
-def write_mesh(nodes, version):
+def write_mesh(file, nodes, version, taper=0):
     number = {}
-    elements = [element for name in RADII for element in ring(name, nodes, number)]
+    elements = [element for name in RADII for element in ring(name, nodes, taper, number)]
     names = [(3, 1 + v, name) for v, name in enumerate(RADII)] + [(2, 10 * (1 + v) + f, name + "_" + side) for v, name in enumerate(RADII) for f, side in enumerate(SIDES)]
     lines = ["$MeshFormat", "%g 0 8" % version, "$EndMeshFormat", "$PhysicalNames", str(len(names))]
     lines += ['%d %d "%s"' % name for name in names] + ["$EndPhysicalNames"]
-    nodes_at = ["%.16g %.16g %.16g" % place(*p) for p in number]
+    nodes_at = ["%.16g %.16g %.16g" % place(taper, *p) for p in number]
     if version < 4:
         lines += ["$Nodes", str(len(number))] + ["%d %s" % at for at in enumerate(nodes_at, 1)] + ["$EndNodes", "$Elements", str(len(elements))]
         lines += ["%d %d 2 %d %d %s" % (e, kind, tag, tag, " ".join(map(str, n))) for e, (kind, tag, _, n) in enumerate(elements, 1)] + ["$EndElements"]
@@ -71,8 +73,8 @@ def write_mesh(nodes, version):
                 e += 1
                 lines.append("%d %s" % (e, " ".join(map(str, n))))
         lines.append("$EndElements")
-    with open("rings_%d_%g.msh" % (nodes, version), "w") as file:
-        file.write("\n".join(lines) + "\n")
+    with open(file + ".msh", "w") as out:
+        out.write("\n".join(lines) + "\n")
 
 
 SCENE = """bodies:
@@ -94,9 +96,11 @@ def write_scene(name, mesh, curved):
 def write():
     for nodes in HEXAHEDRA:
         for version in (2.2, 4.1):
-            write_mesh(nodes, version)
+            write_mesh("rings_%d_%g" % (nodes, version), nodes, version)
             write_scene("rings_%d_%g" % (nodes, version), "rings_%d_%g" % (nodes, version), "true")
     write_scene("facets", "rings_20_2.2", "false")
+    write_mesh("cones", 8, 4.1, -0.2)
+    write_scene("cones", "cones", "true")
 
 
 def lame():
@@ -115,6 +119,15 @@ def stand_off(name):
     return np.minimum(abs(radius - RADII["inner"][1]), abs(radius - RADII["outer"][0])).max() / 25
 
 
+def fields(name):
+    """Places of the inner ring's vertices on the joint, and the pressures there"""
+    with h5py.File(name + ".h5") as mesh, h5py.File(name + "_0001.h5") as step:
+        x, inner = mesh["vertices"][...], np.zeros(len(mesh["vertices"]), bool)
+        inner[np.unique(mesh["cells"][...][mesh["body"][...].ravel() == 0])] = True
+        at = inner & ~np.isnan(step["contact_gap"][...])
+        return x[at], step["contact_pressure"][...][at]
+
+
 def judge():
     force = lambda name: load(name)["steps"][-1]["pairs"][0]["normal_force"]
     for nodes in HEXAHEDRA:
@@ -122,9 +135,18 @@ def judge():
         errors = [abs(force(name) / lame() - 1) for name in (coarse, fine)]
         say("%d nodes: refined twice, the vertices of the joint within 5e-6 of its circles" % nodes, stand_off(fine) <= 5e-6, stand_off(fine))
         say("%d nodes: the force within 0.5 %% of Lame; refined twice within 0.02 %%" % nodes, errors[0] <= 5e-3 and errors[1] <= 2e-4, errors)
-        other = abs(force("rings_%d_4.1_2" % nodes) / force(fine) - 1)
-        say("%d nodes: the same by format 4.1, on two ranks, to 1e-7" % nodes, other <= 1e-7, other)
-    say("curved: false keeps the facets, which interfere", force("facets") >= 1.1 * lame(), force("facets"))
+        other = abs(force("rings_%d_4.1_0" % nodes) / force(coarse) - 1)
+        say("%d nodes: the same by format 4.1, to 1e-7" % nodes, other <= 1e-7, other)
+    x, p = fields("cones_0")
+    rounds = [p[x[:, 2] == z] for z in np.unique(x[:, 2])]
+    off = [abs(around / around.mean() - 1).max() for around in rounds]
+    say("cones: around each circle the pressure at every vertex within 3 % of its mean", len(rounds) == 3 and max(off) <= 0.03, off)
+    say("cones: the force within 1 % of that refined twice", abs(force("cones_0") / force("cones_2") - 1) <= 0.01, (force("cones_0"), force("cones_2")))
+    energies = [load("cones_%d" % refine)["steps"][-1]["energy"] for refine in (0, 2)]
+    say("cones: the energy within 2 %", abs(energies[0] / energies[1] - 1) <= 0.02, energies)
+    ranks = abs(force("ranks") / force("rings_20_2.2_1") - 1)
+    say("the same on two ranks, to 1e-7", ranks <= 1e-7, ranks)
+    say("curved: false keeps the facets, which interfere", force("facets") >= 1.03 * lame(), force("facets"))
 
 
 write() if sys.argv[1] == "write" else judge()

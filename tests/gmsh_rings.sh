@@ -1,10 +1,16 @@
-# Rings from Gmsh files of first and second order, refined onto their circles: a shrink fit against Lame
+# Rings and cones from Gmsh files of first and second order, refined onto their circles: shrink fits against Lame, and against a fine mesh
 "$PYTHON" "$AMGF_DIR/tests/gmsh_rings.py" write
+run() { # scene, refinements
+  "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -refine "$2" -output "${1}_$2" -summary "${1}_$2.json" || echo "$1: exit code $?"
+}
 for nodes in 8 20 27; do
-  for refine in 0 2; do
-    "$AMGF_DIR/bin/contact" "rings_${nodes}_2.2.yaml" -quiet -refine $refine -output "rings_${nodes}_2.2_$refine" -summary "rings_${nodes}_2.2_$refine.json" || echo "$nodes: exit code $?"
-  done
-  mpiexec --oversubscribe -n 2 "$AMGF_DIR/bin/contact" "rings_${nodes}_4.1.yaml" -quiet -refine 2 -summary "rings_${nodes}_4.1_2.json" || echo "$nodes: exit code $?"
+  run "rings_${nodes}_2.2" 0
+  run "rings_${nodes}_2.2" 2
+  run "rings_${nodes}_4.1" 0
 done
-"$AMGF_DIR/bin/contact" facets.yaml -quiet -refine 2 -summary facets.json || echo "facets: exit code $?"
+run rings_20_2.2 1
+run cones 0
+run cones 2
+"$AMGF_DIR/bin/contact" facets.yaml -quiet -refine 1 -summary facets.json || echo "facets: exit code $?"
+mpiexec --oversubscribe -n 2 "$AMGF_DIR/bin/contact" rings_20_2.2.yaml -quiet -refine 1 -summary ranks.json || echo "ranks: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/gmsh_rings.py" judge

@@ -18,8 +18,8 @@ OPTIONS = {
     "beam_sphere_neo_hookean": ["-load_steps", 6],
 }
 
-LENGTHS = {"lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance"}
-FIELDS = {"displacement": (1, 0), "contact_gap": (1, 0), "contact_pressure": (0, 1), "stress": (0, 1)}  # powers of length and pressure
+LENGTHS = {"lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance", "interference"}
+FIELDS = {"displacement": (1, 0), "contact_gap": (1, 0), "contact_pressure": (0, 1), "contact_area": (2, 0), "contact_force": (2, 1), "stress": (0, 1)}  # powers of length and pressure
 TOLERANCE = 1e-9
 # Two runs agree to rounding only where they take the same steps: the inexact solver stops at other PCG iterations after another rounding,
 # MUMPS with a prescribed sequence of mu does not. This tolerance is tight enough: the last steps to a tighter one multiply rounding
