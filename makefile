@@ -66,8 +66,8 @@ demo: dependencies
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
 
-# STRESS=nlp: the nonlinear programs, which need IPOPT; else parts and options of tests/stress/run.py
-stress: $(if $(filter nlp,$(STRESS)),nlp,scene-stress)
+# STRESS=nlp: the nonlinear programs, STRESS=control: distributed control; both need IPOPT; else parts and options of tests/stress/run.py
+stress: $(or $(filter nlp control,$(STRESS)),scene-stress)
 
 scene-stress: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
@@ -97,7 +97,7 @@ help:
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
-	@echo '                       STRESS=nlp: 420 nonlinear programs beside IPOPT, 5 minutes, in tests/stress/nlp.md'
+	@echo '                       STRESS=nlp: 420 nonlinear programs beside IPOPT, 5 minutes, in tests/stress/nlp.md; STRESS=control: distributed control beside it, a minute'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'

@@ -17,7 +17,8 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscCall(VecDestroy(&c->shift));
   PetscCall(VecDestroy(&c->hdiag));
   PetscCall(ISDestroy(&c->filter));
-  PetscCall(PetscFree(c->rows));
+  PetscCall(PetscFree(c->touched));
+  PetscCall(IPRowsDestroy(&c->rows));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -28,18 +29,18 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
   PetscInt rstart, rend;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree(cond->rows));
+  PetscCall(PetscFree(cond->touched));
   PetscCall(MatGetOwnershipRange(cond->JtDJ, &rstart, &rend));
   for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) PetscCall(PetscMalloc1(cond->nrows, &cond->rows));
-    cond->nrows = 0;
+    if (pass) PetscCall(PetscMalloc1(cond->ntouched, &cond->touched));
+    cond->ntouched = 0;
     for (PetscInt i = rstart; i < rend; i++) {
       PetscInt nc;
 
       PetscCall(MatGetRow(cond->JtDJ, i, &nc, NULL, NULL));
       if (nc) {
-        if (pass) cond->rows[cond->nrows] = i;
-        cond->nrows++;
+        if (pass) cond->touched[cond->ntouched] = i;
+        cond->ntouched++;
       }
       PetscCall(MatRestoreRow(cond->JtDJ, i, &nc, NULL, NULL));
     }
@@ -48,23 +49,35 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
 }
 
 /* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
-static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
+static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
 {
-  IPCondensed      *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  const IPJacobian *jac  = &((TAO_IPFILTER *)tao->data)->jac;
+  const IPRows *rows = &cond->rows;
 
   PetscFunctionBegin;
-  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != jac->pattern_state || cond->J_id != jac->pattern_id);
+  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != rows->stamp.pattern_state || cond->J_id != rows->stamp.pattern_id);
   if (*changed) {
     PetscCall(MatDestroy(&cond->DJ));
     PetscCall(MatDestroy(&cond->JtDJ));
-    PetscCall(MatDuplicate(jac->inequality, MAT_COPY_VALUES, &cond->DJ));
-    cond->J_nonzero = jac->pattern_state;
-    cond->J_id      = jac->pattern_id;
-  } else PetscCall(MatCopy(jac->inequality, cond->DJ, SAME_NONZERO_PATTERN));
-  PetscCall(MatDiagonalScale(cond->DJ, D, NULL));
-  PetscCall(MatTransposeMatMult(jac->inequality, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
+    PetscCall(MatDuplicate(rows->J, MAT_COPY_VALUES, &cond->DJ));
+    cond->J_nonzero = rows->stamp.pattern_state;
+    cond->J_id      = rows->stamp.pattern_id;
+  } else PetscCall(MatCopy(rows->J, cond->DJ, SAME_NONZERO_PATTERN));
+  PetscCall(MatDiagonalScale(cond->DJ, rows->D, NULL));
+  PetscCall(MatTransposeMatMult(rows->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
   if (*changed) PetscCall(TouchedRows(cond));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the product where no rows are condensed any longer */
+static PetscErrorCode DropProduct(IPCondensed *cond)
+{
+  PetscFunctionBegin;
+  if (!cond->JtDJ) PetscFunctionReturn(0);
+  PetscCall(MatDestroy(&cond->DJ));
+  PetscCall(MatDestroy(&cond->JtDJ));
+  PetscCall(MatDestroy(&cond->A));
+  PetscCall(ISDestroy(&cond->filter));
+  cond->ntouched = 0;
   PetscFunctionReturn(0);
 }
 
@@ -104,7 +117,7 @@ static PetscErrorCode WriteDiagonal(Tao tao)
 /* Whether nothing is ever added to H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
 }
 
 /* A = H itself */
@@ -121,7 +134,7 @@ static PetscErrorCode TakeHessian(Tao tao)
 }
 
 /* A = H + Sigma + J^T D J + delta M_u, writing no more than has changed since the last one */
-static PetscErrorCode WriteSum(Tao tao, Vec D)
+static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
   IPCondensed     *cond = &ip->cond;
@@ -132,8 +145,8 @@ static PetscErrorCode WriteSum(Tao tao, Vec D)
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)H, &state));
   PetscCall(MatGetNonzeroState(H, &nonzero));
-  if (ip->mi) {
-    PetscCall(UpdateProduct(tao, D, &pattern));
+  if (cond->rows.J) {
+    PetscCall(UpdateProduct(cond, &pattern));
     PetscCall(IPSubspaceUpdate(tao));
     PetscCall(IPSubspaceSwitch(tao));
   }
@@ -156,7 +169,7 @@ static PetscErrorCode WriteSum(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Assembles A for the given D */
+/* Assembles A for the given D of the inequality constraints */
 PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -164,8 +177,10 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
   ip->rec.nsystems++;
+  PetscCall(IPRowsUpdate(tao, D));
+  if (!ip->cond.rows.J) PetscCall(DropProduct(&ip->cond));
   if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
-  else PetscCall(WriteSum(tao, D));
+  else PetscCall(WriteSum(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
   PetscFunctionReturn(0);
 }

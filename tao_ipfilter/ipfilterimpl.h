@@ -14,8 +14,8 @@
 
      problem  log, work, pairs, iterate, fixed, bounds, rowscale, jacobian, evaluate, difference
      measure  stiffness, scale, kkt
-     system   assemble, subspace, condense
-     linear   residual, krylov, direct, linsolve, augmented
+     system   rows, assemble, subspace, condense
+     linear   residual, krylov, direct, linsolve, augmented, proximal, equality
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
@@ -52,6 +52,11 @@ typedef enum {
   IP_SCALING_PROBLEM,
   IP_SCALING_NONE
 } IPScaling;
+typedef enum {
+  IP_EQUALITY_AUTO,
+  IP_EQUALITY_AUGMENTED,
+  IP_EQUALITY_CONDENSED
+} IPEqualityMethod;
 
 /* What the user may choose; the names are those of the options in opts.c */
 typedef struct {
@@ -76,6 +81,9 @@ typedef struct {
   PetscReal     bound_push, unbounded_factor;
   PetscReal     direct_memory;
   PetscBool     direct_always;
+
+  IPEqualityMethod equality;
+  PetscReal        proximal;
 } IPOptions;
 
 /* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
@@ -133,14 +141,18 @@ typedef struct {
   PetscReal norm; /* largest entry of x */
 } IPDirection;
 
+/* Where a matrix came from: two stamps alike have the same */
+typedef struct {
+  PetscObjectId    value_id; /* which matrix, */
+  PetscObjectState value_state;
+  PetscObjectId    pattern_id; /* and which pattern */
+  PetscObjectState pattern_state;
+} IPStamp;
+
 /* The constraints' Jacobians as the iteration sees them: rows scaled, columns of fixed variables zeroed */
 typedef struct {
-  Mat              inequality; /* AIJ */
-  Mat              equality;
-  PetscObjectId    user_id;    /* the caller's inequality Jacobian that this one came from, */
-  PetscObjectState user_state; /* with these values */
-  PetscObjectId    pattern_id; /* which pattern: two stamps alike have the same */
-  PetscObjectState pattern_state;
+  Mat     inequality, equality;             /* AIJ */
+  IPStamp inequality_stamp, equality_stamp; /* of the caller's matrices */
 } IPJacobian;
 
 /* Scales of the rows of c_I and c_E; NULL: 1 */
@@ -184,8 +196,18 @@ typedef struct {
   PetscReal inf_pr, inf_du;                /* largest absolute entries of the primal and the dual residual */
 } IPKKT;
 
+/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too */
+typedef struct {
+  Mat     J; /* NULL: none */
+  Vec     D; /* their weights */
+  IPStamp stamp;
+  IPStamp source[2]; /* of the Jacobians that one of both was made from */
+  Vec     inequality, equality; /* weights of either kind */
+} IPRows;
+
 /* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
 typedef struct {
+  IPRows           rows;
   Mat              A;
   Mat              DJ, JtDJ;           /* D J, J^T D J */
   Vec              shift;              /* Sigma + delta M_u, the diagonal added to H */
@@ -197,8 +219,8 @@ typedef struct {
   PetscObjectState J_nonzero;          /* with which pattern */
   PetscObjectId    filter_id;          /* which Jacobian the filter came from, */
   PetscObjectState filter_state;       /* with which values */
-  PetscInt         nrows;              /* rows of this rank touched by J^T D J */
-  PetscInt        *rows;
+  PetscInt         ntouched;           /* rows of this rank touched by J^T D J */
+  PetscInt        *touched;
   IS               filter; /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
@@ -240,9 +262,17 @@ typedef struct {
   Mat       shift;      /* -delta I */
   PetscReal delta;      /* of restoration steps, or regularization of dependent constraints: */
   PetscBool centered;   /* about the present multipliers, instead of zero */
-  PetscInt  relaxation; /* per cent of work space that MUMPS has needed beyond its estimate; 0: its own choice */
+  PetscInt  relaxation; /* per cent of work space beyond MUMPS's estimate, and */
+  PetscReal pivot;      /* relative threshold of its pivots: what the last factorization came to; 0: none yet */
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
+
+/* Equality constraints whose rows touch few unknowns: condensed with the others, their multipliers found by proximal updates */
+typedef struct {
+  PetscBool condensed; /* in this solve, until they turn out not to be fit for it */
+  PetscInt  nupdates;  /* of the multipliers beyond the first of each solve */
+  PetscInt  ntouched;  /* unknowns that they touch */
+} IPProximal;
 
 /* The multiple delta of M_u that is added to the Hessian */
 typedef struct {
@@ -325,6 +355,7 @@ typedef struct {
   IPLinear      lin;
   IPDirect      direct;
   IPAugmented   aug;
+  IPProximal    prox;
   IPShift       shift;
   PetscReal     mu;
   IPBarrier     bar;
@@ -421,6 +452,7 @@ PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
 /* ---- measure ---- */
 
 /* stiffness.c */
+PETSC_INTERN PetscErrorCode IPCompliances(Tao, Mat, Vec);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
@@ -434,11 +466,16 @@ PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
 /* ---- system ---- */
 
+/* rows.c */
+PETSC_INTERN PetscErrorCode IPRowsUpdate(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPRowsDestroy(IPRows *);
+
 /* assemble.c */
 PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 
 /* subspace.c */
+PETSC_INTERN PetscErrorCode IPSubspaceOf(Tao, Mat, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, IS *);
@@ -469,8 +506,18 @@ PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal target, Petsc
 
 /* augmented.c */
 PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscBool *usable);
-PETSC_INTERN PetscErrorCode IPEstimateMultipliers(Tao);
+PETSC_INTERN PetscErrorCode IPAugmentedMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
+
+/* proximal.c */
+PETSC_INTERN PetscErrorCode IPProximalSolve(Tao, Vec, Vec, Vec, PetscReal target, PetscBool *usable, PetscBool *exact);
+PETSC_INTERN PetscErrorCode IPProximalRestore(Tao, Vec, Vec, Vec, PetscBool *usable);
+
+/* equality.c */
+PETSC_INTERN PetscErrorCode IPEqualityChoose(Tao);
+PETSC_INTERN PetscErrorCode IPEqualitySolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscReal target, PetscBool *usable);
+PETSC_INTERN PetscErrorCode IPEqualityRestore(Tao, Vec, Vec, Vec, PetscBool *usable);
+PETSC_INTERN PetscErrorCode IPEqualityMultipliers(Tao);
 
 /* ---- step ---- */
 
@@ -537,7 +584,7 @@ PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
 /* ---- type ---- */
 
 /* opts.c */
-PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[];
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[], *const IPEqualityMethods[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 

@@ -44,39 +44,41 @@ static PetscErrorCode JacobianTakeAIJ(Mat user, Mat *J)
   PetscFunctionReturn(0);
 }
 
-/* Takes over the equality Jacobian at tao->solution */
-PetscErrorCode IPJacobianEquality(Tao tao)
+/* Takes over a Jacobian of the caller's, unless it is as it was. The stamp of its pattern is the caller's matrix's, or that of what it was
+   converted to: a conversion may drop zeros, so that the pattern follows the values. */
+static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *taken, IPStamp *stamp)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Mat           J;
+  PetscObjectState state;
+  Mat              J;
 
   PetscFunctionBegin;
-  PetscCall(MatDestroy(&ip->jac.equality));
-  PetscCall(JacobianTakeAIJ(tao->jacobian_equality, &J));
-  PetscCall(JacobianScale(tao, J, ip->rows.equality, &ip->jac.equality));
+  PetscCall(PetscObjectStateGet((PetscObject)user, &state));
+  if (*taken && state == stamp->value_state && stamp->value_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
+  PetscCall(MatDestroy(taken));
+  PetscCall(JacobianTakeAIJ(user, &J));
+  stamp->value_state = state;
+  stamp->value_id    = ((PetscObject)user)->id;
+  stamp->pattern_id  = ((PetscObject)J)->id;
+  PetscCall(MatGetNonzeroState(J, &stamp->pattern_state));
+  PetscCall(JacobianScale(tao, J, scale, taken));
   PetscCall(MatDestroy(&J));
   PetscFunctionReturn(0);
 }
 
-/* Takes over the inequality Jacobian, unless it is as it was. The stamp of its pattern is the caller's matrix's, or that of what it was
-   converted to: a conversion may drop zeros, so that the pattern follows the values. */
-PetscErrorCode IPJacobianInequality(Tao tao)
+PetscErrorCode IPJacobianEquality(Tao tao)
 {
-  TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
-  IPJacobian      *jac  = &ip->jac;
-  Mat              user = tao->jacobian_inequality, J;
-  PetscObjectState state;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectStateGet((PetscObject)user, &state));
-  if (jac->inequality && state == jac->user_state && jac->user_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
-  PetscCall(MatDestroy(&jac->inequality));
-  PetscCall(JacobianTakeAIJ(user, &J));
-  jac->user_state = state;
-  jac->user_id    = ((PetscObject)user)->id;
-  jac->pattern_id = ((PetscObject)J)->id;
-  PetscCall(MatGetNonzeroState(J, &jac->pattern_state));
-  PetscCall(JacobianScale(tao, J, ip->rows.inequality, &jac->inequality));
-  PetscCall(MatDestroy(&J));
+  PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.equality, &ip->jac.equality_stamp));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPJacobianInequality(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, ip->rows.inequality, &ip->jac.inequality, &ip->jac.inequality_stamp));
   PetscFunctionReturn(0);
 }

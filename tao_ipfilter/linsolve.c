@@ -40,7 +40,7 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
-  *done = (PetscBool)(pc && ip->mi && !ip->lin.filtered);
+  *done = (PetscBool)(pc && ip->cond.filter && !ip->lin.filtered);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
   ip->lin.filter_forced = ip->lin.filtered = PETSC_TRUE;
@@ -61,7 +61,7 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
   *done = PETSC_FALSE;
-  if (!pc || !ip->mi || !ip->lin.filtered) PetscFunctionReturn(0);
+  if (!pc || !ip->cond.filter || !ip->lin.filtered) PetscFunctionReturn(0);
   PetscCall(IPSubspaceGrow(tao, &wide));
   PetscCall(ISGetSize(ip->cond.filter, &before));
   PetscCall(ISGetSize(wide, &after));

@@ -39,7 +39,7 @@ static PetscErrorCode ScaleRows(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPRowScaleSetUp(tao, &scaled));
   if (!scaled) PetscFunctionReturn(0);
-  if (ip->rows.inequality) PetscCall(ForgetSystem(tao));
+  PetscCall(ForgetSystem(tao));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
@@ -249,6 +249,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
   PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPEqualityChoose(tao));
   PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);

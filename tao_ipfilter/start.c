@@ -156,7 +156,7 @@ PetscErrorCode IPStartPoint(Tao tao)
     ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
   }
   PetscCall(IPBoundsCenter(tao));
-  if (ip->me) PetscCall(IPEstimateMultipliers(tao));
+  if (ip->me) PetscCall(IPEqualityMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -13,6 +13,8 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt.start], IPBarrierRules[ip->opt.barrier], IPForcings[ip->opt.forcing], IPKKTMeasures[ip->opt.measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
+  if (ip->me && ip->prox.condensed) PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", condensed, with %" PetscInt_FMT " proximal updates\n", ip->me, ip->prox.nupdates));
+  else if (ip->me) PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", in the augmented system\n", ip->me));
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g (tolerance %g), unscaled %g; mu %g\n", (double)ip->kkt.error, (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n", ip->rec.nsystems, ip->rec.nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer, "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n", (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
