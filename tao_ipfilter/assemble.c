@@ -273,15 +273,15 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
 PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  Mat          H    = tao->hessian;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
   MatNullSpace near;
   PetscBool    unfolds = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(HessianUnfolds(tao, H, &unfolds));
   if (unfolds && values) {
-    PetscCall(MatConvert(tao->hessian, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
-    PetscCall(MatGetNearNullSpace(tao->hessian, &near));
+    PetscCall(MatConvert(((TAO_IPFILTER *)tao->data)->hess.H, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
+    PetscCall(MatGetNearNullSpace(((TAO_IPFILTER *)tao->data)->hess.H, &near));
     if (near) PetscCall(MatSetNearNullSpace(H, near));
   } else PetscCall(PetscObjectReference((PetscObject)H));
   if (pattern) {

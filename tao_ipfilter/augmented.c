@@ -70,36 +70,13 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* Whether two matrices of one layout have the same nonzeros, on all ranks */
-static PetscErrorCode AugmentedSamePattern(Mat A, Mat B, PetscBool *same)
-{
-  PetscInt rstart, rend;
-
-  PetscFunctionBegin;
-  *same = PETSC_TRUE;
-  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
-  for (PetscInt i = rstart; i < rend && *same; i++) {
-    PetscInt        na, nb;
-    const PetscInt *a, *b;
-
-    PetscCall(MatGetRow(A, i, &na, &a, NULL));
-    PetscCall(MatGetRow(B, i, &nb, &b, NULL));
-    *same = (PetscBool)(na == nb);
-    if (*same) PetscCall(PetscArraycmp(a, b, na, same));
-    PetscCall(MatRestoreRow(B, i, &nb, &b, NULL));
-    PetscCall(MatRestoreRow(A, i, &na, &a, NULL));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)A)));
-  PetscFunctionReturn(0);
-}
-
 /* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else the matrix itself */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (aug->K) PetscCall(AugmentedSamePattern(aug->K, *K, &same));
+  if (aug->K) PetscCall(IPMatrixSamePattern(aug->K, *K, &same));
   if (same) {
     PetscCall(MatCopy(*K, aug->K, SAME_NONZERO_PATTERN));
     PetscCall(MatDestroy(K));
@@ -277,7 +254,7 @@ static PetscErrorCode AugmentedRefine(Tao tao)
   IPAugmented    *aug   = &ip->aug;
   const PetscInt  limit = 3;
   const PetscReal exact = 1e-12, needless = 0.01 * ip->tol * PetscMin(ip->scale.dual, ip->scale.equality);
-  PetscReal       rhs, before = PETSC_INFINITY;
+  PetscReal       rhs, before             = PETSC_INFINITY;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
@@ -336,9 +313,9 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 /* K sol = rhs, refined; factored again with a larger threshold of pivots where that leaves too much */
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  IPAugmented    *aug    = &ip->aug;
-  const PetscReal safe   = 1e-2, coarse = 1e-6;
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug  = &ip->aug;
+  const PetscReal safe = 1e-2, coarse = 1e-6;
   PCFailedReason  failed = PC_NOERROR;
   PetscBool       again  = PETSC_FALSE;
 

@@ -81,31 +81,45 @@ static PetscErrorCode DropProduct(IPCondensed *cond)
   PetscFunctionReturn(0);
 }
 
-/* Diagonal of A: that of H plus Sigma of the bounds plus delta M_u. A second shift of zero restores H's diagonal. */
-static PetscErrorCode WriteDiagonal(Tao tao)
+/* Sigma of the bounds plus delta M_u; *shifted: it is not zero */
+static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
 {
-  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed       *cond = &ip->cond;
-  const PetscScalar *d;
-  PetscInt           rstart, rend;
-  PetscBool          shifted = (PetscBool)(ip->shift.delta > 0.0);
-  Vec                sigma;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed  *cond = &ip->cond;
+  Vec           sigma;
 
   PetscFunctionBegin;
+  if (!cond->shift) {
+    PetscCall(VecDuplicate(tao->solution, &cond->shift));
+    PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
+  }
+  *shifted = (PetscBool)(ip->shift.delta > 0.0);
   PetscCall(VecSet(cond->shift, 0.0));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sigma));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(IPPairGetSigma(&ip->pair[b], sigma));
     PetscCall(VecAXPY(cond->shift, 1.0, sigma));
-    shifted = PETSC_TRUE;
+    *shifted = PETSC_TRUE;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sigma));
   if (ip->shift.delta > 0.0 && ip->given.primal_mass) PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
   else if (ip->shift.delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift.delta));
+  PetscFunctionReturn(0);
+}
+
+/* Diagonal of A: that of H plus the shift. A second shift of zero restores H's diagonal. */
+static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed       *cond = &ip->cond;
+  const PetscScalar *d;
+  PetscInt           rstart, rend;
+
+  PetscFunctionBegin;
   if (!shifted && !cond->shifted) PetscFunctionReturn(0);
   cond->shifted = shifted;
-  PetscCall(MatGetDiagonal(tao->hessian, cond->hdiag));
+  PetscCall(MatGetDiagonal(ip->hess.H, cond->hdiag));
   PetscCall(VecAXPY(cond->hdiag, 1.0, cond->shift));
   PetscCall(MatGetOwnershipRange(cond->A, &rstart, &rend));
   PetscCall(VecGetArrayRead(cond->hdiag, &d));
@@ -124,11 +138,12 @@ static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 static PetscErrorCode TakeHessian(Tao tao)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectReference((PetscObject)tao->hessian));
+  PetscCall(PetscObjectReference((PetscObject)H));
   PetscCall(MatDestroy(&cond->A));
-  cond->A       = tao->hessian;
+  cond->A       = H;
   cond->H_state = 0;
   PetscFunctionReturn(0);
 }
@@ -138,9 +153,9 @@ static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
   IPCondensed     *cond = &ip->cond;
-  Mat              H    = tao->hessian;
+  Mat              H    = ip->hess.H;
   PetscObjectState state, nonzero;
-  PetscBool        pattern = PETSC_FALSE, values;
+  PetscBool        pattern = PETSC_FALSE, values, shifted;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)H, &state));
@@ -152,20 +167,30 @@ static PetscErrorCode WriteSum(Tao tao)
   }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
   values  = (PetscBool)(pattern || state != cond->H_state);
-  if (!cond->shift) {
-    PetscCall(VecDuplicate(tao->solution, &cond->shift));
-    PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
-  }
+  PetscCall(UpdateShift(tao, &shifted));
   cond->H_state   = state;
   cond->H_nonzero = nonzero;
   cond->H_id      = ((PetscObject)H)->id;
   PetscCall(IPCondensedWriteHessian(tao, pattern, values));
-  PetscCall(WriteDiagonal(tao));
+  PetscCall(WriteDiagonal(tao, shifted));
   if (cond->JtDJ) PetscCall(IPCondensedAddProduct(cond));
   PetscCall(MatAssemblyBegin(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(IPFixedMatrix(tao, cond->A));
   if (cond->filter) PetscCall(PetscObjectCompose((PetscObject)cond->A, PCAMGF_FILTER_KEY, (PetscObject)cond->filter));
+  PetscFunctionReturn(0);
+}
+
+/* A of a Hessian that gives products alone */
+static PetscErrorCode WriteOperator(Tao tao)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+
+  PetscFunctionBegin;
+  PetscCall(UpdateShift(tao, &cond->shifted));
+  PetscCall(IPHessianDiagonal(tao, cond->hdiag));
+  PetscCall(VecAXPY(cond->hdiag, 1.0, cond->shift));
+  PetscCall(IPOperatorUpdate(tao));
   PetscFunctionReturn(0);
 }
 
@@ -175,13 +200,14 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
   ip->rec.nsystems++;
   PetscCall(IPRowsUpdate(tao, D));
   if (!ip->cond.rows.J) PetscCall(DropProduct(&ip->cond));
-  if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
+  if (ip->hess.products) PetscCall(WriteOperator(tao));
+  else if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
   else PetscCall(WriteSum(tao));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

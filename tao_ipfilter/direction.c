@@ -10,7 +10,7 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscRe
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
-  PetscCall(MatMult(tao->hessian, d, Wd));
+  PetscCall(MatMult(ip->hess.H, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
   PetscCall(VecDot(d, d, &dd));
   if (ip->cond.shifted) {

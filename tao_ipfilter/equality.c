@@ -11,7 +11,7 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.1;
   const PetscInt  many     = 1000;
-  PetscInt        n;
+  PetscInt        n, ntouched;
   PC              pc;
   IS              touched;
 
@@ -22,9 +22,9 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   *fits = (PetscBool)(*fits && !ip->opt.direct_always && n >= many);
   if (!*fits) PetscFunctionReturn(0);
   PetscCall(IPSubspaceOf(tao, ip->jac.equality, &touched));
-  PetscCall(ISGetSize(touched, &ip->prox.ntouched));
+  PetscCall(ISGetSize(touched, &ntouched));
   PetscCall(ISDestroy(&touched));
-  *fits = (PetscBool)(ip->prox.ntouched <= fraction * n);
+  *fits = (PetscBool)(ntouched <= fraction * n);
   PetscFunctionReturn(0);
 }
 
@@ -48,7 +48,7 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 
   PetscFunctionBegin;
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, possible));
-  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && ip->lin.reason != KSP_DIVERGED_NANORINF);
+  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && !ip->hess.products && ip->lin.reason != KSP_DIVERGED_NANORINF);
   if (!*possible) PetscFunctionReturn(0);
   ip->prox.condensed = PETSC_FALSE;
   ip->rec.fallbacks.direct++;

@@ -12,9 +12,9 @@
 
    The files, each calling none but those above it in this list:
 
-     problem  log, work, pairs, iterate, fixed, bounds, rowscale, jacobian, evaluate, difference
+     problem  log, work, pairs, iterate, fixed, bounds, rowscale, matrices, jacobian, hessian, evaluate, difference
      measure  stiffness, scale, kkt
-     system   rows, assemble, subspace, condense
+     system   rows, operator, assemble, subspace, condense
      linear   residual, krylov, direct, linsolve, augmented, proximal, equality
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
@@ -152,8 +152,16 @@ typedef struct {
 /* The constraints' Jacobians as the iteration sees them: rows scaled, columns of fixed variables zeroed */
 typedef struct {
   Mat     inequality, equality;             /* AIJ */
-  IPStamp inequality_stamp, equality_stamp; /* of the caller's matrices */
+  IPStamp inequality_stamp, equality_stamp; /* of the caller's matrices, or of */
+  Mat     converted[2];                     /* what they were converted to */
 } IPJacobian;
+
+/* The Hessian as the iteration sees it */
+typedef struct {
+  Mat       H;
+  Mat       converted; /* to AIJ from a type that is not worked with */
+  PetscBool products;  /* it gives products alone, and so does the condensed matrix */
+} IPHessian;
 
 /* Scales of the rows of c_I and c_E; NULL: 1 */
 typedef struct {
@@ -201,7 +209,7 @@ typedef struct {
   Mat     J; /* NULL: none */
   Vec     D; /* their weights */
   IPStamp stamp;
-  IPStamp source[2]; /* of the Jacobians that one of both was made from */
+  IPStamp source[2];            /* of the Jacobians that one of both was made from */
   Vec     inequality, equality; /* weights of either kind */
 } IPRows;
 
@@ -250,9 +258,10 @@ typedef struct {
 
 /* The condensed matrix factored by MUMPS, where the Krylov method fails */
 typedef struct {
-  Mat      A, F;     /* the matrix as MUMPS takes it, and its factors */
-  PetscInt system;   /* which condensed matrix that was, by rec.nsystems */
-  PetscInt negative; /* its negative pivots */
+  Mat      A, F;       /* the matrix as MUMPS takes it, and its factors */
+  PetscInt system;     /* which condensed matrix that was, by rec.nsystems */
+  PetscInt relaxation; /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
+  PetscInt negative;   /* its negative pivots */
 } IPDirect;
 
 /* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
@@ -271,7 +280,6 @@ typedef struct {
 typedef struct {
   PetscBool condensed; /* in this solve, until they turn out not to be fit for it */
   PetscInt  nupdates;  /* of the multipliers beyond the first of each solve */
-  PetscInt  ntouched;  /* unknowns that they touch */
 } IPProximal;
 
 /* The multiple delta of M_u that is added to the Hessian */
@@ -343,6 +351,7 @@ typedef struct {
   IS            fixed;  /* variables of this rank with equal bounds; NULL if no rank has one */
   IPRowScale    rows;
   IPJacobian    jac;
+  IPHessian     hess;
   IPPair        pair[IP_NPAIRS];
   IPIterate     at, best, trial; /* at.x is tao->solution; at.s and at.z are the pairs'; best: smallest KKT error */
   IPDirection   dir;
@@ -436,10 +445,21 @@ PETSC_INTERN PetscErrorCode IPRowScaleReset(Tao, PetscBool *changed);
 PETSC_INTERN PetscErrorCode IPRowScalePair(Tao, Vec, Vec, PetscBool back);
 PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
 
+/* matrices.c */
+PETSC_INTERN PetscErrorCode IPMatrixHasEntries(Mat, PetscBool *);
+PETSC_INTERN PetscErrorCode IPMatrixSamePattern(Mat, Mat, PetscBool *);
+PETSC_INTERN PetscErrorCode IPMatrixConvert(Mat, Mat *);
+PETSC_INTERN PetscErrorCode IPMatricesCheck(Tao, PetscBool *changed);
+
 /* jacobian.c */
 PETSC_INTERN PetscErrorCode IPJacobianEquality(Tao);
 PETSC_INTERN PetscErrorCode IPJacobianInequality(Tao);
 PETSC_INTERN PetscErrorCode IPJacobianDestroy(IPJacobian *);
+
+/* hessian.c */
+PETSC_INTERN PetscErrorCode IPHessianEvaluate(Tao);
+PETSC_INTERN PetscErrorCode IPHessianDiagonal(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPHessianDestroy(IPHessian *);
 
 /* evaluate.c */
 PETSC_INTERN PetscErrorCode IPEvaluateConstraints(Tao, Vec, Vec, Vec);
@@ -469,6 +489,9 @@ PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 /* rows.c */
 PETSC_INTERN PetscErrorCode IPRowsUpdate(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPRowsDestroy(IPRows *);
+
+/* operator.c */
+PETSC_INTERN PetscErrorCode IPOperatorUpdate(Tao);
 
 /* assemble.c */
 PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);

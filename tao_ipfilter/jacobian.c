@@ -6,6 +6,8 @@ PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&jac->inequality));
   PetscCall(MatDestroy(&jac->equality));
+  PetscCall(MatDestroy(&jac->converted[0]));
+  PetscCall(MatDestroy(&jac->converted[1]));
   PetscCall(PetscMemzero(jac, sizeof(*jac)));
   PetscFunctionReturn(0);
 }
@@ -30,38 +32,27 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian as AIJ: itself, or converted */
-static PetscErrorCode JacobianTakeAIJ(Mat user, Mat *J)
+/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or of products does not tell whether it
+   is, nor does its conversion have a pattern of its own: zeros may be dropped. */
+static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
 {
-  PetscBool aij;
+  PetscObjectState state;
+  PetscBool        aij;
+  Mat              J = user;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  if (aij) {
-    PetscCall(PetscObjectReference((PetscObject)user));
-    *J = user;
-  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, J));
-  PetscFunctionReturn(0);
-}
-
-/* Takes over a Jacobian of the caller's, unless it is as it was. The stamp of its pattern is the caller's matrix's, or that of what it was
-   converted to: a conversion may drop zeros, so that the pattern follows the values. */
-static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *taken, IPStamp *stamp)
-{
-  PetscObjectState state;
-  Mat              J;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectStateGet((PetscObject)user, &state));
-  if (*taken && state == stamp->value_state && stamp->value_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
+  if (!aij) {
+    PetscCall(IPMatrixConvert(user, converted));
+    J = *converted;
+  }
+  PetscCall(PetscObjectStateGet((PetscObject)J, &state));
+  if (*taken && state == stamp->value_state && stamp->value_id == ((PetscObject)J)->id) PetscFunctionReturn(0);
   PetscCall(MatDestroy(taken));
-  PetscCall(JacobianTakeAIJ(user, &J));
   stamp->value_state = state;
-  stamp->value_id    = ((PetscObject)user)->id;
-  stamp->pattern_id  = ((PetscObject)J)->id;
+  stamp->value_id = stamp->pattern_id = ((PetscObject)J)->id;
   PetscCall(MatGetNonzeroState(J, &stamp->pattern_state));
   PetscCall(JacobianScale(tao, J, scale, taken));
-  PetscCall(MatDestroy(&J));
   PetscFunctionReturn(0);
 }
 
@@ -70,7 +61,7 @@ PetscErrorCode IPJacobianEquality(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.equality, &ip->jac.equality_stamp));
+  PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality, &ip->jac.equality_stamp));
   PetscFunctionReturn(0);
 }
 
@@ -79,6 +70,6 @@ PetscErrorCode IPJacobianInequality(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(JacobianTake(tao, tao->jacobian_inequality, ip->rows.inequality, &ip->jac.inequality, &ip->jac.inequality_stamp));
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, ip->rows.inequality, &ip->jac.converted[0], &ip->jac.inequality, &ip->jac.inequality_stamp));
   PetscFunctionReturn(0);
 }

@@ -128,7 +128,8 @@ static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
   PetscReal     norm;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
+  if (ip->hess.products) PetscCall(VecNorm(ip->cond.hdiag, NORM_2, &norm));
+  else PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
   *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin.rhs));
   if (!*sound) PetscCall(IPResidualNotANumber(tao));
   PetscFunctionReturn(0);

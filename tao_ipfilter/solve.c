@@ -222,7 +222,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   tao->ksp_its = 0;
   PetscCall(IPRelax(tao));
   PetscCall(IPBarrierUpdate(tao));
-  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
@@ -247,7 +247,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPSetMultipliers(tao));
   PetscCall(IPTestFirstPoint(tao));
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
-  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCall(IPStartPoint(tao));
@@ -274,10 +274,12 @@ static PetscErrorCode EndSolve(Tao tao)
 PetscErrorCode TaoSolve_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscBool     finite;
+  PetscBool     finite, other_operator;
 
   PetscFunctionBegin;
   PetscCall(IPSetUpSizes(tao));
+  PetscCall(IPMatricesCheck(tao, &other_operator));
+  if (other_operator) PetscCall(ForgetSystem(tao));
   ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));

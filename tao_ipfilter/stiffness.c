@@ -95,7 +95,7 @@ PetscErrorCode IPStiffnessUpdate(Tao tao)
   Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
 
   PetscFunctionBegin;
-  PetscCall(MatGetDiagonal(tao->hessian, hdiag));
+  PetscCall(IPHessianDiagonal(tao, hdiag));
   PetscCall(VecAbs(hdiag));
   PetscFunctionReturn(0);
 }

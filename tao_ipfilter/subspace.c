@@ -49,11 +49,11 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
 /* The filter of the present Jacobian. The IS stays while its entries do, so that PCAMGF knows it again. */
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
-  TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed     *cond = &ip->cond;
-  const IPRows    *rows = &cond->rows;
-  PetscBool        same = PETSC_FALSE;
-  IS               filter;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed  *cond = &ip->cond;
+  const IPRows *rows = &cond->rows;
+  PetscBool     same = PETSC_FALSE;
+  IS            filter;
 
   PetscFunctionBegin;
   if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state) PetscFunctionReturn(0);
@@ -132,7 +132,7 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hessian));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &product));
-  PetscCall(MatGetDiagonal(tao->hessian, hessian));
+  PetscCall(MatGetDiagonal(ip->hess.H, hessian));
   PetscCall(MatGetDiagonal(cond->JtDJ, product));
   PetscCall(VecGetOwnershipRange(hessian, &rstart, NULL));
   PetscCall(VecGetArrayRead(hessian, &h));
