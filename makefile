@@ -66,8 +66,9 @@ demo: dependencies
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
 
-# STRESS=nlp, STRESS=grid: nonlinear programs, and obstacle problems on a grid, which need IPOPT; else parts and options of tests/stress/run.py
-stress: $(or $(filter nlp grid,$(STRESS)),scene-stress)
+# STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which need IPOPT; else parts and
+# options of tests/stress/run.py
+stress: $(or $(filter nlp grid control,$(STRESS)),scene-stress)
 
 scene-stress: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
@@ -99,6 +100,7 @@ help:
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
 	@echo '                       STRESS=nlp: 420 nonlinear programs beside IPOPT, 5 minutes, in tests/stress/nlp.md'
 	@echo '                       STRESS=grid: obstacle problems to 1000 x 1000 unknowns beside TRON and IPOPT, an hour, in tests/stress/grid.md'
+	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'

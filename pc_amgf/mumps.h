@@ -39,6 +39,19 @@ static inline PetscErrorCode AMGFMumpsSetIcntl(Mat F, PetscInt icntl, PetscInt v
   PetscFunctionReturn(0);
 }
 
+static inline PetscErrorCode AMGFMumpsSetCntl(Mat F, PetscInt cntl, PetscReal value)
+{
+  PetscFunctionBegin;
+#if defined(AMGF_HAVE_MUMPS)
+  PetscCall(MatMumpsSetCntl(F, cntl, value));
+#else
+  (void)F;
+  (void)cntl;
+  (void)value;
+#endif
+  PetscFunctionReturn(0);
+}
+
 /* Without MUMPS nothing was factored, and 0 is what it would say of that */
 static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *value)
 {

@@ -16,7 +16,7 @@ linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
-.PHONY: debug sanitize memcheck tidy fuzz nlp grid
+.PHONY: debug sanitize memcheck tidy fuzz nlp grid control
 
 debug:
 	@$(call linked_tree,build/debug)
@@ -80,3 +80,15 @@ grid: all
 	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/ipfilter_grid.c -o build/grid/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
 	gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(shell pkg-config --cflags ipopt) tests/stress/grid_ipopt.c -o build/grid/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/grid.py --folder build/grid $(GRID)
+
+# Distributed control beside IPOPT, with and without a bound of the state, and ties between two blocks: objective, steps and seconds of CPU
+control: all
+	@mkdir -p build/nlp
+	@$(MAKE) --no-print-directory -f tests/makefile $(addprefix build/tests/tests/ipfilter_,control tie)
+	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) -c tests/stress/control_ipopt.c -o build/nlp/control.o
+	gcc build/nlp/control.o -o build/nlp/control $(shell pkg-config --libs ipopt) -lm
+	@for n in 128 256; do for bound in '' 0.05; do \
+	  echo "$$n x $$n, state below $${bound:-infinity}: TAOIPFILTER, IPOPT"; \
+	  build/tests/tests/ipfilter_control -n $$n $${bound:+-state_max $$bound} && build/nlp/control $$n 1e-4 $$bound || exit 1; \
+	done; done
+	build/tests/tests/ipfilter_tie -nx 26 -nz 50

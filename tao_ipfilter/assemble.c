@@ -261,9 +261,9 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
   if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
-  for (PetscInt r = 0; r < cond->nrows; r++) {
-    if (unfolds) PetscCall(SetRowMirrored(cond->A, H, cond->rows[r]));
-    else PetscCall(SetRow(cond->A, H, cond->rows[r], INSERT_VALUES));
+  for (PetscInt r = 0; r < cond->ntouched; r++) {
+    if (unfolds) PetscCall(SetRowMirrored(cond->A, H, cond->touched[r]));
+    else PetscCall(SetRow(cond->A, H, cond->touched[r], INSERT_VALUES));
   }
   if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
   PetscFunctionReturn(0);
@@ -273,15 +273,15 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
 PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  Mat          H    = tao->hessian;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
   MatNullSpace near;
   PetscBool    unfolds = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(HessianUnfolds(tao, H, &unfolds));
   if (unfolds && values) {
-    PetscCall(MatConvert(tao->hessian, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
-    PetscCall(MatGetNearNullSpace(tao->hessian, &near));
+    PetscCall(MatConvert(((TAO_IPFILTER *)tao->data)->hess.H, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
+    PetscCall(MatGetNearNullSpace(((TAO_IPFILTER *)tao->data)->hess.H, &near));
     if (near) PetscCall(MatSetNearNullSpace(H, near));
   } else PetscCall(PetscObjectReference((PetscObject)H));
   if (pattern) {
@@ -289,7 +289,7 @@ PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool val
     PetscCall(CondensedCreate(H, cond->JtDJ, &cond->A));
     cond->shifted = PETSC_FALSE;
   }
-  if (cond->JtDJ) PetscCall(CondensedZeroTouched(cond->A, cond->JtDJ, cond->nrows, cond->rows));
+  if (cond->JtDJ) PetscCall(CondensedZeroTouched(cond->A, cond->JtDJ, cond->ntouched, cond->touched));
   if (values) PetscCall(CondensedCopyHessian(cond->A, H));
   else PetscCall(CondensedRestoreTouched(cond, H, unfolds));
   PetscCall(MatDestroy(&H));
@@ -302,6 +302,6 @@ PetscErrorCode IPCondensedAddProduct(IPCondensed *cond)
   PetscFunctionBegin;
   PetscCall(MatAssemblyBegin(cond->A, MAT_FLUSH_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FLUSH_ASSEMBLY));
-  for (PetscInt r = 0; r < cond->nrows; r++) PetscCall(SetRow(cond->A, cond->JtDJ, cond->rows[r], ADD_VALUES));
+  for (PetscInt r = 0; r < cond->ntouched; r++) PetscCall(SetRow(cond->A, cond->JtDJ, cond->touched[r], ADD_VALUES));
   PetscFunctionReturn(0);
 }

@@ -70,36 +70,13 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* Whether two matrices of one layout have the same nonzeros, on all ranks */
-static PetscErrorCode AugmentedSamePattern(Mat A, Mat B, PetscBool *same)
-{
-  PetscInt rstart, rend;
-
-  PetscFunctionBegin;
-  *same = PETSC_TRUE;
-  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
-  for (PetscInt i = rstart; i < rend && *same; i++) {
-    PetscInt        na, nb;
-    const PetscInt *a, *b;
-
-    PetscCall(MatGetRow(A, i, &na, &a, NULL));
-    PetscCall(MatGetRow(B, i, &nb, &b, NULL));
-    *same = (PetscBool)(na == nb);
-    if (*same) PetscCall(PetscArraycmp(a, b, na, same));
-    PetscCall(MatRestoreRow(B, i, &nb, &b, NULL));
-    PetscCall(MatRestoreRow(A, i, &na, &a, NULL));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)A)));
-  PetscFunctionReturn(0);
-}
-
 /* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else the matrix itself */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (aug->K) PetscCall(AugmentedSamePattern(aug->K, *K, &same));
+  if (aug->K) PetscCall(IPMatrixSamePattern(aug->K, *K, &same));
   if (same) {
     PetscCall(MatCopy(*K, aug->K, SAME_NONZERO_PATTERN));
     PetscCall(MatDestroy(K));
@@ -143,23 +120,49 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* One factorization; the percentage of work space beyond MUMPS's estimate is what the last ones have come to, 0: its own choice */
+/* Set-up of the KSP, with an ordering unless the user has chosen one: PETSc takes that of MUMPS from the options data base alone */
+static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
+{
+  PetscOptions options;
+  const char  *prefix;
+  char         name[PETSC_MAX_OPTION_NAME];
+  PetscBool    given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetOptions((PetscObject)ksp, &options));
+  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "-%smat_mumps_icntl_7", prefix));
+  PetscCall(PetscOptionsHasName(options, NULL, name, &given));
+  if (!given) PetscCall(PetscOptionsSetValue(options, name, "2"));
+  PetscCall(KSPSetUp(ksp));
+  if (!given) PetscCall(PetscOptionsClearValue(options, name));
+  PetscFunctionReturn(0);
+}
+
+/*
+  One factorization. Approximate minimum fill: where there is no METIS, MUMPS's own choice is PORD, whose analysis of the blocks of zeros takes longer than
+  some factorizations, and gains little in them. Pivots are taken by as small a threshold as IPOPT's: rows that wait for a better one cost work space.
+*/
 static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
-  PC  pc;
-  Mat F;
+  PC          pc;
+  Mat         F;
+  const char *prefix;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored anew, be it with more work space alone */
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(MatSetOptionsPrefixFactor(aug->K, prefix)); /* as PCSetUp() does, too late for a factor that is made before */
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatFactorClearError(F));
-  PetscCall(AMGFMumpsSetIcntl(F, 6, 0));  /* nothing of the analysis is to depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* nothing of the analysis is to depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
   PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
-  if (aug->relaxation) PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
-  PetscCall(KSPSetUp(aug->ksp));
+  PetscCall(AMGFMumpsSetCntl(F, 1, aug->pivot));
+  PetscCall(AugmentedSetUpOrdered(aug->ksp));
   PetscCall(PCGetFailedReason(pc, failed));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
   PetscFunctionReturn(0);
@@ -168,12 +171,16 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
 /* Factors, with more work space each time that MUMPS finds it too small */
 static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
 {
-  const PetscInt limit = 320; /* per cent of work space beyond the estimate */
+  const PetscInt  first = 100, limit = 1600; /* per cent of work space beyond the estimate */
+  const PetscReal pivot = 1e-6;
 
   PetscFunctionBegin;
+  if (!aug->relaxation) aug->relaxation = first;
+  if (aug->pivot == 0.0) aug->pivot = pivot;
   PetscCall(AugmentedFactorOnce(aug, failed));
   while (*failed == PC_FACTOR_OUTMEMORY && aug->relaxation < limit) {
-    aug->relaxation = aug->relaxation ? 2 * aug->relaxation : 40;
+    aug->relaxation *= 2;
+    PetscCall(KSPReset(aug->ksp)); /* PETSc takes an error of MUMPS for one of its analysis from then on */
     PetscCall(AugmentedFactorOnce(aug, failed));
   }
   /* a factorization that failed is not to be reused */
@@ -239,14 +246,15 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual */
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of the right-hand side, or of what
+   convergence asks for */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   IPAugmented    *aug   = &ip->aug;
   const PetscInt  limit = 3;
-  const PetscReal exact = 1e-14;
-  PetscReal       rhs, before = PETSC_INFINITY;
+  const PetscReal exact = 1e-12, needless = 0.01 * ip->tol * PetscMin(ip->scale.dual, ip->scale.equality);
+  PetscReal       rhs, before             = PETSC_INFINITY;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
@@ -258,7 +266,7 @@ static PetscErrorCode AugmentedRefine(Tao tao)
       PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
       ip->lin.norm = before;
     }
-    if (!(ip->lin.norm > exact * rhs) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
+    if (!(ip->lin.norm > PetscMax(exact * rhs, needless)) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
     before = ip->lin.norm;
     PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
     PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
@@ -302,13 +310,36 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscFunctionReturn(0);
 }
 
+/* K sol = rhs, refined; factored again with a larger threshold of pivots where that leaves too much */
+static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug  = &ip->aug;
+  const PetscReal safe = 1e-2, coarse = 1e-6;
+  PCFailedReason  failed = PC_NOERROR;
+  PetscBool       again  = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  do {
+    if (again) PetscCall(AugmentedFactorWithin(aug, &failed));
+    if (failed == PC_NOERROR) {
+      PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
+      PetscCall(KSPGetConvergedReason(aug->ksp, &ip->lin.reason));
+    } else ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+    *usable = (PetscBool)(ip->lin.reason > 0);
+    if (*usable) PetscCall(AugmentedRefine(tao));
+    again = (PetscBool)(*usable && aug->pivot < safe && ip->lin.backward_error > coarse);
+    if (again) aug->pivot = safe;
+  } while (again);
+  PetscFunctionReturn(0);
+}
+
 /* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is left of it at a solution */
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
-  TAO_IPFILTER      *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented       *aug = &ip->aug;
-  Vec                negative;
-  KSPConvergedReason reason;
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug = &ip->aug;
+  Vec           negative;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &negative));
@@ -316,11 +347,7 @@ static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom
   if (aug->centered) PetscCall(VecAXPY(negative, -aug->delta, ip->at.y));
   PetscCall(AugmentedJoin(aug->rhs, b, negative, PETSC_FALSE));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &negative));
-  PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
-  PetscCall(KSPGetConvergedReason(aug->ksp, &reason));
-  ip->lin.reason = reason;
-  *usable        = (PetscBool)(reason > 0);
-  if (*usable) PetscCall(AugmentedRefine(tao));
+  PetscCall(AugmentedSolveRefined(tao, usable));
   PetscCall(AugmentedJoin(aug->sol, top, bottom, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
@@ -347,16 +374,13 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscFunctionReturn(0);
 }
 
-/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0). Zero where the gradients
-   of the constraints are so nearly dependent that it would be huge (Waechter and Biegler 2006, section 3.6). */
-PetscErrorCode IPEstimateMultipliers(Tao tao)
+/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); zero where that is singular */
+PetscErrorCode IPAugmentedMultipliers(Tao tao)
 {
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal huge = 1e3; /* times the gradient */
-  Mat             identity;
-  PetscBool       inertia, singular;
-  PetscReal       y, g, j;
-  PetscInt        n, N;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Mat           identity;
+  PetscBool     inertia, singular;
+  PetscInt      n, N;
 
   PetscFunctionBegin;
   PetscCall(AugmentedCreate(tao));
@@ -375,9 +399,5 @@ PetscErrorCode IPEstimateMultipliers(Tao tao)
   PetscCall(AugmentedJoin(ip->aug.rhs, ip->rx, ip->at.y, PETSC_FALSE));
   PetscCall(KSPSolve(ip->aug.ksp, ip->aug.rhs, ip->aug.sol));
   PetscCall(AugmentedJoin(ip->aug.sol, ip->rx, ip->at.y, PETSC_TRUE));
-  PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &y));
-  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &g));
-  PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &j));
-  if (!(y * j <= huge * g)) PetscCall(VecSet(ip->at.y, 0.0));
   PetscFunctionReturn(0);
 }

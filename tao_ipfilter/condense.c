@@ -17,7 +17,8 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscCall(VecDestroy(&c->shift));
   PetscCall(VecDestroy(&c->hdiag));
   PetscCall(ISDestroy(&c->filter));
-  PetscCall(PetscFree(c->rows));
+  PetscCall(PetscFree(c->touched));
+  PetscCall(IPRowsDestroy(&c->rows));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -28,18 +29,18 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
   PetscInt rstart, rend;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree(cond->rows));
+  PetscCall(PetscFree(cond->touched));
   PetscCall(MatGetOwnershipRange(cond->JtDJ, &rstart, &rend));
   for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) PetscCall(PetscMalloc1(cond->nrows, &cond->rows));
-    cond->nrows = 0;
+    if (pass) PetscCall(PetscMalloc1(cond->ntouched, &cond->touched));
+    cond->ntouched = 0;
     for (PetscInt i = rstart; i < rend; i++) {
       PetscInt nc;
 
       PetscCall(MatGetRow(cond->JtDJ, i, &nc, NULL, NULL));
       if (nc) {
-        if (pass) cond->rows[cond->nrows] = i;
-        cond->nrows++;
+        if (pass) cond->touched[cond->ntouched] = i;
+        cond->ntouched++;
       }
       PetscCall(MatRestoreRow(cond->JtDJ, i, &nc, NULL, NULL));
     }
@@ -48,51 +49,77 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
 }
 
 /* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
-static PetscErrorCode UpdateProduct(Tao tao, Vec D, PetscBool *changed)
+static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
 {
-  IPCondensed      *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  const IPJacobian *jac  = &((TAO_IPFILTER *)tao->data)->jac;
+  const IPRows *rows = &cond->rows;
 
   PetscFunctionBegin;
-  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != jac->pattern_state || cond->J_id != jac->pattern_id);
+  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != rows->stamp.pattern_state || cond->J_id != rows->stamp.pattern_id);
   if (*changed) {
     PetscCall(MatDestroy(&cond->DJ));
     PetscCall(MatDestroy(&cond->JtDJ));
-    PetscCall(MatDuplicate(jac->inequality, MAT_COPY_VALUES, &cond->DJ));
-    cond->J_nonzero = jac->pattern_state;
-    cond->J_id      = jac->pattern_id;
-  } else PetscCall(MatCopy(jac->inequality, cond->DJ, SAME_NONZERO_PATTERN));
-  PetscCall(MatDiagonalScale(cond->DJ, D, NULL));
-  PetscCall(MatTransposeMatMult(jac->inequality, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
+    PetscCall(MatDuplicate(rows->J, MAT_COPY_VALUES, &cond->DJ));
+    cond->J_nonzero = rows->stamp.pattern_state;
+    cond->J_id      = rows->stamp.pattern_id;
+  } else PetscCall(MatCopy(rows->J, cond->DJ, SAME_NONZERO_PATTERN));
+  PetscCall(MatDiagonalScale(cond->DJ, rows->D, NULL));
+  PetscCall(MatTransposeMatMult(rows->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
   if (*changed) PetscCall(TouchedRows(cond));
   PetscFunctionReturn(0);
 }
 
-/* Diagonal of A: that of H plus Sigma of the bounds plus delta M_u. A second shift of zero restores H's diagonal. */
-static PetscErrorCode WriteDiagonal(Tao tao)
+/* Forgets the product where no rows are condensed any longer */
+static PetscErrorCode DropProduct(IPCondensed *cond)
 {
-  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed       *cond = &ip->cond;
-  const PetscScalar *d;
-  PetscInt           rstart, rend;
-  PetscBool          shifted = (PetscBool)(ip->shift.delta > 0.0);
-  Vec                sigma;
+  PetscFunctionBegin;
+  if (!cond->JtDJ) PetscFunctionReturn(0);
+  PetscCall(MatDestroy(&cond->DJ));
+  PetscCall(MatDestroy(&cond->JtDJ));
+  PetscCall(MatDestroy(&cond->A));
+  PetscCall(ISDestroy(&cond->filter));
+  cond->ntouched = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Sigma of the bounds plus delta M_u; *shifted: it is not zero */
+static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed  *cond = &ip->cond;
+  Vec           sigma;
 
   PetscFunctionBegin;
+  if (!cond->shift) {
+    PetscCall(VecDuplicate(tao->solution, &cond->shift));
+    PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
+  }
+  *shifted = (PetscBool)(ip->shift.delta > 0.0);
   PetscCall(VecSet(cond->shift, 0.0));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sigma));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(IPPairGetSigma(&ip->pair[b], sigma));
     PetscCall(VecAXPY(cond->shift, 1.0, sigma));
-    shifted = PETSC_TRUE;
+    *shifted = PETSC_TRUE;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sigma));
   if (ip->shift.delta > 0.0 && ip->given.primal_mass) PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
   else if (ip->shift.delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift.delta));
+  PetscFunctionReturn(0);
+}
+
+/* Diagonal of A: that of H plus the shift. A second shift of zero restores H's diagonal. */
+static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed       *cond = &ip->cond;
+  const PetscScalar *d;
+  PetscInt           rstart, rend;
+
+  PetscFunctionBegin;
   if (!shifted && !cond->shifted) PetscFunctionReturn(0);
   cond->shifted = shifted;
-  PetscCall(MatGetDiagonal(tao->hessian, cond->hdiag));
+  PetscCall(MatGetDiagonal(ip->hess.H, cond->hdiag));
   PetscCall(VecAXPY(cond->hdiag, 1.0, cond->shift));
   PetscCall(MatGetOwnershipRange(cond->A, &rstart, &rend));
   PetscCall(VecGetArrayRead(cond->hdiag, &d));
@@ -104,50 +131,48 @@ static PetscErrorCode WriteDiagonal(Tao tao)
 /* Whether nothing is ever added to H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
 }
 
 /* A = H itself */
 static PetscErrorCode TakeHessian(Tao tao)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectReference((PetscObject)tao->hessian));
+  PetscCall(PetscObjectReference((PetscObject)H));
   PetscCall(MatDestroy(&cond->A));
-  cond->A       = tao->hessian;
+  cond->A       = H;
   cond->H_state = 0;
   PetscFunctionReturn(0);
 }
 
 /* A = H + Sigma + J^T D J + delta M_u, writing no more than has changed since the last one */
-static PetscErrorCode WriteSum(Tao tao, Vec D)
+static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
   IPCondensed     *cond = &ip->cond;
-  Mat              H    = tao->hessian;
+  Mat              H    = ip->hess.H;
   PetscObjectState state, nonzero;
-  PetscBool        pattern = PETSC_FALSE, values;
+  PetscBool        pattern = PETSC_FALSE, values, shifted;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)H, &state));
   PetscCall(MatGetNonzeroState(H, &nonzero));
-  if (ip->mi) {
-    PetscCall(UpdateProduct(tao, D, &pattern));
+  if (cond->rows.J) {
+    PetscCall(UpdateProduct(cond, &pattern));
     PetscCall(IPSubspaceUpdate(tao));
     PetscCall(IPSubspaceSwitch(tao));
   }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
   values  = (PetscBool)(pattern || state != cond->H_state);
-  if (!cond->shift) {
-    PetscCall(VecDuplicate(tao->solution, &cond->shift));
-    PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
-  }
+  PetscCall(UpdateShift(tao, &shifted));
   cond->H_state   = state;
   cond->H_nonzero = nonzero;
   cond->H_id      = ((PetscObject)H)->id;
   PetscCall(IPCondensedWriteHessian(tao, pattern, values));
-  PetscCall(WriteDiagonal(tao));
+  PetscCall(WriteDiagonal(tao, shifted));
   if (cond->JtDJ) PetscCall(IPCondensedAddProduct(cond));
   PetscCall(MatAssemblyBegin(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FINAL_ASSEMBLY));
@@ -156,17 +181,33 @@ static PetscErrorCode WriteSum(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Assembles A for the given D */
+/* A of a Hessian that gives products alone */
+static PetscErrorCode WriteOperator(Tao tao)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+
+  PetscFunctionBegin;
+  PetscCall(UpdateShift(tao, &cond->shifted));
+  PetscCall(IPHessianDiagonal(tao, cond->hdiag));
+  PetscCall(VecAXPY(cond->hdiag, 1.0, cond->shift));
+  PetscCall(IPOperatorUpdate(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Assembles A for the given D of the inequality constraints */
 PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
   ip->rec.nsystems++;
-  if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
-  else PetscCall(WriteSum(tao, D));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, tao->hessian, NULL, NULL));
+  PetscCall(IPRowsUpdate(tao, D));
+  if (!ip->cond.rows.J) PetscCall(DropProduct(&ip->cond));
+  if (ip->hess.products) PetscCall(WriteOperator(tao));
+  else if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
+  else PetscCall(WriteSum(tao));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

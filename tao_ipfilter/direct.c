@@ -79,27 +79,32 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 /* Factors the present matrix unless it is; *factored is false where it cannot be, for which the record then has a reason */
 static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
 {
-  TAO_IPFILTER  *ip         = (TAO_IPFILTER *)tao->data;
-  IPDirect      *direct     = &ip->direct;
-  PetscInt       relaxation = 20;
-  const PetscInt limit      = 320;
-  PetscReal      memory     = 0.0;
-  MatFactorError error      = MAT_FACTOR_OUTMEMORY;
+  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct = &ip->direct;
+  const PetscInt first = 20, limit = 320; /* per cent of work space beyond the estimate */
+  PetscReal      memory = 0.0;
+  MatFactorError error  = MAT_FACTOR_OUTMEMORY;
   MatFactorInfo  info;
 
   PetscFunctionBegin;
   *factored = *singular = PETSC_FALSE;
   PetscCall(IPDirectDestroy(direct));
   PetscCall(MatFactorInfoInitialize(&info));
+  if (ip->hess.products) {
+    PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor", sizeof(ip->lin.why)));
+    PetscFunctionReturn(0);
+  }
   PetscCall(DirectLeastMemory(ip->cond.A, &memory));
   if (memory <= ip->opt.direct_memory) PetscCall(DirectTakeMatrix(ip->cond.A, &direct->A));
   if (memory <= ip->opt.direct_memory && !direct->A) {
     PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
     PetscFunctionReturn(0);
   }
-  /* more work space each time that MUMPS finds its own estimate too small */
-  for (; error == MAT_FACTOR_OUTMEMORY && relaxation <= limit; relaxation *= 2) {
-    if (memory <= ip->opt.direct_memory) PetscCall(DirectAnalyse(tao, relaxation, &memory));
+  /* more work space each time that MUMPS finds its own estimate too small; the next matrix begins with what this one came to */
+  if (!direct->relaxation) direct->relaxation = first;
+  for (PetscBool again = PETSC_FALSE; error == MAT_FACTOR_OUTMEMORY && (!again || direct->relaxation < limit); again = PETSC_TRUE) {
+    if (again) direct->relaxation *= 2;
+    if (memory <= ip->opt.direct_memory) PetscCall(DirectAnalyse(tao, direct->relaxation, &memory));
     if (memory > ip->opt.direct_memory) {
       PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
       break;

@@ -10,7 +10,7 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscRe
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
-  PetscCall(MatMult(tao->hessian, d, Wd));
+  PetscCall(MatMult(ip->hess.H, d, Wd));
   PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
   PetscCall(VecDot(d, d, &dd));
@@ -49,7 +49,23 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* d^T W d + max(lambda+^T M (c - s), 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
+/* Adds max(-y+^T c_E, 0): what a step towards the constraints takes from d^T W d */
+static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           y;
+  PetscScalar   force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &y));
+  PetscCall(VecWAXPY(y, 1.0, ip->at.y, ip->dir.y));
+  PetscCall(VecDot(y, ip->at.ce, &force));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
+  *curvature += PetscMax(-PetscRealPart(force), 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
    slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A step that rounding makes of x has no
    curvature to speak of. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
@@ -65,6 +81,7 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
   if (*passes) PetscFunctionReturn(0);
   PetscCall(CurvatureOfUnknowns(tao, &curvature, &square));
   if (ip->mi) PetscCall(CurvatureAddSlacks(tao, &curvature, &square));
+  if (ip->me) PetscCall(CurvatureAddEqualities(tao, &curvature));
   *passes = (PetscBool)(curvature >= kappa * square);
   if (!*passes) PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature, (double)(kappa * square)));
   PetscFunctionReturn(0);
@@ -96,8 +113,25 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal
 {
   PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
 
-  if (!ip->mi) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
+  if (!ip->mi && !ip->me) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
   return PetscMax(loose, last);
+}
+
+/* dx, and the direction of the equality constraints' multipliers, by whatever solves for them */
+static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->me) PetscCall(IPEqualitySolve(tao, rhs, ce, ip->dir.x, matrix, target, usable));
+  else PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the system of the last direction was the condensed one */
+static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(!ip->me || ip->prox.condensed);
 }
 
 /* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
@@ -114,15 +148,12 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
   PetscCall(IPCondenseRHS(tao, rc, rhs));
-  if (ip->me) PetscCall(IPAugmentedSolve(tao, rhs, ce, ip->dir.x, matrix, usable));
-  else {
-    PetscCall(VecNorm(rhs, NORM_2, &norm));
-    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, ForcingTarget(ip, last, norm), usable));
-  }
+  PetscCall(VecNorm(rhs, NORM_2, &norm));
+  PetscCall(DirectionSolveUnknowns(tao, rhs, ce, matrix, ForcingTarget(ip, last, norm), usable));
   if (*usable) PetscCall(IPBackSubstitute(tao, rc));
-  if (*usable && !ip->me && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
+  if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {
-    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, last, usable));
+    PetscCall(DirectionSolveUnknowns(tao, rhs, ce, PETSC_FALSE, last, usable));
     if (*usable) PetscCall(IPBackSubstitute(tao, rc));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
@@ -153,6 +184,12 @@ static PetscErrorCode DirectionAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Whether there is anything that mu is for */
+static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+}
+
 /* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
    guess of the direction proper. */
 static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
@@ -162,7 +199,8 @@ static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
 
   PetscFunctionBegin;
   PetscCall(VecSet(ip->dir.x, 0.0));
-  if (ip->bar.free) {
+  if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
+  if (ip->bar.free && DirectionHasPairs(ip)) {
     PetscCall(DirectionSetTargets(tao, 0.0, 0.0));
     PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, PETSC_TRUE, usable));
     if (!*usable) PetscFunctionReturn(0);
@@ -187,7 +225,7 @@ static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
 {
   PetscFunctionBegin;
   PetscCall(DirectionSolveSystem(tao, usable));
-  if (*usable && !((TAO_IPFILTER *)tao->data)->me) PetscCall(CurvatureTest(tao, usable));
+  if (*usable && DirectionIsCondensed((TAO_IPFILTER *)tao->data)) PetscCall(CurvatureTest(tao, usable));
   PetscFunctionReturn(0);
 }
 

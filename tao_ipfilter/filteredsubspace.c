@@ -28,7 +28,7 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PC               pc;
 
   PetscFunctionBegin;
-  *applies = (PetscBool)(opt->subspace != IP_SUBSPACE_FALSE && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B);
+  *applies = (PetscBool)(opt->subspace != IP_SUBSPACE_FALSE && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE) PetscFunctionReturn(0);
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, applies));
@@ -269,7 +269,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
-  PetscCall(MatMult(tao->hessian, d, Kd));
+  PetscCall(MatMult(ip->hess.H, d, Kd));
   PetscCall(VecDot(d, Kd, &energy));
   PetscCall(VecPointwiseMult(Kd, d, ip->stiff.hdiag));
   PetscCall(VecDot(d, Kd, &size));
@@ -297,18 +297,19 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPKept *kept, Vec r, Vec d, 
 /* A direction from the residual r = -ip->rx, zero on W */
 static PetscErrorCode FilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *extended)
 {
-  IPFiltered *f     = &((TAO_IPFILTER *)tao->data)->filtered;
-  IPBasis    *basis = &kept->basis;
-  Vec         d;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f     = &ip->filtered;
+  IPBasis      *basis = &kept->basis;
+  Vec           d;
 
   PetscFunctionBegin;
   if (basis->n == basis->max) PetscCall(FilteredMakeRoom(tao, basis));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
   PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
-  PetscCall(VecISSet(d, ((TAO_IPFILTER *)tao->data)->cond.filter, 0.0));
+  PetscCall(VecISSet(d, ip->cond.filter, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
-    PetscCall(IPBasisAppend(basis, tao->hessian, d, extended));
+    PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
     PetscCall(PetscLogEventEnd(TAO_IPFilterAppend, tao, d, NULL, NULL));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
@@ -388,7 +389,7 @@ static PetscErrorCode FilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *po
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, tao->hessian, ip->jac.inequality, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) {
     PetscCall(VecDuplicate(tao->solution, &f->centre));

@@ -115,7 +115,12 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
                                                               where the Krylov method fails; 0: never
 . -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
-- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the system with equality constraints
+. -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints in an augmented system that MUMPS
+                                                              factors, or condensed with proximal updates
+. -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness that resists them,
+                                                              as a fraction of their weights
+- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; `MATSOLVERMUMPS` takes
+                                                              approximate minimum fill (-mat_mumps_icntl_7 2)
 
   Level: beginner
 
@@ -123,14 +128,26 @@ static PetscErrorCode DestroyType(Tao tao)
   Slacks, multipliers and bounds are eliminated from the Newton system, which leaves A = H + Sigma + J^T D J, solved by a Krylov method.
   The unknowns that J touches are composed on A as an IS under `PCAMGF_FILTER_KEY`, where `PCAMGF` finds them.
 
-  Equality constraints are not eliminated: the symmetric system of A and their Jacobian is factored by MUMPS, which must be there.
+  Equality constraints go to the symmetric augmented system of A and their Jacobian, which is factored by MUMPS, which must be there.
   Constraints that depend on one another are regularized, by proximal terms that leave nothing of them in the solution.
 
-  `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()` returns, as a matrix of
-  type AIJ, BAIJ, SBAIJ or dense; without it gradients are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a `MATLMVMBFGS` learns from the steps of
-  the solve, whose options have the prefix `-tao_ipfilter_`; the matrix that is assembled and preconditioned has a multiple of the identity in
-  its place, the Krylov method multiplies with all of it. Jacobians of other types are converted to
-  AIJ at every evaluation. A Hessian or Jacobian routine that leaves its matrix alone costs nothing: what depends on it is kept.
+  Equality constraints that touch no more than a tenth of the unknowns, as ties and interface conditions do, need no factorization of
+  the whole: where `PCAMGF` preconditions and there are 1,000 unknowns or more, their rows are condensed into A with the others, with
+  weights W far above the stiffness that resists them, their unknowns are filtered, and proximal updates y <- y + W (J_E dx + c_E) of the
+  multipliers make the step exact. Dependent constraints do no harm, and the Hessian need be convex on the constraints alone. Where the
+  updates do not reach the constraints, or the Krylov method fails, the augmented system takes over for the rest of the solve, unless
+  `-tao_ipfilter_direct_memory` is 0; `TaoIPFilterGetFallbacks()` counts that as a system by MUMPS. `-tao_ipfilter_equality` chooses otherwise,
+  `-tao_view` says which was taken.
+
+  `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()` returns; without it gradients
+  are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a `MATLMVMBFGS` learns from the steps of the solve, whose options have
+  the prefix `-tao_ipfilter_`; the matrix that is assembled and preconditioned has a multiple of the identity in its place, the Krylov method
+  multiplies with all of it. A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are taken as they are; others
+  that have entries, as nests and `MATIS` do, are converted to AIJ at every evaluation. Where a Hessian or Jacobian routine leaves a matrix
+  alone that is not converted, that costs nothing: what depends on it is kept. A Hessian that gives products alone, as `MATSHELL` does, serves with
+  `-tao_ipfilter_pc_type` none, jacobi, shell or a type of your own, which then gets a `MATSHELL` of the condensed matrix; its diagonal is taken from
+  `MATOP_GET_DIAGONAL`, or else estimated. With another preconditioner, or with equality constraints that are not condensed, it is read column by
+  column up to 1,000 unknowns, as are Jacobians that give products alone; with more unknowns that is an error.
 
   The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
   iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns are
@@ -163,7 +180,7 @@ static PetscErrorCode DestroyType(Tao tao)
   constraints may be infeasible), `TAO_DIVERGED_USER` (no direction, or the objective seems unbounded), `TAO_DIVERGED_NAN`,
   `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.
 
-  Errors where a PETSc without MUMPS meets equality constraints, where a lower bound exceeds an upper one, and where the sizes of the
+  Errors where a PETSc without MUMPS meets equality constraints that are not condensed, where a matrix cannot be read, where a lower bound exceeds an upper one, and where the sizes of the
   masses do not fit. Scalars must be real.
 
   References:

@@ -13,10 +13,10 @@
 
    The files, each calling none but those above it in this list:
 
-     problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, jacobian, evaluate, difference, quasinewton
+     problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, matrices, jacobian, hessian, evaluate, difference, quasinewton
      measure  stiffness, scale, kkt
-     system   assemble, subspace, condense
-     linear   residual, krylov, direct, linsolve, augmented
+     system   rows, operator, assemble, subspace, condense
+     linear   residual, krylov, direct, linsolve, augmented, proximal, equality
      space    basis, compliance, activeset, reduced, kept, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
@@ -54,6 +54,11 @@ typedef enum {
   IP_SCALING_PROBLEM,
   IP_SCALING_NONE
 } IPScaling;
+typedef enum {
+  IP_EQUALITY_AUTO,
+  IP_EQUALITY_AUGMENTED,
+  IP_EQUALITY_CONDENSED
+} IPEqualityMethod;
 
 typedef enum {
   IP_SUBSPACE_FALSE,
@@ -63,29 +68,31 @@ typedef enum {
 
 /* What the user may choose; the names are those of the options in opts.c */
 typedef struct {
-  PetscReal     acceptable_tol;
-  PetscInt      acceptable_it;
-  IPStart       start;
-  IPBarrierRule barrier;
-  IPKKTMeasure  measure;
-  IPForcing     forcing;
-  IPScaling     scaling;
-  PetscBool     monitor;
-  PetscReal     delta_equality, kappa_progress;
-  PetscReal     mu0, s0, z0, mu_start, mu_warm, forcing_start;
-  PetscReal     kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
-  PetscInt      max_mu_first, max_mu_later;
-  PetscReal     gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
-  PetscInt      max_soc;
-  PetscReal     kappa_soc;
-  PetscReal     forcing_max, forcing_reduce, forcing_last;
-  PetscReal     kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal     filter_threshold, filter_switch, row_ratio;
-  PetscReal     bound_push, unbounded_factor;
-  PetscReal     direct_memory;
-  PetscBool     direct_always;
-  IPSubspaceUse subspace;
-  PetscInt      subspace_max;
+  PetscReal        acceptable_tol;
+  PetscInt         acceptable_it;
+  IPStart          start;
+  IPBarrierRule    barrier;
+  IPKKTMeasure     measure;
+  IPForcing        forcing;
+  IPScaling        scaling;
+  PetscBool        monitor;
+  PetscReal        delta_equality, kappa_progress;
+  PetscReal        mu0, s0, z0, mu_start, mu_warm, forcing_start;
+  PetscReal        kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
+  PetscInt         max_mu_first, max_mu_later;
+  PetscReal        gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
+  PetscInt         max_soc;
+  PetscReal        kappa_soc;
+  PetscReal        forcing_max, forcing_reduce, forcing_last;
+  PetscReal        kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
+  PetscReal        filter_threshold, filter_switch, row_ratio;
+  PetscReal        bound_push, unbounded_factor;
+  PetscReal        direct_memory;
+  PetscBool        direct_always;
+  IPSubspaceUse    subspace;
+  PetscInt         subspace_max;
+  IPEqualityMethod equality;
+  PetscReal        proximal;
 } IPOptions;
 
 /* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
@@ -159,14 +166,19 @@ typedef struct {
   PetscReal norm; /* largest entry of x */
 } IPDirection;
 
+/* Where a matrix came from: two stamps alike have the same */
+typedef struct {
+  PetscObjectId    value_id; /* which matrix, */
+  PetscObjectState value_state;
+  PetscObjectId    pattern_id; /* and which pattern */
+  PetscObjectState pattern_state;
+} IPStamp;
+
 /* The constraints' Jacobians as the iteration sees them: rows scaled, columns of fixed variables zeroed */
 typedef struct {
-  Mat              inequality; /* AIJ */
-  Mat              equality;
-  PetscObjectId    user_id;    /* the caller's inequality Jacobian that this one came from, */
-  PetscObjectState user_state; /* with these values */
-  PetscObjectId    pattern_id; /* which pattern: two stamps alike have the same */
-  PetscObjectState pattern_state;
+  Mat     inequality, equality;             /* AIJ */
+  IPStamp inequality_stamp, equality_stamp; /* of the caller's matrices, or of */
+  Mat     converted[2];                     /* what they were converted to */
 } IPJacobian;
 
 /* What TaoSetInequalityBounds() makes of the rows of c_I: sides.c */
@@ -179,6 +191,13 @@ typedef struct {
   PetscInt  nequal, nall; /* rows with equal bounds, of this rank and of all */
   PetscInt *equal;        /* which, from this rank's first row */
 } IPSides;
+
+/* The Hessian as the iteration sees it */
+typedef struct {
+  Mat       H;
+  Mat       converted; /* to AIJ from a type that is not worked with */
+  PetscBool products;  /* it gives products alone, and so does the condensed matrix */
+} IPHessian;
 
 /* Scales of the rows of c_I and c_E; NULL: 1 */
 typedef struct {
@@ -221,8 +240,18 @@ typedef struct {
   PetscReal inf_pr, inf_du;                /* largest absolute entries of the primal and the dual residual */
 } IPKKT;
 
+/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too */
+typedef struct {
+  Mat     J; /* NULL: none */
+  Vec     D; /* their weights */
+  IPStamp stamp;
+  IPStamp source[2];            /* of the Jacobians that one of both was made from */
+  Vec     inequality, equality; /* weights of either kind */
+} IPRows;
+
 /* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
 typedef struct {
+  IPRows           rows;
   Mat              A;
   Mat              DJ, JtDJ;           /* D J, J^T D J */
   Vec              shift;              /* Sigma + delta M_u, the diagonal added to H */
@@ -234,8 +263,8 @@ typedef struct {
   PetscObjectState J_nonzero;          /* with which pattern */
   PetscObjectId    filter_id;          /* which Jacobian the filter came from, */
   PetscObjectState filter_state;       /* with which values */
-  PetscInt         nrows;              /* rows of this rank touched by J^T D J */
-  PetscInt        *rows;
+  PetscInt         ntouched;           /* rows of this rank touched by J^T D J */
+  PetscInt        *touched;
   IS               filter; /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
@@ -265,9 +294,10 @@ typedef struct {
 
 /* The condensed matrix factored by MUMPS, where the Krylov method fails */
 typedef struct {
-  Mat      A, F;     /* the matrix as MUMPS takes it, and its factors */
-  PetscInt system;   /* which condensed matrix that was, by rec.nsystems */
-  PetscInt negative; /* its negative pivots */
+  Mat      A, F;       /* the matrix as MUMPS takes it, and its factors */
+  PetscInt system;     /* which condensed matrix that was, by rec.nsystems */
+  PetscInt relaxation; /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
+  PetscInt negative;   /* its negative pivots */
 } IPDirect;
 
 /* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
@@ -277,9 +307,16 @@ typedef struct {
   Mat       shift;      /* -delta I */
   PetscReal delta;      /* of restoration steps, or regularization of dependent constraints: */
   PetscBool centered;   /* about the present multipliers, instead of zero */
-  PetscInt  relaxation; /* per cent of work space that MUMPS has needed beyond its estimate; 0: its own choice */
+  PetscInt  relaxation; /* per cent of work space beyond MUMPS's estimate, and */
+  PetscReal pivot;      /* relative threshold of its pivots: what the last factorization came to; 0: none yet */
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
+
+/* Equality constraints whose rows touch few unknowns: condensed with the others, their multipliers found by proximal updates */
+typedef struct {
+  PetscBool condensed; /* in this solve, until they turn out not to be fit for it */
+  PetscInt  nupdates;  /* of the multipliers beyond the first of each solve */
+} IPProximal;
 
 /* The multiple delta of M_u that is added to the Hessian */
 typedef struct {
@@ -429,6 +466,7 @@ typedef struct {
   IPRowScale    rows;
   IPJacobian    jac;
   IPQuasiNewton qn;
+  IPHessian     hess;
   IPPair        pair[IP_NPAIRS];
   IPIterate     at, best, trial; /* at.x is tao->solution; at.s and at.z are the pairs'; best: smallest KKT error */
   IPDirection   dir;
@@ -441,6 +479,7 @@ typedef struct {
   IPLinear      lin;
   IPDirect      direct;
   IPAugmented   aug;
+  IPProximal    prox;
   IPShift       shift;
   PetscReal     mu;
   IPBarrier     bar;
@@ -547,10 +586,22 @@ PETSC_INTERN PetscErrorCode IPRowScaleReset(Tao, PetscBool *changed);
 PETSC_INTERN PetscErrorCode IPRowScalePair(Tao, Vec, Vec, PetscBool back);
 PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
 
+/* matrices.c */
+PETSC_INTERN PetscErrorCode IPMatrixHasEntries(Mat, PetscBool *);
+PETSC_INTERN PetscErrorCode IPMatrixSamePattern(Mat, Mat, PetscBool *);
+PETSC_INTERN PetscErrorCode IPMatrixKeep(Mat *, Mat *);
+PETSC_INTERN PetscErrorCode IPMatrixConvert(Mat, Mat *);
+PETSC_INTERN PetscErrorCode IPMatricesCheck(Tao, PetscBool *changed);
+
 /* jacobian.c */
 PETSC_INTERN PetscErrorCode IPJacobianEquality(Tao);
 PETSC_INTERN PetscErrorCode IPJacobianInequality(Tao);
 PETSC_INTERN PetscErrorCode IPJacobianDestroy(IPJacobian *);
+
+/* hessian.c */
+PETSC_INTERN PetscErrorCode IPHessianEvaluate(Tao);
+PETSC_INTERN PetscErrorCode IPHessianDiagonal(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPHessianDestroy(IPHessian *);
 
 /* evaluate.c */
 PETSC_INTERN PetscErrorCode IPEvaluateConstraints(Tao, Vec, Vec, Vec);
@@ -570,6 +621,7 @@ PETSC_INTERN PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *);
 /* ---- measure ---- */
 
 /* stiffness.c */
+PETSC_INTERN PetscErrorCode IPCompliances(Tao, Mat, Vec);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
@@ -583,11 +635,19 @@ PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
 /* ---- system ---- */
 
+/* rows.c */
+PETSC_INTERN PetscErrorCode IPRowsUpdate(Tao, Vec);
+PETSC_INTERN PetscErrorCode IPRowsDestroy(IPRows *);
+
+/* operator.c */
+PETSC_INTERN PetscErrorCode IPOperatorUpdate(Tao);
+
 /* assemble.c */
 PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 
 /* subspace.c */
+PETSC_INTERN PetscErrorCode IPSubspaceOf(Tao, Mat, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, IS *);
@@ -619,8 +679,18 @@ PETSC_INTERN PetscErrorCode IPLinearSolve(Tao, Vec, Vec, PetscReal target, Petsc
 
 /* augmented.c */
 PETSC_INTERN PetscErrorCode IPAugmentedSolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscBool *usable);
-PETSC_INTERN PetscErrorCode IPEstimateMultipliers(Tao);
+PETSC_INTERN PetscErrorCode IPAugmentedMultipliers(Tao);
 PETSC_INTERN PetscErrorCode IPAugmentedDestroy(IPAugmented *);
+
+/* proximal.c */
+PETSC_INTERN PetscErrorCode IPProximalSolve(Tao, Vec, Vec, Vec, PetscReal target, PetscBool *usable, PetscBool *exact);
+PETSC_INTERN PetscErrorCode IPProximalRestore(Tao, Vec, Vec, Vec, PetscBool *usable);
+
+/* equality.c */
+PETSC_INTERN PetscErrorCode IPEqualityChoose(Tao);
+PETSC_INTERN PetscErrorCode IPEqualitySolve(Tao, Vec, Vec, Vec, PetscBool matrix, PetscReal target, PetscBool *usable);
+PETSC_INTERN PetscErrorCode IPEqualityRestore(Tao, Vec, Vec, Vec, PetscBool *usable);
+PETSC_INTERN PetscErrorCode IPEqualityMultipliers(Tao);
 
 /* ---- space ---- */
 
@@ -746,7 +816,7 @@ PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
 /* ---- type ---- */
 
 /* opts.c */
-PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[], *const IPSubspaceUses[];
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[], *const IPSubspaceUses[], *const IPEqualityMethods[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 

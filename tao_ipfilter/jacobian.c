@@ -6,6 +6,8 @@ PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&jac->inequality));
   PetscCall(MatDestroy(&jac->equality));
+  PetscCall(MatDestroy(&jac->converted[0]));
+  PetscCall(MatDestroy(&jac->converted[1]));
   PetscCall(PetscMemzero(jac, sizeof(*jac)));
   PetscFunctionReturn(0);
 }
@@ -30,17 +32,34 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian as AIJ: itself, or converted */
-static PetscErrorCode JacobianTakeAIJ(Mat user, Mat *J)
+/* A Jacobian of the caller's as AIJ: itself, or converted */
+static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
 {
   PetscBool aij;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  if (aij) {
-    PetscCall(PetscObjectReference((PetscObject)user));
-    *J = user;
-  } else PetscCall(MatConvert(user, MATAIJ, MAT_INITIAL_MATRIX, J));
+  if (!aij) PetscCall(IPMatrixConvert(user, converted));
+  *J = aij ? user : *converted;
+  PetscFunctionReturn(0);
+}
+
+/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or of products does not tell whether it
+   is, nor does its conversion have a pattern of its own: zeros may be dropped. */
+static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
+{
+  PetscObjectState state;
+  Mat              J;
+
+  PetscFunctionBegin;
+  PetscCall(JacobianAsAIJ(user, converted, &J));
+  PetscCall(PetscObjectStateGet((PetscObject)J, &state));
+  if (*taken && state == stamp->value_state && stamp->value_id == ((PetscObject)J)->id) PetscFunctionReturn(0);
+  PetscCall(MatDestroy(taken));
+  stamp->value_state = state;
+  stamp->value_id = stamp->pattern_id = ((PetscObject)J)->id;
+  PetscCall(MatGetNonzeroState(J, &stamp->pattern_state));
+  PetscCall(JacobianScale(tao, J, scale, taken));
   PetscFunctionReturn(0);
 }
 
@@ -82,75 +101,68 @@ static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
 }
 
 /* The caller's equality Jacobian, if it has one, with the rows of the inequality Jacobian that have equal bounds behind it on each rank */
-static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat *stack)
+static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
   const IPSides *sides = &ip->sides;
   PetscInt       nown = 0, m, n, rstart, longest = 0;
-  Mat            rows;
 
   PetscFunctionBegin;
-  PetscCall(JacobianTakeAIJ(tao->jacobian_inequality, &rows));
   if (own) PetscCall(MatGetLocalSize(own, &nown, NULL));
   if (own) PetscCall(JacobianLongestRow(own, &longest));
-  PetscCall(JacobianLongestRow(rows, &longest));
+  PetscCall(JacobianLongestRow(all, &longest));
   PetscCall(VecGetLocalSize(ip->at.ce, &m));
   PetscCall(VecGetLocalSize(tao->solution, &n));
   PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)tao), m, n, PETSC_DETERMINE, PETSC_DETERMINE, PetscMin(longest, n), NULL, longest, NULL, stack));
   PetscCall(MatSetOption(*stack, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
   PetscCall(MatGetOwnershipRange(*stack, &rstart, NULL));
   if (own) PetscCall(JacobianCopyRows(own, nown, NULL, *stack, rstart));
-  PetscCall(JacobianCopyRows(rows, sides->nequal, sides->equal, *stack, rstart + nown));
+  PetscCall(JacobianCopyRows(all, sides->nequal, sides->equal, *stack, rstart + nown));
   PetscCall(MatAssemblyBegin(*stack, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*stack, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatDestroy(&rows));
+  PetscFunctionReturn(0);
+}
+
+/* The same where rows have equal bounds, kept as converted matrices are */
+static PetscErrorCode JacobianTakeStack(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPJacobian   *jac = &ip->jac;
+  Mat           own = NULL, all, fresh, converted[2] = {NULL, NULL};
+
+  PetscFunctionBegin;
+  if (ip->me > ip->sides.nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted[0], &own));
+  PetscCall(JacobianAsAIJ(tao->jacobian_inequality, &converted[1], &all));
+  PetscCall(JacobianStack(tao, own, all, &fresh));
+  PetscCall(IPMatrixKeep(&fresh, &jac->converted[1]));
+  for (PetscInt i = 0; i < 2; i++) PetscCall(MatDestroy(&converted[i]));
+  PetscCall(JacobianTake(tao, jac->converted[1], ip->rows.equality, NULL, &jac->equality, &jac->equality_stamp));
   PetscFunctionReturn(0);
 }
 
 /* Takes over the equality Jacobian at tao->solution */
 PetscErrorCode IPJacobianEquality(Tao tao)
 {
-  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  Mat           own = NULL, J;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(MatDestroy(&ip->jac.equality));
-  if (ip->me > ip->sides.nall) PetscCall(JacobianTakeAIJ(tao->jacobian_equality, &own));
-  if (ip->sides.nall) {
-    PetscCall(JacobianStack(tao, own, &J));
-    PetscCall(MatDestroy(&own));
-  } else J = own;
-  PetscCall(JacobianScale(tao, J, ip->rows.equality, &ip->jac.equality));
-  PetscCall(MatDestroy(&J));
+  if (ip->sides.nall) PetscCall(JacobianTakeStack(tao));
+  else PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality, &ip->jac.equality_stamp));
   PetscFunctionReturn(0);
 }
 
-/* Takes over the inequality Jacobian, unless it is as it was. The stamp of its pattern is the caller's matrix's, or that of what it was
-   converted to: a conversion may drop zeros, so that the pattern follows the values. */
 PetscErrorCode IPJacobianInequality(Tao tao)
 {
-  TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
-  IPJacobian      *jac  = &ip->jac;
-  Mat              user = tao->jacobian_inequality, J;
-  PetscObjectState state;
-  Vec              scale;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  Vec           scale = NULL;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectStateGet((PetscObject)user, &state));
-  if (jac->inequality && state == jac->user_state && jac->user_id == ((PetscObject)user)->id) PetscFunctionReturn(0);
-  PetscCall(MatDestroy(&jac->inequality));
-  PetscCall(JacobianTakeAIJ(user, &J));
-  jac->user_state = state;
-  jac->user_id    = ((PetscObject)user)->id;
-  jac->pattern_id = ((PetscObject)J)->id;
-  PetscCall(MatGetNonzeroState(J, &jac->pattern_state));
   if (ip->sides.sign) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &scale));
     if (ip->rows.inequality) PetscCall(VecPointwiseMult(scale, ip->sides.sign, ip->rows.inequality));
     else PetscCall(VecCopy(ip->sides.sign, scale));
-    PetscCall(JacobianScale(tao, J, scale, &jac->inequality));
-    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &scale));
-  } else PetscCall(JacobianScale(tao, J, ip->rows.inequality, &jac->inequality));
-  PetscCall(MatDestroy(&J));
+  }
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows.inequality, &ip->jac.converted[0], &ip->jac.inequality, &ip->jac.inequality_stamp));
+  if (scale) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &scale));
   PetscFunctionReturn(0);
 }

@@ -111,7 +111,7 @@ PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
   ip->rec.nsystems  = systems; /* none of Newton's */
   ip->rec.nfiltered = filtered;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
-  PetscCall(KeptSetUpPC(kept, ip->cond.A, tao->hessian, possible));
+  PetscCall(KeptSetUpPC(kept, ip->cond.A, ip->hess.H, possible));
   PetscCall(MatDestroy(&ip->cond.A));
   kept->held = PETSC_TRUE;
   PetscFunctionReturn(0);
@@ -121,7 +121,7 @@ PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
 PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
-  Mat              K  = tao->hessian;
+  Mat              K  = ip->hess.H;
   PC               pc;
   PetscObjectState state;
 

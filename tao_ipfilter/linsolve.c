@@ -40,7 +40,7 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
-  *done = (PetscBool)(pc && ip->mi && !ip->lin.filtered);
+  *done = (PetscBool)(pc && ip->cond.filter && !ip->lin.filtered);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
   ip->lin.filter_forced = ip->lin.filtered = PETSC_TRUE;
@@ -61,7 +61,7 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
   *done = PETSC_FALSE;
-  if (!pc || !ip->mi || !ip->lin.filtered) PetscFunctionReturn(0);
+  if (!pc || !ip->cond.filter || !ip->lin.filtered) PetscFunctionReturn(0);
   PetscCall(IPSubspaceGrow(tao, &wide));
   PetscCall(ISGetSize(ip->cond.filter, &before));
   PetscCall(ISGetSize(wide, &after));
@@ -128,7 +128,8 @@ static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
   PetscReal     norm;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
+  if (ip->hess.products) PetscCall(VecNorm(ip->cond.hdiag, NORM_2, &norm));
+  else PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
   *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin.rhs));
   if (!*sound) PetscCall(IPResidualNotANumber(tao));
   PetscFunctionReturn(0);

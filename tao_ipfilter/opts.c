@@ -1,12 +1,13 @@
 /* Options and their defaults. */
 #include "ipfilterimpl.h"
 
-const char *const        IPStarts[]       = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
-const char *const        IPBarrierRules[] = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
-const char *const        IPKKTMeasures[]  = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
-const char *const        IPForcings[]     = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
-const char *const        IPSubspaceUses[] = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
-static const char *const IPScalings[]     = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
+const char *const        IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
+const char *const        IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
+const char *const        IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
+const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
+const char *const        IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_", NULL};
+const char *const        IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
+static const char *const IPScalings[]        = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
 typedef struct {
@@ -55,6 +56,7 @@ static const RealOption real_options[] = {
   IP_REAL("delta_grow", delta_grow, 8.0, "growth of the regularization"),
   IP_REAL("delta_shrink", delta_shrink, 1.0 / 3.0, "decrease of the regularization from one step to the next"),
   IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
+  IP_REAL("proximal", proximal, 1e-5, "condensed equality constraints: stiffness that resists them as a fraction of their weights"),
   IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
   IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
@@ -97,6 +99,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures, (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing", "tolerance of the linear solver: from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings, (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling", "scale-free constants, or constants in the problem's units", TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_equality", "equality constraints in an augmented system that MUMPS factors, or condensed with proximal updates", TAOIPFILTER, IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "most reductions of mu at the first iteration", TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER, opt->max_mu_later, &opt->max_mu_later, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, opt->max_soc, &opt->max_soc, NULL));

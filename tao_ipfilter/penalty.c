@@ -138,7 +138,7 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hd));
-  PetscCall(MatMult(tao->hessian, ip->dir.x, Hd));
+  PetscCall(MatMult(ip->hess.H, ip->dir.x, Hd));
   PetscCall(IPQuasiNewtonAdd(tao, ip->dir.x, Hd));
   PetscCall(VecDot(Hd, ip->dir.x, &dHd));
   PetscCall(VecDot(tao->gradient, ip->dir.x, &gd));

@@ -64,7 +64,7 @@ PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)
   ip->lin.failed  = PETSC_FALSE;
   while (ip->shift.delta <= ip->opt.delta_max * unit) {
     PetscCall((*assemble)(tao));
-    if (least == PETSC_NINFINITY && !ip->me) PetscCall(LeastDelta(tao, &least));
+    if (least == PETSC_NINFINITY && (!ip->me || ip->prox.condensed)) PetscCall(LeastDelta(tao, &least));
     if (ip->lin.failed) break;
     if (ip->shift.delta > least) {
       PetscCall((*solve)(tao, ok));

@@ -117,7 +117,7 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
   PetscCall(RestoreRHS(tao, rhs));
   PetscCall(VecSet(ip->dir.x, 0.0));
-  if (ip->me) PetscCall(IPAugmentedSolve(tao, rhs, ip->at.ce, ip->dir.x, PETSC_TRUE, usable));
+  if (ip->me) PetscCall(IPEqualityRestore(tao, rhs, ip->at.ce, ip->dir.x, usable));
   else {
     PetscCall(VecNorm(rhs, NORM_2, &norm));
     PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, 1e-3 * norm, usable));
@@ -230,7 +230,7 @@ static PetscErrorCode RestoreLeave(Tao tao)
     PetscCall(IPPairCenter(&ip->pair[IP_SLACK], ip->mu));
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
   }
-  if (ip->me) PetscCall(IPEstimateMultipliers(tao));
+  if (ip->me) PetscCall(IPEqualityMultipliers(tao));
   ip->bar.nerrors       = 0;
   ip->relax.least_slack = PETSC_INFINITY;
   PetscFunctionReturn(0);

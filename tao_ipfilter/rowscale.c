@@ -55,13 +55,13 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
   PetscFunctionReturn(0);
 }
 
-/* Forgets the scales of the last solve. *changed: the inequality Jacobian had been scaled by them. */
+/* Forgets the scales of the last solve. *changed: a Jacobian had been scaled by them. */
 PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *changed = (PetscBool)(ip->rows.inequality != NULL);
+  *changed = (PetscBool)(ip->rows.inequality || ip->rows.equality);
   PetscCall(VecDestroy(&ip->rows.inequality));
   PetscCall(VecDestroy(&ip->rows.equality));
   PetscFunctionReturn(0);

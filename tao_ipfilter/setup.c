@@ -80,6 +80,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->rows.equality));
   PetscCall(IPCondensedDestroy(&ip->cond));
   PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscCall(IPHessianDestroy(&ip->hess));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPDirectDestroy(&ip->direct));
   PetscCall(IPFilteredDestroy(&ip->filtered));

@@ -39,7 +39,7 @@ static PetscErrorCode ScaleRows(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPRowScaleSetUp(tao, &scaled));
   if (!scaled) PetscFunctionReturn(0);
-  if (ip->rows.inequality) PetscCall(ForgetSystem(tao));
+  PetscCall(ForgetSystem(tao));
   PetscCall(IPSidesUpdateWidth(tao));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPEvaluateDerivatives(tao));
@@ -229,7 +229,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   tao->ksp_its = 0;
   PetscCall(IPRelax(tao));
   PetscCall(IPBarrierUpdate(tao));
-  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
@@ -310,10 +310,11 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPSetMultipliers(tao));
   PetscCall(IPTestFirstPoint(tao));
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
-  PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
+  PetscCall(IPHessianEvaluate(tao));
   PetscCall(GetStates(tao, after));
   ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPEqualityChoose(tao));
   PetscCall(IPFilteredBegin(tao, &begun));
   if (!begun) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
@@ -341,10 +342,12 @@ static PetscErrorCode EndSolve(Tao tao)
 PetscErrorCode TaoSolve_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscBool     finite;
+  PetscBool     finite, other_operator;
 
   PetscFunctionBegin;
   PetscCall(IPSetUpSizes(tao));
+  PetscCall(IPMatricesCheck(tao, &other_operator));
+  if (other_operator) PetscCall(ForgetSystem(tao));
   ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));

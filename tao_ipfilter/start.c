@@ -217,7 +217,7 @@ PetscErrorCode IPStartPoint(Tao tao)
   else PetscCall(StartPredicted(tao));
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
-  if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEstimateMultipliers(tao));
+  if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -34,7 +34,7 @@ static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
 }
 
 /* sum_j J_ij^2 / |H_jj| of every row */
-static PetscErrorCode Compliances(Tao tao, Vec compliance)
+PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Mat           scaled;
@@ -45,7 +45,7 @@ static PetscErrorCode Compliances(Tao tao, Vec compliance)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &roots));
   PetscCall(InverseRoots(ip->stiff.hdiag, roots));
-  PetscCall(MatDuplicate(ip->jac.inequality, MAT_COPY_VALUES, &scaled));
+  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &scaled));
   PetscCall(MatDiagonalScale(scaled, NULL, roots));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &roots));
   PetscCall(MatGetOwnershipRange(scaled, &rstart, &rend));
@@ -77,7 +77,7 @@ static PetscErrorCode ConstraintStiffness(Tao tao)
   PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(Compliances(tao, ip->stiff.rho));
+  PetscCall(IPCompliances(tao, ip->jac.inequality, ip->stiff.rho));
   PetscCall(VecPointwiseMult(ip->stiff.rho, ip->stiff.rho, slack->w));
   PetscCall(VecDot(ip->stiff.rho, slack->w, &sum));
   mean           = PetscRealPart(sum) / slack->weight;
@@ -95,7 +95,7 @@ PetscErrorCode IPStiffnessUpdate(Tao tao)
   Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
 
   PetscFunctionBegin;
-  PetscCall(MatGetDiagonal(tao->hessian, hdiag));
+  PetscCall(IPHessianDiagonal(tao, hdiag));
   PetscCall(VecAbs(hdiag));
   PetscFunctionReturn(0);
 }

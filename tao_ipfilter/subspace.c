@@ -2,10 +2,9 @@
 #include "ipfilterimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
-static PetscErrorCode SubspaceFind(Tao tao, IS *is)
+PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  Mat                J  = ip->jac.inequality;
   Vec                mark;
   const PetscScalar *a;
   PetscReal          local = 0.0, largest;
@@ -50,17 +49,17 @@ static PetscErrorCode SubspaceFind(Tao tao, IS *is)
 /* The filter of the present Jacobian. The IS stays while its entries do, so that PCAMGF knows it again. */
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
-  TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed      *cond = &ip->cond;
-  const IPJacobian *jac  = &ip->jac;
-  PetscBool         same = PETSC_FALSE;
-  IS                filter;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPCondensed  *cond = &ip->cond;
+  const IPRows *rows = &cond->rows;
+  PetscBool     same = PETSC_FALSE;
+  IS            filter;
 
   PetscFunctionBegin;
-  if (cond->filter && cond->filter_id == jac->user_id && cond->filter_state == jac->user_state) PetscFunctionReturn(0);
-  PetscCall(SubspaceFind(tao, &filter));
-  cond->filter_id    = jac->user_id;
-  cond->filter_state = jac->user_state;
+  if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceOf(tao, rows->J, &filter));
+  cond->filter_id    = rows->stamp.value_id;
+  cond->filter_state = rows->stamp.value_state;
   if (cond->filter) PetscCall(ISEqual(filter, cond->filter, &same));
   if (!same) {
     PetscCall(ISDestroy(&cond->filter));
@@ -133,13 +132,13 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hessian));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &product));
-  PetscCall(MatGetDiagonal(tao->hessian, hessian));
+  PetscCall(MatGetDiagonal(ip->hess.H, hessian));
   PetscCall(MatGetDiagonal(cond->JtDJ, product));
   PetscCall(VecGetOwnershipRange(hessian, &rstart, NULL));
   PetscCall(VecGetArrayRead(hessian, &h));
   PetscCall(VecGetArrayRead(product, &c));
-  for (PetscInt r = 0; r < cond->nrows; r++) {
-    const PetscReal hii = PetscRealPart(h[cond->rows[r] - rstart]), cii = PetscRealPart(c[cond->rows[r] - rstart]);
+  for (PetscInt r = 0; r < cond->ntouched; r++) {
+    const PetscReal hii = PetscRealPart(h[cond->touched[r] - rstart]), cii = PetscRealPart(c[cond->touched[r] - rstart]);
 
     if (cii > 0.0) local = PetscMax(local, hii > 0.0 ? cii / hii : PETSC_INFINITY);
   }
@@ -162,7 +161,7 @@ PetscErrorCode IPSubspaceSwitch(Tao tao)
   PetscFunctionBegin;
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
-  if (!amgf || ip->me) PetscFunctionReturn(0);
+  if (!amgf || (ip->me && !ip->prox.condensed)) PetscFunctionReturn(0);
   if (ip->opt.filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
   ip->lin.filtered = (PetscBool)(ip->lin.filter_forced || ratio > ip->opt.filter_switch);
   ip->rec.nfiltered += ip->lin.filtered;

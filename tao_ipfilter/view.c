@@ -27,6 +27,8 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt.start], IPBarrierRules[ip->opt.barrier], IPForcings[ip->opt.forcing], IPKKTMeasures[ip->opt.measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi, ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
+  if (ip->me && ip->prox.condensed) PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", condensed, with %" PetscInt_FMT " proximal updates\n", ip->me, ip->prox.nupdates));
+  else if (ip->me) PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", in the augmented system\n", ip->me));
   PetscCall(PetscViewerASCIIPrintf(viewer, "KKT error %g, %s, which gatol %g is held against; in the problem's units %g; mu %g\n", (double)ip->kkt.error, ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance", (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(ViewConstraints(tao, viewer));
   if (ip->qn.B) PetscCall(PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn.npairs));
