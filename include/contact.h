@@ -12,16 +12,19 @@ typedef struct _n_Contact *Contact;
 
 /* The constraints of one linearization. Rows are distributed as their nonmortar vertices are. */
 typedef struct {
-  Vec       g;      /* gap at u_ref, weighted and divided by the lumped mass: a length */
-  Mat       J;      /* m x n AIJ, dimensionless; columns are the DM's global rows */
-  Vec       mass;   /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  PetscInt  nlocal; /* rows of this rank */
-  PetscInt *vertex; /* nonmortar vertex (local DMPlex point) of each local row */
-  PetscInt *pair;   /* contact pair of each local row */
+  Vec       g;          /* gap at u_ref, weighted and divided by the lumped mass: a length */
+  Mat       J;          /* m x n AIJ, dimensionless; columns are the DM's global rows */
+  Mat       derivative; /* of the gap, the normals' turning included; J is that with the patches of smooth pairs keeping their shape. NULL where no pair is smooth */
+  Mat       cover;      /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth: it is J */
+  Vec       mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  PetscInt  nlocal;     /* rows of this rank */
+  PetscInt *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */
+  PetscInt *pair;       /* contact pair of each local row */
 } * ContactLinearization;
 
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
+PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */

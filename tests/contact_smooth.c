@@ -200,33 +200,100 @@ static PetscErrorCode TestRigid(Shape shape, GapType gap)
   PetscFunctionReturn(0);
 }
 
-/* Central differences of the gap against J */
-static PetscErrorCode TestDifferences(Shape shape, GapType gap, PetscInt n, PetscReal *error)
+/* Each vertex another way, so that normals turn as well as shift */
+static void RoughField(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal u[3])
 {
-  DM                   dm;
-  ContactLinearization lin, moved[2];
-  Vec                  v, product;
+  const PetscReal size = *(const PetscReal *)ctx;
+
+  for (PetscInt c = 0; c < 3; ++c) u[c] = size * PetscSinReal(37.0 * x[0] + 53.0 * x[1] + 71.0 * x[2] + 5.0 * (PetscReal)(c + 3 * body));
+}
+
+/* The inner body turned about the axis and shifted along it, beyond the border of the other, and the two a little apart */
+static void SlideField(const PetscReal x[3], PetscInt body, PETSC_UNUSED const void *ctx, PetscReal u[3])
+{
+  const PetscReal angle = body ? 0.0 : 0.37, size = 0.02;
+
+  PartingField(x, body, &size, u);
+  u[0] += (PetscCosReal(angle) - 1.0) * x[0] - PetscSinReal(angle) * x[1];
+  u[1] += (PetscCosReal(angle) - 1.0) * x[1] + PetscSinReal(angle) * x[0];
+  u[2] += body ? 0.0 : 0.13;
+}
+
+/* A curved sheet with an edge of 45 degrees at x = 1 */
+static void KinkedPlace(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_UNUSED const void *ctx, PetscReal y[3])
+{
+  y[0] = x[0];
+  y[1] = x[1];
+  y[2] = x[2] + 0.1 * x[0] * x[0] + 0.05 * x[0] * x[1] - PetscMax(x[0] - 1.0, 0.0);
+}
+
+static PetscErrorCode CreateKinked(DM *dm)
+{
+  Box box[2] = {
+    {"inner", {0, 0, -1}, {2, 1, 0}, {6, 4, 1}},
+    {"outer", {0.25, 0.1, 0}, {1.85, 0.9, 1}, {8, 3, 1}},
+  };
 
   PetscFunctionBeginUser;
-  PetscCall(CreateCurved(shape, n, &dm));
-  PetscCall(LinearizeCurved(dm, CurvedPair(shape, PETSC_FALSE, gap, PETSC_TRUE), NULL, NULL, &lin));
-  for (PetscInt k = 0; k < 2; ++k) {
-    const PetscReal size = k ? -1e-5 : 1e-5;
+  PetscCall(CreateBoxes(PETSC_COMM_WORLD, 2, box, 0, dm));
+  PetscCall(SetPlaces(*dm, KinkedPlace, NULL));
+  PetscFunctionReturn(0);
+}
 
-    PetscCall(LinearizeCurved(dm, CurvedPair(shape, PETSC_FALSE, gap, PETSC_TRUE), PartingField, &size, &moved[k]));
+/* A state about which J is tested: a displacement, and a pair */
+typedef struct {
+  const char      *name;
+  Field            field;
+  PetscReal        size;
+  SceneContactPair pair;
+} State;
+
+/* The gap at the state displaced further by epsilon times the rough field */
+static PetscErrorCode LinearizeBeside(DM dm, const State *state, PetscReal epsilon, Vec *v, ContactLinearization *lin)
+{
+  const PetscReal one = 1.0;
+  Contact         contact;
+  Vec             u;
+
+  PetscFunctionBeginUser;
+  PetscCall(DMCreateGlobalVector(dm, &u));
+  PetscCall(VecDuplicate(u, v));
+  PetscCall(SetField(dm, state->field, &state->size, u));
+  PetscCall(SetField(dm, RoughField, &one, *v));
+  PetscCall(VecAXPY(u, epsilon, *v));
+  PetscCall(ContactCreate(dm, 1, &state->pair, &contact));
+  PetscCall(ContactSetFromOptions(contact));
+  PetscCall(ContactLinearize(contact, u, lin));
+  PetscCall(ContactDestroy(&contact));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(0);
+}
+
+/* Central differences of the gap against its derivative */
+static PetscErrorCode TestDifferences(DM dm, const State *state)
+{
+  const PetscReal      epsilon = 1e-6;
+  ContactLinearization lin, moved[2];
+  Vec                  v, w, product;
+  PetscReal            error;
+
+  PetscFunctionBeginUser;
+  PetscCall(LinearizeBeside(dm, state, 0.0, &v, &lin));
+  for (PetscInt k = 0; k < 2; ++k) {
+    PetscCall(LinearizeBeside(dm, state, k ? -epsilon : epsilon, &w, &moved[k]));
+    PetscCall(VecDestroy(&w));
   }
   PetscCall(VecAXPY(moved[0]->g, -1.0, moved[1]->g));
-  PetscCall(VecScale(moved[0]->g, 0.5 / 1e-5));
-  PetscCall(DMCreateGlobalVector(dm, &v));
-  PetscCall(SetField(dm, PartingField, &(const PetscReal){1.0}, v));
+  PetscCall(VecScale(moved[0]->g, 0.5 / epsilon));
   PetscCall(VecDuplicate(lin->g, &product));
-  PetscCall(MatMult(lin->J, v, product));
-  PetscCall(Difference(moved[0]->g, product, error));
+  PetscCall(MatMult(lin->derivative, v, product));
+  PetscCall(Difference(moved[0]->g, product, &error));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s nonmortar\n", state->name, GapTypes[state->pair.gap], state->pair.nonmortar));
+  PetscCall(Report("  differences of the gap against its derivative", error, 1e-6));
   PetscCall(VecDestroy(&v));
   PetscCall(VecDestroy(&product));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactLinearizationDestroy(&moved[k]));
   PetscCall(ContactLinearizationDestroy(&lin));
-  PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
 
@@ -235,23 +302,17 @@ static void Place(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_UNUSED
   for (PetscInt c = 0; c < 3; ++c) y[c] = x[c];
 }
 
-/* Force and moment about the origin of a pressure of 1 on all rows, on both bodies together, by the sum of their sizes */
-static PetscErrorCode TestBalance(Shape shape, GapType gap)
+/* Force and moment about the origin that J or the derivative transmits of a pressure of 1 on all rows, on both bodies together, by the sum of their sizes */
+static PetscErrorCode ReportBalance(Mat J, Vec mass, Vec x)
 {
-  DM                   dm;
-  ContactLinearization lin;
-  Vec                  f, x;
-  const PetscScalar   *a, *y;
-  PetscInt             n;
-  PetscReal            sum[7] = {0};
+  Vec                f;
+  const PetscScalar *a, *y;
+  PetscInt           n;
+  PetscReal          sum[7] = {0};
 
   PetscFunctionBeginUser;
-  PetscCall(CreateCurved(shape, 4, &dm));
-  PetscCall(LinearizeCurved(dm, CurvedPair(shape, PETSC_FALSE, gap, PETSC_TRUE), NULL, NULL, &lin));
-  PetscCall(DMCreateGlobalVector(dm, &f));
-  PetscCall(VecDuplicate(f, &x));
-  PetscCall(SetField(dm, Place, NULL, x));
-  PetscCall(MatMultTranspose(lin->J, lin->mass, f));
+  PetscCall(VecDuplicate(x, &f));
+  PetscCall(MatMultTranspose(J, mass, f));
   PetscCall(VecGetLocalSize(f, &n));
   PetscCall(VecGetArrayRead(f, &a));
   PetscCall(VecGetArrayRead(x, &y));
@@ -266,12 +327,91 @@ static PetscErrorCode TestBalance(Shape shape, GapType gap)
   PetscCall(VecRestoreArrayRead(x, &y));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   for (PetscInt k = 0; k < 6; ++k) sum[k] = PetscAbsReal(sum[k]) / sum[6];
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s\n", shape_names[shape], GapTypes[gap]));
-  PetscCall(Report("  force", PetscMax(PetscMax(sum[0], sum[1]), sum[2]), 1e-14));
-  PetscCall(Report("  moment", PetscMax(PetscMax(sum[3], sum[4]), sum[5]), 1e-5));
+  PetscCall(Report("    force", PetscMax(PetscMax(sum[0], sum[1]), sum[2]), 1e-12));
+  PetscCall(Report("    moment", PetscMax(PetscMax(sum[3], sum[4]), sum[5]), 1e-12));
   PetscCall(VecDestroy(&f));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TestBalance(DM dm, const State *state)
+{
+  ContactLinearization lin;
+  Vec                  x, v;
+
+  PetscFunctionBeginUser;
+  PetscCall(LinearizeBeside(dm, state, 0.0, &v, &lin));
+  PetscCall(SetField(dm, state->field, &state->size, v));
+  PetscCall(VecDuplicate(v, &x));
+  PetscCall(SetField(dm, Place, NULL, x));
+  PetscCall(VecAXPY(x, 1.0, v));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  balance of J\n"));
+  PetscCall(ReportBalance(lin->J, lin->mass, x));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  balance of the derivative\n"));
+  PetscCall(ReportBalance(lin->derivative, lin->mass, x));
   PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&v));
   PetscCall(ContactLinearizationDestroy(&lin));
+  PetscFunctionReturn(0);
+}
+
+/* Of a displacement that varies over the whole face J makes the derivative but for what its patches would bend: fourfold facets, a part of it */
+static PetscErrorCode TestRigidPatches(Shape shape, GapType gap)
+{
+  const PetscReal one = 1.0;
+  PetscReal       error[2];
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 2; ++k) {
+    const State          state = {"", PartingField, 0.0, CurvedPair(shape, PETSC_FALSE, gap, PETSC_TRUE)};
+    DM                   dm;
+    ContactLinearization lin;
+    Vec                  v, a, b;
+
+    PetscCall(CreateCurved(shape, 2 << k, &dm));
+    PetscCall(LinearizeBeside(dm, &state, 0.0, &v, &lin));
+    PetscCall(SetField(dm, PartingField, &one, v));
+    PetscCall(VecDuplicate(lin->g, &a));
+    PetscCall(VecDuplicate(lin->g, &b));
+    PetscCall(MatMult(lin->J, v, a));
+    PetscCall(MatMult(lin->derivative, v, b));
+    PetscCall(Difference(a, b, &error[k]));
+    PetscCall(VecDestroy(&a));
+    PetscCall(VecDestroy(&b));
+    PetscCall(VecDestroy(&v));
+    PetscCall(ContactLinearizationDestroy(&lin));
+    PetscCall(DMDestroy(&dm));
+  }
+  PetscCall(Report("  J against the derivative, facets by 2", error[0], 0.1));
+  PetscCall(Report("  and by 4, part left", error[1] / error[0], 0.5));
+  PetscFunctionReturn(0);
+}
+
+/* The gap's derivative, J, and the forces that they transmit, bent, slid off one another, and across a sharp edge */
+static PetscErrorCode TestJacobian(GapType gap)
+{
+  const SceneContactPair kinked = {(char *)"pair", (char *)"inner.zmax", (char *)"outer.zmin", gap, 0.0, 0.0, PETSC_TRUE};
+  State                  state;
+  DM                     dm;
+
+  PetscFunctionBeginUser;
+  for (PetscInt s = TUBES; s < NSHAPES; ++s) {
+    PetscCall(CreateCurved((Shape)s, 2, &dm));
+    for (PetscInt swap = 0; swap < 2; ++swap) {
+      const SceneContactPair pair = CurvedPair((Shape)s, (PetscBool)swap, gap, PETSC_TRUE);
+
+      state = (State){s ? "balls, bent" : "tubes, bent", PartingField, 0.02, pair};
+      PetscCall(TestDifferences(dm, &state));
+      PetscCall(TestBalance(dm, &state));
+      state = (State){s ? "balls, slid" : "tubes, slid", SlideField, 0.0, pair};
+      PetscCall(TestDifferences(dm, &state));
+      PetscCall(TestBalance(dm, &state));
+    }
+    PetscCall(DMDestroy(&dm));
+  }
+  PetscCall(CreateKinked(&dm));
+  state = (State){"sheets with a sharp edge", PartingField, 0.02, kinked};
+  PetscCall(TestDifferences(dm, &state));
+  PetscCall(TestBalance(dm, &state));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
@@ -323,19 +463,15 @@ int main(int argc, char **argv)
   for (PetscInt sphere = 0; sphere < 2; ++sphere) PetscCall(TestPatch((PetscBool)sphere));
   for (GapType gap = GAP_MORTAR; gap <= GAP_NODE; ++gap) {
     for (PetscInt s = TUBES; s < NSHAPES; ++s) {
-      PetscReal error[2];
-
       for (PetscInt swap = 0; swap < 2; ++swap) {
         PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "undeformed", NULL, 3.7, 0.002));
         /* not fourth order: normals at vertices of three facets, and at the border, are extrapolated to first order on what is no sphere */
         PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "stretched", StretchField, s == TUBES ? 2.5 : 1.8, 0.06));
       }
       PetscCall(TestRigid((Shape)s, gap));
-      PetscCall(TestBalance((Shape)s, gap));
-      for (PetscInt k = 0; k < 2; ++k) PetscCall(TestDifferences((Shape)s, gap, 2 << k, &error[k]));
-      PetscCall(Report("  differences of the gap against J, facets by 2", error[0], 0.1));
-      PetscCall(Report("  and by 4, part left", error[1] / error[0], 0.5));
+      PetscCall(TestRigidPatches((Shape)s, gap));
     }
+    PetscCall(TestJacobian(gap));
     PetscCall(TestSharp(gap));
   }
   PetscCall(PetscFinalize());

@@ -62,14 +62,21 @@ def write():
         file.write(SCENE)
 
 
+def sideways(step):
+    return abs(step["reaction"][0]) + abs(step["contact_force"][0])
+
+
 def judge():
-    runs = {name: load(name) for name in ("damped", "short", "single")}
+    runs = {name: load(name) for name in ("smooth", "damped", "short", "single")}
     last = {name: run["steps"][-1] for name, run in runs.items()}
-    damped = last["damped"]
+    smooth, damped = last["smooth"], last["damped"]
+    say("between smooth faces the gap is true after 12 linearizations at most", runs["smooth"]["converged"] and smooth["gap_change"] <= 1e-6 * PUSH and smooth["contact_updates"] <= 12, smooth)
+    say("none is damped", smooth["gap_damped"] == 0 and not runs["smooth"]["warnings"], runs["smooth"]["warnings"])
+    say("smooth, no force to the side", sideways(smooth) < 1e-6 * abs(smooth["reaction"][2]), (smooth["reaction"], smooth["contact_force"]))
     say("damped, the updates end with a true gap", runs["damped"]["converged"] and not damped["gap_untrue"] and damped["gap_change"] <= 1e-5 * PUSH and damped["gap_true"] > -1e-5 * PUSH, damped["gap_change"])
     say("that they were damped is told", damped["gap_damped"] > 0 and len(runs["damped"]["warnings"]) == 1, runs["damped"]["warnings"])
     size = abs(damped["reaction"][2])
-    say("no force to the side", size > 1 and abs(damped["reaction"][0]) + abs(damped["contact_force"][0]) < 1e-6 * size, (damped["reaction"], damped["contact_force"]))
+    say("no force to the side", size > 1 and sideways(damped) < 1e-6 * size, (damped["reaction"], damped["contact_force"]))
     say("a gap that is not true is no convergence", not runs["short"]["converged"] and last["short"]["gap_untrue"] and last["short"]["gap_change"] > 1e-4, runs["short"]["reason"])
     say("one linearization converges, its gap is not true", runs["single"]["converged"] and last["single"]["gap_untrue"] and last["single"]["gap_change"] > 1e-2, runs["single"]["reason"])
 

@@ -28,6 +28,10 @@ def energy(name):
     return load(name)["steps"][0]["energy"] / (0.5 * lame() * OVERLAP * HEIGHT * np.pi / 2)
 
 
+def updates(name):
+    return load(name)["steps"][0]["contact_updates"]
+
+
 def main():
     for facets in ("24_30", "30_24", "20_32"):
         for side in ("in", "out"):
@@ -36,6 +40,7 @@ def main():
             say(name + ": mean pressure within 0.5 % of Lame", abs(p.mean() - 1) <= 0.005, p.mean())
             say(name + ": pressure at every vertex within 2 % of its mean", abs(p / p.mean() - 1).max() <= 0.02, (p.min(), p.max()))
             say(name + ": energy within 0.5 % of Lame", abs(energy(name) - 1) <= 0.005, energy(name))
+            say(name + ": a true gap after four linearizations at most", updates(name) <= 4, updates(name))
     one = pressures("rings_24_30_in")
     for ranks in ("two", "three"):
         other = pressures(ranks + "_ranks")

@@ -3,6 +3,8 @@
 
 /* Entries of a row that are this small beside its largest are rounding of exact zeros */
 #define ENTRY_DROP 1e-14
+/* The same of a row of a smooth pair, which more was added up for */
+#define SLOPE_DROP 1e-12
 
 PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
 {
@@ -32,9 +34,24 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
   PetscFunctionReturn(0);
 }
 
+/* A facet of a smooth pair: what its vertices and the normals there add to four rows */
+PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4], const PetscInt bend[4], const ContactSlopes *slopes)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 4; ++a) {
+    PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
+    PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
+    PetscCall(ContactEntriesAdd(&as->by_bend, row[a], 4, bend, slopes->normal[a]));
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
 {
   PetscFunctionBegin;
+  PetscCall(ContactEntriesDestroy(&as->rigid));
+  PetscCall(ContactEntriesDestroy(&as->by_node));
+  PetscCall(ContactEntriesDestroy(&as->by_bend));
   PetscCall(PetscFree(as->row));
   PetscCall(PetscFree(as->node));
   for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
@@ -140,29 +157,32 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
 }
 
 /* One row of J; entries that are zero but for rounding are left out */
-static PetscErrorCode CouplingExpandRow(const CouplingRow *r, PetscInt *n, PetscInt column[], PetscScalar entry[])
+static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
-  PetscReal largest = 0.0;
+  PetscReal   largest = 0.0;
+  CouplingRow r       = {0};
 
   PetscFunctionBegin;
   *n = 0;
+  PetscCall(CouplingGetRow(coupling, row, normal, mass, &r));
   for (PetscInt c = 0; c < 3; ++c) {
-    for (PetscInt k = 0; k < r->n; ++k) largest = PetscMax(largest, PetscAbsScalar(r->value[c][k] * r->factor[c]));
+    for (PetscInt k = 0; k < r.n; ++k) largest = PetscMax(largest, PetscAbsScalar(r.value[c][k] * r.factor[c]));
   }
-  for (PetscInt k = 0; k < r->n; ++k) {
+  for (PetscInt k = 0; k < r.n; ++k) {
     for (PetscInt c = 0; c < 3; ++c) {
-      const PetscScalar value = r->value[c][k] * r->factor[c];
+      const PetscScalar value = r.value[c][k] * r.factor[c];
 
       if (PetscAbsScalar(value) <= ENTRY_DROP * largest) continue;
-      column[*n] = 3 * r->node[k] + c;
+      column[*n] = 3 * r.node[k] + c;
       entry[*n]  = value;
       ++*n;
     }
   }
+  PetscCall(CouplingRestoreRow(coupling, row, &r));
   PetscFunctionReturn(0);
 }
 
-/* Longest row of the coupling */
+/* Longest row of a matrix, on this rank */
 static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
 {
   PetscInt rstart, rend;
@@ -180,25 +200,79 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* J of the kept rows: counts the entries of each row first, then puts them in */
-static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, PetscInt nkept, const PetscInt kept[], Mat *J)
+/* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with those that bend; the rows of other pairs are empty */
+static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
+{
+  PetscInt n;
+  Mat      bend, through;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(contact->bends.slopes, NULL, &n));
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->rigid, rigid));
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->by_node, bending));
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, 3 * contact->bends.nlocal, &as->by_bend, &bend));
+  PetscCall(MatMatMult(bend, contact->bends.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
+  PetscCall(MatAXPY(*bending, 1.0, through, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&through));
+  PetscCall(MatDestroy(&bend));
+  PetscFunctionReturn(0);
+}
+
+/* One row of J of a smooth pair; entries that are zero but for rounding are left out */
+static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+{
+  PetscInt           ncols;
+  const PetscInt    *cols;
+  const PetscScalar *values;
+  PetscReal          largest = 0.0;
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCall(MatGetRow(slopes, row, &ncols, &cols, &values));
+  for (PetscInt k = 0; k < ncols; ++k) largest = PetscMax(largest, PetscAbsScalar(values[k]));
+  for (PetscInt k = 0; k < ncols; ++k) {
+    if (PetscAbsScalar(values[k]) <= SLOPE_DROP * largest) continue;
+    column[*n] = cols[k];
+    entry[*n]  = values[k] / mass;
+    ++*n;
+  }
+  PetscCall(MatRestoreRow(slopes, row, &ncols, &cols, &values));
+  PetscFunctionReturn(0);
+}
+
+/* The space for rows of the couplings, and of the slopes if there are any */
+static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, PetscInt *space)
+{
+  PetscInt longest = 0;
+
+  PetscFunctionBegin;
+  PetscCall(CouplingLongestRow(coupling->mat[0], space));
+  if (slopes) PetscCall(CouplingLongestRow(slopes, &longest));
+  *space = PetscMax(3 * *space, longest);
+  PetscFunctionReturn(0);
+}
+
+/* J of the kept rows: counts the entries of each row first, then puts them in. slopes: taken for smooth pairs unless NULL */
+static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept, const PetscInt kept[], Mat *J)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
-  PetscInt           rstart, jstart = 0, nlocal, cstart, cend, longest, *column, *diagonal, *offdiagonal;
+  PetscInt           rstart, jstart = 0, nlocal, cstart, cend, space, *column, *diagonal, *offdiagonal;
   PetscScalar       *entry;
 
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
   PetscCall(MatGetOwnershipRangeColumn(coupling->mat[0], &cstart, &cend));
   nlocal = 3 * (cend - cstart);
-  PetscCall(CouplingLongestRow(coupling->mat[0], &longest));
-  PetscCall(PetscMalloc4(3 * longest, &column, 3 * longest, &entry, nkept, &diagonal, nkept, &offdiagonal));
+  PetscCall(CouplingRowSpace(coupling, slopes, &space));
+  PetscCall(PetscMalloc4(space, &column, space, &entry, nkept, &diagonal, nkept, &offdiagonal));
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   PetscCall(MatCreate(contact->comm, J));
   PetscCall(MatSetSizes(*J, nkept, nlocal, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(*J, MATAIJ));
   for (PetscInt pass = 0; pass < 2; ++pass) {
+    PetscInt pair = 0;
+
     if (pass) {
       PetscCall(MatXAIJSetPreallocation(*J, 1, diagonal, offdiagonal, NULL, NULL));
       PetscCall(MatGetOwnershipRange(*J, &jstart, NULL));
@@ -206,11 +280,10 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
     for (PetscInt k = 0; k < nkept; ++k) {
       const PetscInt i = kept[k], row = jstart + k;
       PetscInt       n;
-      CouplingRow    r = {0};
 
-      PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
-      PetscCall(CouplingExpandRow(&r, &n, column, entry));
-      PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
+      while (i >= rows->first[pair + 1]) ++pair;
+      if (slopes && contact->pairs[pair].mortar.patched) PetscCall(SlopesGetRow(slopes, rstart + i, PetscRealPart(mass[i]), &n, column, entry));
+      else PetscCall(CouplingExpandRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &n, column, entry));
       if (pass) PetscCall(MatSetValues(*J, 1, &row, n, column, entry, INSERT_VALUES));
       else {
         diagonal[k] = 0;
@@ -259,6 +332,21 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
+/* J and what goes with it where pairs are smooth */
+static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling, const PetscInt kept[], ContactLinearization lin)
+{
+  Mat rigid, bending;
+
+  PetscFunctionBegin;
+  PetscCall(SlopesCreate(contact, as, &rigid, &bending));
+  PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->J));
+  PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
+  PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->cover));
+  PetscCall(MatDestroy(&rigid));
+  PetscCall(MatDestroy(&bending));
+  PetscFunctionReturn(0);
+}
+
 /* Collective */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
@@ -272,7 +360,8 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
   PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  PetscCall(CouplingCreateJacobian(contact, &coupling, (*lin)->nlocal, kept, &(*lin)->J));
+  if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
+  else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));

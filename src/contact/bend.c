@@ -1,19 +1,12 @@
 /* Normals of the smooth surface at the facets' corners: means of the corners about a node, mended where the surface ends */
 #include "contactimpl.h"
 
-/* Zero stays zero */
-static void ScaleToUnit(PetscReal n[3])
-{
-  const PetscReal length = PetscSqrtReal(ContactDot(n, n));
-
-  for (PetscInt c = 0; c < 3; ++c) n[c] = length > 0.0 ? n[c] / length : 0.0;
-}
-
 /*
   Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres and on cylinders,
-  whatever the lengths (N. Max, Weights for computing vertex normals from facet normals, J. Graphics Tools 4 (1999))
+  whatever the lengths (N. Max, Weights for computing vertex normals from facet normals, J. Graphics Tools 4 (1999)), scaled to
+  length 1; returns the length before
 */
-static void FanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
+PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   n[0] = n[1] = n[2] = 0.0;
   for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(corner)]) {
@@ -25,15 +18,16 @@ static void FanNormal(const ContactRing *ring, PetscInt first, PetscInt last, Pe
     for (PetscInt c = 0; weight > 0.0 && c < 3; ++c) n[c] += product[c] / weight;
     if (corner == last) break;
   }
-  ScaleToUnit(n);
+  return ContactScaleToUnit(n);
 }
 
-static void MeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
+/* Of all facets about a corner's node, as far as no sharp edge is between them */
+void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt first, last;
 
   (void)ContactRingFan(ring, corner, &first, &last);
-  FanNormal(ring, first, last, n);
+  (void)ContactRingFanNormal(ring, first, last, n);
 }
 
 /* The one facet at a corner of the surface: along both its edges the surface is an arc, the normals at whose ends mirror each other */
@@ -43,13 +37,13 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 
   ContactRingEdges(ring, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
-    MeanNormal(ring, i ? ContactCornerBefore(corner) : ContactCornerAfter(corner), m);
+    ContactRingMeanNormal(ring, i ? ContactCornerBefore(corner) : ContactCornerAfter(corner), m);
     rhs[i] = -ContactDot(n, d[i]) - ContactDot(m, d[i]);
     G[i]   = ContactDot(d[i], d[i]);
   }
   G[2] = ContactDot(d[0], d[1]);
   det  = G[0] * G[1] - G[2] * G[2];
-  if (!(det > 1e-4 * G[0] * G[1])) return;
+  if (!(det > CONTACT_FLAT_CORNER * G[0] * G[1])) return;
   for (PetscInt c = 0; c < 3; ++c) n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
 }
 
@@ -62,15 +56,22 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   ContactRingEdges(ring, last, d, before);
   for (PetscInt c = 0; c < 3; ++c) along[c] = after[c] - before[c];
   ContactCross(n, along, across);
-  ScaleToUnit(across);
+  (void)ContactScaleToUnit(across);
   for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(corner)]) {
     ContactRingEdges(ring, corner, after, d);
-    MeanNormal(ring, ContactCornerBefore(corner), m);
+    ContactRingMeanNormal(ring, ContactCornerBefore(corner), m);
     sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(across, d);
     squares += PetscSqr(ContactDot(across, d));
   }
   if (!(squares > 0.0)) return;
   for (PetscInt c = 0; c < 3; ++c) n[c] += sum / squares * across[c];
+}
+
+/* From the unit mean of an open fan to a normal along which the surface ends as an arc, not scaled yet */
+void ContactRingMend(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
+{
+  if (first == last) MendCorner(ring, first, n);
+  else MendBorder(ring, first, last, n);
 }
 
 /* Unit normal at a corner, of the facets about its node as far as no sharp edge is between them; zero where they cancel */
@@ -79,9 +80,8 @@ void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
   PetscInt        first, last;
   const PetscBool closed = ContactRingFan(ring, corner, &first, &last);
 
-  FanNormal(ring, first, last, n);
+  (void)ContactRingFanNormal(ring, first, last, n);
   if (closed) return;
-  if (first == last) MendCorner(ring, corner, n);
-  else MendBorder(ring, first, last, n);
-  ScaleToUnit(n);
+  ContactRingMend(ring, first, last, n);
+  (void)ContactScaleToUnit(n);
 }

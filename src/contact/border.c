@@ -1,5 +1,6 @@
 /* The border of a face: edges that only one of its facets has, on whatever rank */
 #include <petscsf.h>
+#include <mesh.h>
 #include "contactimpl.h"
 
 static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
@@ -59,5 +60,49 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   s->bordered = PETSC_TRUE;
   PetscCall(PetscFree(edge));
   PetscCall(PetscFree(count));
+  PetscFunctionReturn(0);
+}
+
+/* bits[v]: of the axes along which a face that vertex v is of is held, all ranks' facets */
+static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt bits[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt  axes = (displacements[k].fixed[0] ? 1 : 0) | (displacements[k].fixed[1] ? 2 : 0) | (displacements[k].fixed[2] ? 4 : 0);
+    IS              facets;
+    const PetscInt *f;
+    PetscInt        nfacets;
+
+    PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
+    PetscCall(ISGetLocalSize(facets, &nfacets));
+    PetscCall(ISGetIndices(facets, &f));
+    for (PetscInt i = 0; i < nfacets; ++i) {
+      PetscInt vertex[4];
+
+      PetscCall(MeshGetFacetVertices(dm, f[i], vertex));
+      for (PetscInt a = 0; a < 4; ++a) bits[vertex[a]] |= axes;
+    }
+    PetscCall(ISRestoreIndices(facets, &f));
+    PetscCall(ISDestroy(&facets));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Where faces with these prescribed displacements hold the vertices of s; kept there */
+PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
+{
+  PetscSF  sf;
+  PetscInt npoints, *bits;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &bits));
+  PetscCall(BorderMarkHeld(dm, n, displacements, bits));
+  PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
+  PetscCall(PetscFree(s->held));
+  PetscCall(PetscCalloc1(s->nfacets, &s->held));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->held[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
+  PetscCall(PetscFree(bits));
   PetscFunctionReturn(0);
 }

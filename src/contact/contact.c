@@ -188,6 +188,33 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscFunctionReturn(0);
 }
 
+/*@C
+  ContactSetDisplacements - Tells a contact which faces are held, so that smooth surfaces go on beyond the planes they end on
+
+  Logically Collective
+
+  Input Parameters:
++ contact       - the contact
+. n             - number of prescribed displacements
+- displacements - the prescribed displacements; they must stay until the contact is destroyed
+
+  Level: intermediate
+
+  Note:
+  Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth surface goes on as in a
+  mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+
+.seealso: `ContactCreate()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneDisplacement displacements[])
+{
+  PetscFunctionBegin;
+  contact->ndisplacements = n;
+  contact->displacements  = displacements;
+  PetscCall(ContactSmoothReset(contact));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ContactGetReach - How far apart, and how deep in one another, facets pair
 

@@ -22,10 +22,13 @@ PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 /* vector.c: products of vectors */
 PETSC_INTERN PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3]);
 PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
+PETSC_INTERN PetscReal ContactScaleToUnit(PetscReal n[3]);
 
 /* facet.c: bilinear facets */
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
+PETSC_INTERN void      ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
+PETSC_INTERN void      ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12]);
 PETSC_INTERN void      ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
@@ -36,9 +39,15 @@ typedef struct {
   PetscReal normal[12];                   /* unit, at the vertices */
 } ContactPatch;
 PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
+PETSC_INTERN PetscBool ContactPatchIsBent(const ContactPatch *, PetscInt edge);
 PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3]);
-PETSC_INTERN PetscReal ContactPatchDistance(const PetscReal r[3], const PetscReal n[3], const PetscReal direction[3]);
+
+/* patchslopes.c: derivatives of what is made of a patch's points. by: the derivative by each number of the patch, at its place */
+PETSC_INTERN void      ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3], const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
+PETSC_INTERN PetscReal ContactPatchHeight(const ContactPatch *, const PetscReal xi[2], const PetscReal direction[3], PetscReal by_xi[2], ContactPatch *by);
+PETSC_INTERN void      ContactPatchChain(const PetscReal x[12], const ContactPatch *, const ContactPatch *by, PetscReal by_x[12], PetscReal by_normal[12]);
+PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPatch *by, PetscReal moment[3]);
 
 /* frame.c: the plane a nonmortar facet is projected to */
 typedef struct {
@@ -51,12 +60,25 @@ PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal
 /* clip.c: convex polygons in the plane, vertices counterclockwise */
 #define CONTACT_MAX_POLYGON 32
 PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
-PETSC_INTERN PetscInt  ContactClip(PetscInt n, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2]);
+PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2]);
 
 /* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
    frozen, the weighted gap is linear in the coordinates. */
-#define CONTACT_MAX_POINTS (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
+#define CONTACT_MAX_CORNERS (2 * CONTACT_MAX_POLYGON)
+#define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
+  PetscReal y[2];
+  PetscInt  line[2][2]; /* the two lines that meet there, each through two vertices: 0 to 3 of the nonmortar facet, 4 to 7 of the mortar one */
+} ContactCorner;
+typedef struct {
+  PetscInt  corner[3];
+  PetscReal sign;
+} ContactTriangle;
+typedef struct {
+  PetscInt        ncorners, ntriangles;
+  ContactCorner   corner[CONTACT_MAX_CORNERS];
+  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each with as many points as the rule, in this order */
+
   PetscInt  n;
   PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
   PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
@@ -67,6 +89,13 @@ typedef struct {
   PetscReal cosine, overlap_drop, distance, depth;
 } ContactOverlapLimits;
 PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *, const ContactRule *, ContactOverlap *);
+
+/* overlapslopes.c: the weighted gap of two smooth surfaces over an overlap, and all that it changes with */
+typedef struct {
+  PetscReal x[4][12], normal[4][12]; /* of int phi_A gap, for the four A: by a facet's vertices, and by the unit normals there */
+  PetscReal rigid[4][12];            /* by its vertices, the patches keeping their shape and turning with their facets */
+} ContactSlopes;
+PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12], const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], ContactSlopes *nonmortar, ContactSlopes *mortar);
 
 /* closest.c: the point of a facet closest to another point */
 PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3]);
@@ -97,7 +126,9 @@ typedef struct {
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
+  PetscInt  *bend;      /* [4 nfacets] their global numbers */
   PetscBool  patched;   /* whether there are those; the same on all ranks */
+  PetscInt  *held;      /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
   PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
   PetscBool  bordered;  /* whether border has been asked for; the same on all ranks */
   PetscReal  area;      /* of the whole undeformed face, all ranks [length^2] */
@@ -110,8 +141,9 @@ PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface 
 PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* border.c: fills in a surface's border */
+/* border.c: fills in a surface's border; where it is held */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
 
 /* exchange.c: mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
 typedef struct {
@@ -120,29 +152,58 @@ typedef struct {
   PetscInt  *border; /* [n] where the surface is bordered */
   PetscReal *x;      /* [12 n] */
   PetscReal *patch;  /* [12 n] where the surface is patched */
+  PetscInt  *bend;   /* [4 n] there, too */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *, ContactCandidates *);
 PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 
 /* ring.c: the facets about those of this rank, two deep, and who is next to whom. Corner 4 f + a is vertex a of facet f */
 typedef struct {
+  PetscInt of, plane[3]; /* a real node; and real nodes on the planes across the axes that it is seen in, negative: in none */
+} ContactImage;
+typedef struct {
   PetscInt   nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
   PetscInt   nnodes, *node; /* [4 nfacets] number from 0 of the node at a corner */
   PetscInt  *twin;          /* [4 nfacets] corner whose edge to the next vertex is the same, seen from the other side; negative: sharp, or on the border */
-  PetscReal *reference, *x; /* [3 nnodes] coordinates of the nodes, undeformed and deformed [length] */
+  PetscInt   nreal;         /* the nodes from here on are images of those before, in planes that the surface ends on */
+  PetscInt  *global;        /* [nreal] global numbers of the nodes */
+  PetscInt  *held;          /* [nnodes] bits of the axes along which the face is held */
+  PetscInt   nnormals;      /* that the surface's own corners have on this rank: corners share one as far as nothing sharp is between them */
+  PetscInt  *normal, *at;   /* [4 own facets] which a corner has; [nnormals] a corner that has it */
+  PetscReal *reference, *x; /* [3 nreal], [3 nnodes] coordinates of the nodes, undeformed and deformed [length] */
   Vec        u;             /* displacements of the nodes */
   VecScatter scatter;
+
+  ContactImage *image; /* [nnodes - nreal] */
 } ContactRing;
 PETSC_INTERN PetscInt       ContactCornerAfter(PetscInt corner);
 PETSC_INTERN PetscInt       ContactCornerBefore(PetscInt corner);
-PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
+PETSC_INTERN void           ContactRingReflect(ContactRing *, PetscInt node);
 PETSC_INTERN PetscErrorCode ContactRingDeform(Vec u, ContactRing *);
 PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner, PetscInt *first, PetscInt *last);
 PETSC_INTERN void           ContactRingEdges(const ContactRing *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
 
 /* bend.c: normals of the smooth surface, from the facets' corners */
-PETSC_INTERN void ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
+#define CONTACT_FLAT_CORNER 1e-4 /* squared sine of the angle of a facet's corner, below which it is as good as straight */
+PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
+PETSC_INTERN void      ContactRingMeanNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
+PETSC_INTERN void      ContactRingMend(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
+PETSC_INTERN void      ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
+
+/* mirror.c: a ring's images in the planes that the surface ends on */
+PETSC_INTERN PetscErrorCode ContactRingAddImages(MPI_Comm, PetscReal length, PetscInt nown, ContactRing *);
+
+/* gather.c: makes a ring */
+PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
+
+/* bendslopes.c: what the normals change with the nodes */
+typedef struct {
+  PetscInt     n;     /* blocks so far */
+  PetscInt    *node;  /* of the ring; NULL: blocks are counted only */
+  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; they add up where nodes repeat */
+} ContactNormalSlopes;
+PETSC_INTERN void ContactRingNormalSlopes(const ContactRing *, PetscInt corner, ContactNormalSlopes *);
 
 /* tree.c: a static tree of facets' bounding boxes. Depth-first: the first child of a node follows it */
 #define CONTACT_TREE_DEPTH 128 /* of a median split of any number of facets PetscInt can hold */
@@ -199,6 +260,13 @@ typedef struct {
   Vec        mass;           /* int phi_A over the whole undeformed nonmortar face [length^2] */
 } ContactRows;
 
+/* What the normals of all smooth surfaces change with a displacement; a rank has those of its own facets' corners */
+typedef struct {
+  PetscInt            nlocal; /* normals */
+  ContactNormalSlopes blocks; /* the same nodes in the same order at every displacement */
+  Mat                 slopes; /* three rows a normal, columns are the DM's global rows; NULL where no pair is smooth */
+} ContactBends;
+
 /* Along what a mortar gap is measured */
 typedef enum {
   CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
@@ -206,31 +274,49 @@ typedef enum {
 } ContactNormals;
 
 struct _n_Contact {
-  DM               dm;
-  MPI_Comm         comm;
-  PetscInt         npairs;
-  ContactPairData *pairs;
-  ContactRows      rows;
-  ContactNormals   normals;
-  PetscReal        feature_angle; /* edges sharper than this stay sharp [degrees] */
-  PetscBool        smoothed;      /* whether it has been looked which pairs are curved */
-  ContactRule      rule;          /* of the triangles that overlaps are cut into */
-  PetscReal        reach;         /* distance that pairs without one of their own look for at least [length] */
-  PetscReal        reach_depth;   /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
-  PetscReal        depth;         /* 0: from the thickness of the bodies */
-  PetscReal        cosine;        /* facets pair when n1.n2 is at most this */
-  PetscReal        overlap_drop;  /* relative to the smaller facet's area */
-  PetscReal        row_drop;      /* relative to the largest row's 1-norm */
-  PetscInt         nrows;         /* of the last linearization, on all ranks */
+  DM                       dm;
+  MPI_Comm                 comm;
+  PetscInt                 npairs;
+  ContactPairData         *pairs;
+  ContactRows              rows;
+  ContactNormals           normals;
+  PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
+  PetscInt                 ndisplacements;
+  const SceneDisplacement *displacements; /* that the faces of the bodies are held by; the caller's */
+  PetscBool                smoothed;      /* whether it has been looked which pairs are curved */
+  ContactBends             bends;
+  ContactRule              rule;         /* of the triangles that overlaps are cut into */
+  PetscReal                reach;        /* distance that pairs without one of their own look for at least [length] */
+  PetscReal                reach_depth;  /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
+  PetscReal                depth;        /* 0: from the thickness of the bodies */
+  PetscReal                cosine;       /* facets pair when n1.n2 is at most this */
+  PetscReal                overlap_drop; /* relative to the smaller facet's area */
+  PetscReal                row_drop;     /* relative to the largest row's 1-norm */
+  PetscInt                 nrows;        /* of the last linearization, on all ranks */
 };
 
 /* rows.c: the rows there may be */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 
+/* bends.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings' displacement */
+PETSC_INTERN PetscErrorCode ContactBendsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactBendsUpdate(Contact);
+PETSC_INTERN PetscErrorCode ContactBendsDestroy(Contact);
+
 /* smooth.c: which pairs are curved, and their smooth surfaces */
 PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
 PETSC_INTERN PetscErrorCode ContactSmoothReset(Contact);
+
+/* entries.c: entries of a matrix, as they come; added up where they repeat */
+typedef struct {
+  PetscInt     n, size; /* in use, and space for them */
+  PetscInt    *row, *column;
+  PetscScalar *value;
+} ContactEntries;
+PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, PetscInt n, const PetscInt block[], const PetscReal value[]);
+PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
+PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 
 /* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
@@ -239,9 +325,12 @@ typedef struct {
   PetscInt    *row, *node; /* global row, global number of the vertex */
   PetscInt     dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
   PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
+
+  ContactEntries rigid, by_node, by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */
 } ContactAssembly;
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3]);
+PETSC_INTERN PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *, const PetscInt row[4], const PetscInt node[4], const PetscInt bend[4], const ContactSlopes *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
 
@@ -264,7 +353,6 @@ typedef struct {
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *);
-PETSC_INTERN void ContactIntegratePatches(const ContactOverlap *, const PetscReal x1[12], const ContactPatch *, const ContactPatch *, const PetscReal normals[12], PetscReal gap[4]);
 
 /* contact.c, linearize.c, deep.c: the object's life, its gap, and the error where bodies overlap deeper than it looks, public */
 

@@ -6,7 +6,7 @@
 typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
-  PetscInt    n, *node, *border;
+  PetscInt    n, *node, *border, *bend;
   PetscReal  *x, *patch;
 } Outgoing;
 
@@ -28,7 +28,10 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
         PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
         PetscCall(PetscArraycpy(&out->node[4 * out->n], &s->node[4 * f], 4));
         if (s->bordered) out->border[out->n] = s->border[f];
-        if (s->patched) PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
+        if (s->patched) {
+          PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
+          PetscCall(PetscArraycpy(&out->bend[4 * out->n], &s->bend[4 * f], 4));
+        }
       }
       ++out->n;
     }
@@ -89,7 +92,7 @@ static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datat
 /* Collective. The facets of all ranks whose boxes meet the box of this rank */
 PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
-  const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 12 : 0;
+  const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 1 : 0;
   PetscMPIInt    size;
   PetscReal     *boxes;
   PetscSF        sf;
@@ -100,16 +103,19 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
-  PetscCall(PetscMalloc4(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, npatch * out.n, &out.patch));
+  PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n, &out.patch, 4 * npatch * out.n, &out.bend));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc4(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, npatch * in->n, &in->patch));
+  PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n, &in->patch, 4 * npatch * in->n, &in->bend));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
-  if (npatch) PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
+  if (npatch) {
+    PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
+    PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.bend, in->bend));
+  }
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree4(out.x, out.node, out.border, out.patch));
+  PetscCall(PetscFree5(out.x, out.node, out.border, out.patch, out.bend));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -117,7 +123,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree4(in->x, in->node, in->border, in->patch));
+  PetscCall(PetscFree5(in->x, in->node, in->border, in->patch, in->bend));
   in->n = 0;
   PetscFunctionReturn(0);
 }

@@ -8,6 +8,15 @@ void ContactShape(const PetscReal xi[2], PetscReal phi[4])
   for (PetscInt a = 0; a < 4; ++a) phi[a] = 0.25 * (1.0 + corner[a][0] * xi[0]) * (1.0 + corner[a][1] * xi[1]);
 }
 
+/* Derivatives of the shape functions by both parameters */
+void ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    dphi[a][0] = 0.25 * corner[a][0] * (1.0 + corner[a][1] * xi[1]);
+    dphi[a][1] = 0.25 * corner[a][1] * (1.0 + corner[a][0] * xi[0]);
+  }
+}
+
 /* Integral of the unit normal over the facet: half the cross product of its diagonals, exact for warped facets too */
 void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
 {
@@ -19,6 +28,33 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   }
   ContactCross(d1, d2, a);
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
+}
+
+/* by_x: derivatives by the vertices of moment times the facet's turn, the one that its normal and its first diagonal make; the facet has an area */
+void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
+{
+  PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;
+
+  for (PetscInt k = 0; k < 2; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) d[k][c] = x[6 + 3 * k + c] - x[3 * k + c];
+  }
+  ContactCross(d[0], d[1], n);
+  size = ContactScaleToUnit(n); /* twice the area */
+  ContactCross(moment, n, q);
+  ContactCross(d[1], q, by_d[0]);
+  ContactCross(q, d[0], by_d[1]);
+  ContactCross(n, d[0], s);
+  spin = ContactDot(moment, n) / ContactDot(d[0], d[0]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    by_d[0][c] = by_d[0][c] / size + spin * s[c];
+    by_d[1][c] /= size;
+  }
+  for (PetscInt k = 0; k < 2; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_x[6 + 3 * k + c] = by_d[k][c];
+      by_x[3 * k + c]     = -by_d[k][c];
+    }
+  }
 }
 
 /* Derivatives of the facet's points by their parameters */

@@ -75,8 +75,11 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   and on curved faces with -contact_normals facet.
 
   Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand for: patches
-  through the deformed vertices, bent to follow the mean normals of the facets about them. J and the masses stay those of the facets,
-  so that forces balance as they do without; what the patches' heights change with u is left to the next linearization.
+  through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as in a mirror where a face ends on a
+  plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then measured along the normal of each nonmortar facet, that of a
+  vertex along the normal of the mortar surface. lin->derivative is the gap's derivative to rounding, the normals' turning with u included;
+  it reaches two facets far. J is the derivative with patches that keep their shape and turn with their facets: its forces are spread
+  as those of facets are, and balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite is an
   error.
@@ -137,6 +140,8 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(VecDestroy(&(*lin)->g));
   PetscCall(VecDestroy(&(*lin)->mass));
   PetscCall(MatDestroy(&(*lin)->J));
+  PetscCall(MatDestroy(&(*lin)->derivative));
+  PetscCall(MatDestroy(&(*lin)->cover));
   PetscCall(PetscFree((*lin)->vertex));
   PetscCall(PetscFree((*lin)->pair));
   PetscCall(PetscFree(*lin));

@@ -25,60 +25,70 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
   }
 }
 
-/* Adds to int phi_A gap what the two smooth surfaces stand off their facets, along the normal that the facets are projected along */
-void ContactIntegratePatches(const ContactOverlap *o, const PetscReal x1[12], const ContactPatch *patch1, const ContactPatch *patch2, const PetscReal normals[12], PetscReal gap[4])
+/* A facet of the nonmortar face, and the sums over what it overlaps */
+typedef struct {
+  const PetscReal *x, *normal;
+  const PetscInt  *row, *node;
+  PetscInt         noverlaps;
+  PetscReal        gap[4], D[4][4];
+  ContactPatch     patch; /* of smooth pairs */
+  ContactSlopes    slopes;
+} MortarFacet;
+
+/* Adds a mortar facet of a smooth pair */
+static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap, const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
-  PetscReal n1[3], cosine[4];
+  const PetscReal *x = &mortar->x[12 * k];
+  ContactPatch     patch;
+  ContactSlopes    slopes;
 
-  if (!ContactFacetNormal(x1, n1)) return;
-  for (PetscInt a = 0; a < 4; ++a) cosine[a] = n1[0] * normals[3 * a] + n1[1] * normals[3 * a + 1] + n1[2] * normals[3 * a + 2];
-  for (PetscInt q = 0; q < o->n; ++q) {
-    PetscReal phi[4], r[3], n[3], height;
+  PetscFunctionBegin;
+  ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, &facet->slopes, &slopes);
+  PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->bend[4 * k], &slopes));
+  PetscFunctionReturn(0);
+}
 
-    ContactPatchEvaluate(patch2, o->xi2[q], r, n);
-    height = ContactPatchDistance(r, n, n1);
-    ContactPatchEvaluate(patch1, o->xi1[q], r, n);
-    height -= ContactPatchDistance(r, n, n1);
-    ContactShape(o->xi1[q], phi);
-    for (PetscInt a = 0; a < 4; ++a) gap[a] += o->weight[q] * phi[a] * height * cosine[a];
+/* Adds what a mortar facet overlaps */
+static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth, const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
+{
+  ContactIntegrals m;
+
+  PetscFunctionBegin;
+  ContactIntegrate(overlap, facet->x, &mortar->x[12 * k], facet->normal, &m);
+  if (smooth) PetscCall(MortarAddPatch(rule, overlap, mortar, k, facet, m.gap, assembly));
+  for (PetscInt a = 0; a < 4; ++a) {
+    facet->gap[a] += m.gap[a];
+    for (PetscInt b = 0; b < 4; ++b) facet->D[a][b] -= m.D[a][b];
+    PetscCall(ContactAssemblyAdd(assembly, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
   }
+  ++facet->noverlaps;
+  PetscFunctionReturn(0);
 }
 
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
 static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
-  const PetscReal *x1      = &pair->nonmortar.x[12 * f];
-  const PetscInt  *row     = &pair->row[4 * f];
-  PetscReal        D[4][4] = {{0}};
-  PetscScalar      gap[4]  = {0};
-  PetscInt         n       = 0;
-  ContactOverlap   overlap;
-  ContactIntegrals m;
-  ContactPatch     patch1, patch2;
+  const PetscBool smooth = pair->nonmortar.patched;
+  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f], .normal = normal, .row = &pair->row[4 * f], .node = &pair->nonmortar.node[4 * f]};
+  ContactOverlap  overlap;
 
   PetscFunctionBegin;
-  if (pair->nonmortar.patched) ContactPatchCreate(x1, &pair->nonmortar.patch[12 * f], &patch1);
+  if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
   for (PetscInt k = 0; k < nnear; ++k) {
-    const PetscReal *x2 = &mortar->x[12 * near[k]];
+    if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap)) PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
+  }
+  if (facet.noverlaps) {
+    PetscScalar gap[4];
 
-    if (!ContactOverlapFind(x1, x2, limits, rule, &overlap)) continue;
-    ContactIntegrate(&overlap, x1, x2, normal, &m);
-    if (pair->nonmortar.patched) {
-      ContactPatchCreate(x2, &mortar->patch[12 * near[k]], &patch2);
-      ContactIntegratePatches(&overlap, x1, &patch1, &patch2, normal, m.gap);
-    }
-    ++n;
     for (PetscInt a = 0; a < 4; ++a) {
-      gap[a] += m.gap[a];
-      for (PetscInt b = 0; b < 4; ++b) D[a][b] -= m.D[a][b];
-      PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &mortar->node[4 * near[k]], m.M[a], &normal[3 * a]));
+      gap[a] = facet.gap[a];
+      PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
     }
+    if (smooth) PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
+    PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
   }
-  if (n) {
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(ContactAssemblyAdd(assembly, row[a], 4, &pair->nonmortar.node[4 * f], D[a], &normal[3 * a]));
-    PetscCall(VecSetValues(assembly->gap, 4, row, gap, ADD_VALUES));
-  }
-  *noverlaps += n;
+  *noverlaps += facet.noverlaps;
   PetscFunctionReturn(0);
 }
 

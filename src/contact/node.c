@@ -53,26 +53,110 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
   PetscFunctionReturn(0);
 }
 
-/* Along the normal n, from the vertex x to the closest point, or to the plane that touches the smooth surface beside it where that is off its facet */
-static PetscReal VertexGap(const ContactSurface *s, const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
-{
-  PetscReal    offset[3] = {0, 0, 0}, r[3], m[3];
-  ContactPatch patch;
+/* The gap of a smooth pair and what it changes with */
+typedef struct {
+  PetscReal gap, vertex[3], facet[12], normal[12];
+  PetscReal rigid[12]; /* by the facet's vertices, the patch turning with the facet */
+} NodeGap;
 
-  for (PetscInt c = 0; c < 3; ++c) r[c] = nearest->y[c] - x[c];
-  if (s->patched) {
-    ContactPatchCreate(&mortar->x[12 * nearest->facet], &mortar->patch[12 * nearest->facet], &patch);
-    ContactPatchEvaluate(&patch, nearest->xi, offset, m);
-    for (PetscInt c = 0; c < 3; ++c) r[c] += offset[c];
-    if (ContactPatchBulge(&patch) > 0.0) return ContactPatchDistance(r, m, n);
+/* The closest point moves on its facet so as to stay the closest one, along the edge or to the corner that it is at */
+static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3], const PetscReal by_xi[2], NodeGap *gap)
+{
+  PetscReal t[2][3], phi[4], dphi[4][2], r[3], H[3], twist[3], mu[2], det;
+  PetscBool moves[2];
+
+  ContactShape(nearest->xi, phi);
+  ContactShapeSlopes(nearest->xi, dphi);
+  ContactFacetTangents(facet, nearest->xi, t[0], t[1]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c]     = nearest->y[c] - x[c];
+    twist[c] = 0.25 * (facet[c] - facet[3 + c] + facet[6 + c] - facet[9 + c]);
   }
-  return r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
+  for (PetscInt d = 0; d < 2; ++d) {
+    moves[d] = (PetscBool)(PetscAbsReal(nearest->xi[d]) < 1.0);
+    H[2 * d] = moves[d] ? ContactDot(t[d], t[d]) : 1.0;
+    mu[d]    = moves[d] ? -by_xi[d] : 0.0;
+  }
+  H[1] = moves[0] && moves[1] ? ContactDot(t[0], t[1]) + ContactDot(r, twist) : 0.0;
+  det  = H[0] * H[2] - H[1] * H[1];
+  if (!(det > 0.0)) return;
+  mu[0] = (H[2] * mu[0] - H[1] * mu[1]) / det;
+  mu[1] = moves[1] ? (-by_xi[1] - H[1] * mu[0]) / H[2] : 0.0;
+  for (PetscInt d = 0; d < 2; ++d) {
+    for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] -= mu[d] * t[d][c];
+    for (PetscInt i = 0; i < 12; ++i) {
+      const PetscReal moved = mu[d] * (phi[i / 3] * t[d][i % 3] + dphi[i / 3][d] * r[i % 3]);
+
+      gap->facet[i] += moved;
+      gap->rigid[i] += moved;
+    }
+  }
 }
 
-/* gap = (y - x).n, its coupling N2_B(xi) - 1; both times the mass that the assembly divides by */
-static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass, const ContactCandidates *mortar, const ContactNearest *nearest, PetscReal gap, ContactAssembly *assembly)
+/* How far the vertex x, of normal n, is over the plane that touches the smooth surface beside its closest point, along the normal of that */
+static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
-  const PetscScalar weighted = mass * gap;
+  ContactPatch patch, by;
+  PetscReal    r[3], m[3], phi[4], dphi[4][2], by_xi[2], by_normal[3], turn[3], length;
+
+  ContactPatchCreate(facet, normals, &patch);
+  ContactPatchEvaluate(&patch, nearest->xi, r, m);
+  length = ContactScaleToUnit(m);
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c] = x[c] - nearest->y[c] - r[c];
+    if (!(length > 0.0)) m[c] = -n[c];
+  }
+  gap->gap = ContactDot(r, m);
+  for (PetscInt c = 0; c < 3; ++c) {
+    by_normal[c]   = length > 0.0 ? (r[c] - gap->gap * m[c]) / length : 0.0;
+    gap->vertex[c] = m[c];
+    m[c]           = -m[c];
+  }
+  ContactPatchDifferentiate(&patch, nearest->xi, m, by_normal, by_xi, &by);
+  ContactPatchMoment(&patch, &by, turn);
+  ContactFacetTurn(facet, turn, gap->rigid);
+  ContactShape(nearest->xi, phi);
+  ContactShapeSlopes(nearest->xi, dphi);
+  for (PetscInt i = 0; i < 12; ++i) {
+    gap->facet[i] = phi[i / 3] * m[i % 3];
+    gap->rigid[i] += gap->facet[i];
+    gap->normal[i] = 0.0;
+    for (PetscInt d = 0; d < 2; ++d) by_xi[d] += dphi[i / 3][d] * facet[i] * m[i % 3];
+  }
+  ContactPatchChain(facet, &patch, &by, gap->facet, gap->normal);
+  NodeMoveClosest(facet, nearest, x, by_xi, gap);
+}
+
+/* Times the mass that the assembly divides by */
+static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar, PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] *= mass;
+  for (PetscInt i = 0; i < 12; ++i) {
+    gap->facet[i] *= mass;
+    gap->rigid[i] *= mass;
+    gap->normal[i] *= mass;
+  }
+  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 1, &vertex, gap->vertex));
+  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->rigid));
+  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 1, &vertex, gap->vertex));
+  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 4, &mortar->node[4 * facet], gap->facet));
+  PetscCall(ContactEntriesAdd(&assembly->by_bend, row, 4, &mortar->bend[4 * facet], gap->normal));
+  PetscFunctionReturn(0);
+}
+
+/* Along the normal n from the vertex x to the closest point of a facet */
+static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
+{
+  const PetscReal r[3] = {nearest->y[0] - x[0], nearest->y[1] - x[1], nearest->y[2] - x[2]};
+
+  return ContactDot(r, n);
+}
+
+/* The gap, and the coupling N2_B(xi) - 1 of the facets; both times the mass that the assembly divides by */
+static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass, const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
+{
+  const PetscScalar weighted = mass * gap->gap;
   PetscSection      global;
   PetscInt          offset;
   PetscReal         value[4];
@@ -86,6 +170,7 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   offset /= 3;
   value[0] = -mass;
   PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
+  if (mortar->bend) PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscFunctionReturn(0);
 }
@@ -107,13 +192,14 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
   for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
     const PetscReal *x = &rows->x[3 * i], *n = &rows->normal[3 * i];
     ContactNearest   nearest;
-    PetscReal        gap;
+    NodeGap          gap;
 
     ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
-    gap = VertexGap(&pair->mortar, mortar, &nearest, x, n);
-    if (gap > pair->distance || gap < -pair->depth) continue;
-    PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, gap, assembly));
+    if (pair->mortar.patched) NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
+    else gap.gap = NodeFacetGap(&nearest, x, n);
+    if (gap.gap > pair->distance || gap.gap < -pair->depth) continue;
+    PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, &gap, assembly));
     ++pair->nfacing;
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));

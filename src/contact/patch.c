@@ -9,6 +9,18 @@
 
 /* Ends of an edge are not steeper than this against its chord: normals of a crumpled face mean nothing */
 #define STEEPEST 0.7
+/* Nor are edges bent where a normal is missing, or that turn by 119 degrees and more: length of the sum of the two normals */
+#define LEAST_SUM 1.01
+
+/* Whether edge e has the normals to be bent by */
+PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
+{
+  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
+  PetscReal        N[3];
+
+  for (PetscInt c = 0; c < 3; ++c) N[c] = n[0][c] + n[1][c];
+  return (PetscBool)(ContactDot(N, N) > PetscSqr(LEAST_SUM));
+}
 
 /* Edge e from vertex e to the next; straight where a normal is missing or the two are opposite */
 static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
@@ -23,7 +35,7 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
   length         = PetscSqrtReal(ContactDot(N, N));
   steepest       = STEEPEST * PetscSqrtReal(ContactDot(d, d));
   p->slope[e][0] = p->slope[e][1] = 0.0;
-  if (!(length > 1.0)) return;
+  if (!ContactPatchIsBent(p, e)) return;
   for (PetscInt c = 0; c < 3; ++c) N[c] /= length;
   for (PetscInt i = 0; i < 2; ++i) p->slope[e][i] = PetscClipInterval(-2.0 * ContactDot(d, n[i]) / (1.0 + ContactDot(N, n[i])), -steepest, steepest);
 }
@@ -60,14 +72,4 @@ void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscRea
       normal[c] += phi[e] * p->normal[3 * e + c];
     }
   }
-}
-
-/* How far along a direction the patch is from the point that is r off its point of normal n: along its tangent plane there */
-PetscReal ContactPatchDistance(const PetscReal r[3], const PetscReal n[3], const PetscReal direction[3])
-{
-  const PetscReal cosine = ContactDot(n, direction);
-
-  /* the patch turns away from the direction by more than 60 degrees: no tangent plane to go by */
-  if (4.0 * PetscSqr(cosine) < ContactDot(n, n)) return ContactDot(r, direction);
-  return ContactDot(r, n) / cosine;
 }

@@ -7,20 +7,25 @@
 /* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a part of the edges */
 static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
 {
+  PetscReal *normal;
+
   PetscFunctionBegin;
   *bulge = *curvature = 0.0;
+  PetscCall(PetscMalloc1(3 * ring->nnormals, &normal));
+  for (PetscInt i = 0; i < ring->nnormals; ++i) ContactRingNormal(ring, ring->at[i], &normal[3 * i]);
   for (PetscInt f = 0; f < s->nfacets; ++f) {
     const PetscReal *x = &s->x[12 * f];
     PetscReal        a[3], size = 0.0;
     ContactPatch     patch;
 
-    for (PetscInt i = 0; i < 4; ++i) ContactRingNormal(ring, 4 * (ring->own + f) + i, &s->patch[12 * f + 3 * i]);
+    for (PetscInt i = 0; i < 12; ++i) s->patch[12 * f + i] = normal[3 * ring->normal[4 * f + i / 3] + i % 3];
     ContactFacetAreaVector(x, a);
     for (PetscInt c = 0; c < 3; ++c) size += PetscSqr(a[c]);
     ContactPatchCreate(x, &s->patch[12 * f], &patch);
     *bulge = PetscMax(*bulge, ContactPatchBulge(&patch));
     if (size > 0.0) *curvature = PetscMax(*curvature, ContactPatchBulge(&patch) / PetscSqrtReal(PetscSqrtReal(size)));
   }
+  PetscCall(PetscFree(normal));
   PetscFunctionReturn(0);
 }
 
@@ -37,8 +42,9 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
     ContactSurface undeformed = *surface[k];
 
     undeformed.x = undeformed.reference;
+    PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
     PetscCall(ContactRingCreate(contact->comm, u, cosine, surface[k], ring[k]));
-    PetscCall(PetscMalloc1(12 * surface[k]->nfacets, &surface[k]->patch));
+    PetscCall(PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->bend));
     undeformed.patch = surface[k]->patch;
     PetscCall(PatchSurface(ring[k], &undeformed, &largest[k], &largest[2 + k]));
   }
@@ -53,8 +59,8 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionBegin;
   PetscCall(ContactRingDestroy(&pair->mortar_ring));
   PetscCall(ContactRingDestroy(&pair->nonmortar_ring));
-  PetscCall(PetscFree(pair->mortar.patch));
-  PetscCall(PetscFree(pair->nonmortar.patch));
+  PetscCall(PetscFree2(pair->mortar.patch, pair->mortar.bend));
+  PetscCall(PetscFree2(pair->nonmortar.patch, pair->nonmortar.bend));
   pair->bulge          = 0.0;
   pair->mortar.patched = pair->nonmortar.patched = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -79,6 +85,8 @@ PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
     PetscCall(PatchSurface(&pair->mortar_ring, &pair->mortar, &bulge, &curvature));
     PetscCall(PatchSurface(&pair->nonmortar_ring, &pair->nonmortar, &bulge, &curvature));
   }
+  if (!contact->smoothed) PetscCall(ContactBendsCreate(contact));
+  PetscCall(ContactBendsUpdate(contact));
   contact->smoothed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
@@ -88,6 +96,7 @@ PetscErrorCode ContactSmoothReset(Contact contact)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(SharpenPair(&contact->pairs[p]));
+  PetscCall(ContactBendsDestroy(contact));
   contact->smoothed = PETSC_FALSE;
   PetscFunctionReturn(0);
 }

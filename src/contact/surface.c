@@ -167,6 +167,7 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
   PetscCall(PetscFree(s->border));
-  PetscCall(PetscFree(s->patch));
+  PetscCall(PetscFree(s->held));
+  PetscCall(PetscFree2(s->patch, s->bend));
   PetscFunctionReturn(0);
 }

@@ -119,6 +119,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
+    if (resume) PetscCall(GapAnticipate(p, p->sim->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);

@@ -3,11 +3,12 @@
 
 /*
    The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of the mortar side.
-   w_A is the area that the mortar side covers about A. Rows of other pairs have w = 0.
+   w_A is the area that the mortar side covers about A. Rows of other pairs have w = 0. Over vertices it is shared as the cover is, of which
+   w_A is share_A times the sum, along the normal n_A that the cover has.
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *normal; /* w [length^2]; 3 a row */
+  PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
 } PairRows;
 
@@ -37,7 +38,14 @@ static PetscErrorCode PairVerticesMark(DM dm, const char face[], PetscInt compon
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode PairRowsNormals(Simulation sim, PetscInt pair, PairRows *rows)
+/* In whose proportions areas are shared */
+static Mat PairCover(ContactLinearization lin)
+{
+  return lin->cover ? lin->cover : lin->J;
+}
+
+/* vector: mass_A sum of a matrix's A_AB over the vertices B of the mortar side */
+static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
 {
   ContactLinearization lin = sim->linearization;
   Vec                  mark, sum;
@@ -49,15 +57,20 @@ static PetscErrorCode PairRowsNormals(Simulation sim, PetscInt pair, PairRows *r
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecZeroEntries(mark));
     PetscCall(PairVerticesMark(sim->dm, sim->scene->pairs[pair].mortar, c, 1, mark));
-    PetscCall(MatMult(lin->J, mark, sum));
+    PetscCall(MatMult(A, mark, sum));
     PetscCall(VecPointwiseMult(sum, sum, lin->mass));
     PetscCall(VecGetArrayRead(sum, &s));
-    for (PetscInt r = 0; r < rows->n; ++r) rows->normal[3 * r + c] = lin->pair[r] == pair ? PetscRealPart(s[r]) : 0.0;
+    for (PetscInt r = 0; r < n; ++r) vector[3 * r + c] = lin->pair[r] == pair ? PetscRealPart(s[r]) : 0.0;
     PetscCall(VecRestoreArrayRead(sum, &s));
   }
   PetscCall(VecDestroy(&sum));
   PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
+}
+
+static PetscReal PairNorm(const PetscReal v[3])
+{
+  return PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 /*
@@ -81,22 +94,27 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
 {
   const PetscInt     n = sim->linearization->nlocal;
   const PetscScalar *mass;
+  PetscReal         *force;
 
   PetscFunctionBegin;
   rows->n = n;
-  PetscCall(PetscCalloc5(n, &rows->area, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n, &rows->closed));
-  PetscCall(PairRowsNormals(sim, pair, rows));
+  PetscCall(PetscCalloc6(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n, &rows->closed));
+  PetscCall(PetscMalloc1(3 * n, &force));
+  PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
+  PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
   PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
   for (PetscInt r = 0; r < n; ++r) {
-    PetscReal *normal = &rows->normal[3 * r], size = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    PetscReal *normal = &rows->normal[3 * r], size = PairNorm(normal);
 
     if (!(size > 0.0)) continue;
-    rows->area[r]     = size;
+    rows->area[r]     = PairNorm(&force[3 * r]);
+    rows->share[r]    = rows->area[r] / size;
     rows->pressure[r] = sim->pressure[r];
     rows->gap[r]      = sim->gap[r] * PetscRealPart(mass[r]) / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
   }
   PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
+  PetscCall(PetscFree(force));
   PetscCall(PairRowsClose(sim, rows));
   PetscFunctionReturn(0);
 }
@@ -104,12 +122,12 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
 static PetscErrorCode PairRowsDestroy(PairRows *rows)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree5(rows->area, rows->normal, rows->pressure, rows->gap, rows->closed));
+  PetscCall(PetscFree6(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed));
   PetscFunctionReturn(0);
 }
 
 /*
-   v[to] of the vertices B of both sides = sum of |mass_A J_AB . n_A| value_A, value NULL: 1. That is the integral of the rows' field by
+   v[to] of the vertices B of both sides = sum of |mass_A cover_AB . n_A| share_A value_A, value NULL: 1. That is the integral of the rows' field by
    B's shape function, and sums to that of w_A value_A over a side
 */
 static PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
@@ -127,10 +145,10 @@ static PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const Pet
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecGetArrayRead(lin->mass, &mass));
     PetscCall(VecGetArrayWrite(weighted, &y));
-    for (PetscInt r = 0; r < rows->n; ++r) y[r] = mass[r] * rows->normal[3 * r + c] * (value ? value[r] : 1.0);
+    for (PetscInt r = 0; r < rows->n; ++r) y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
     PetscCall(VecRestoreArrayWrite(weighted, &y));
     PetscCall(VecRestoreArrayRead(lin->mass, &mass));
-    PetscCall(MatMultTranspose(lin->J, weighted, spread));
+    PetscCall(MatMultTranspose(PairCover(lin), weighted, spread));
     PetscCall(VecGetArrayRead(spread, &t));
     PetscCall(VecGetArrayRead(sides, &side));
     PetscCall(VecGetArray(v, &a));

@@ -92,6 +92,20 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
   PetscFunctionReturn(0);
 }
 
+/* 1 for the rows of a linearization whose vertices were under pressure, 0 for others */
+PetscErrorCode ContactMemoryFindClosed(const ContactMemory *m, ContactLinearization lin, Vec closed)
+{
+  PetscScalar *c;
+  PetscReal    largest;
+
+  PetscFunctionBegin;
+  PetscCall(ContactMemoryLargest(m, PetscObjectComm((PetscObject)closed), &largest));
+  PetscCall(VecGetArrayWrite(closed, &c));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) c[i] = m->pressure[ContactMemoryIndex(m, lin, i)] > negligible_pressure * largest ? 1.0 : 0.0;
+  PetscCall(VecRestoreArrayWrite(closed, &c));
+  PetscFunctionReturn(0);
+}
+
 /* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
 PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearization lin, PetscBool **lost, PetscInt *nlost)
 {

@@ -43,6 +43,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   if (!scene->npairs) PetscFunctionReturn(0);
   PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
   PetscCall(ContactSetFromOptions(sim->contact));
+  PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
   PetscCall(ContactMemoryCreate(sim->dm, scene->npairs, &sim->memory));
   PetscFunctionReturn(0);
 }

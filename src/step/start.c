@@ -140,6 +140,7 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   if (!scene->npairs) PetscFunctionReturn(0);
   PetscCall(ContactCreate(dm, scene->npairs, scene->pairs, &contact));
   PetscCall(ContactSetFromOptions(contact));
+  PetscCall(ContactSetDisplacements(contact, scene->ndisplacements, scene->displacements));
   PetscCall(DMCreateGlobalVector(dm, &zero));
   PetscCall(VecZeroEntries(zero));
   PetscCall(ContactLinearize(contact, zero, &lin));

@@ -87,6 +87,7 @@ PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemo
 PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactMemoryFindClosed(const ContactMemory *, ContactLinearization, Vec closed);
 PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost, PetscInt *nlost);
 PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization, PetscReal *least);
 PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
@@ -200,6 +201,9 @@ PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+
+/* anticipate.c */
+PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
 
 /* damping.c: of the updates of the gap in one solve, where they go in a circle; begins as {.factor = 1.0} */
 typedef struct {
