@@ -22,6 +22,13 @@ typedef PetscOptionItems AMGFOptionItems;
   #define MPI_PETSCBOOL MPI_C_BOOL
 #endif
 
+/* What a shell matrix's operation is passed as */
+#if PETSC_VERSION_LT(3, 24, 0)
+typedef void AMGFOperation(void);
+#else
+typedef PetscErrorCodeFn AMGFOperation;
+#endif
+
 /* Defaults of a type that do not overrule the user's values */
 #if PETSC_VERSION_LT(3, 22, 0)
   #define PetscObjectParameterSetDefault(object, name, value) \

@@ -242,7 +242,7 @@ PetscErrorCode IPQuasiNewtonSetUp(Tao tao)
   PetscCall(MatSetFromOptions(qn->B));
   PetscCall(MatLMVMAllocate(qn->B, x, x));
   PetscCall(MatCreateShell(comm, n, n, N, N, tao, &qn->A));
-  PetscCall(MatShellSetOperation(qn->A, MATOP_MULT, (void (*)(void))QuasiNewtonMult));
+  PetscCall(MatShellSetOperation(qn->A, MATOP_MULT, (AMGFOperation *)QuasiNewtonMult));
   PetscCall(MatSetOption(qn->A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(VecDuplicate(x, &qn->x));
   PetscCall(VecDuplicate(x, &qn->gradient));
