@@ -78,15 +78,16 @@ static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentenc
 }
 
 /* The known optimum at a feasible point; or it is said that there is none */
-static PetscErrorCode Judge(Tao tao, Formulas *ctx, Vec x, Vec xl, Vec xu, Outcome *o)
+static PetscErrorCode Judge(const FormulasProblem *problem, Outcome *o)
 {
-  const NLP *p = ctx->p;
+  const NLP *p   = problem->formulas.p;
+  Tao        tao = problem->tao;
 
   PetscFunctionBeginUser;
   PetscCall(TaoGetSolutionStatus(tao, &o->counts.steps, &o->f, NULL, NULL, NULL, &o->reason));
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &o->counts.evaluations));
   PetscCall(TaoIPFilterGetReason(tao, &o->sentence));
-  PetscCall(FormulasViolation(ctx, x, xl, xu, PETSC_FALSE, &o->violation));
+  PetscCall(FormulasViolation(problem, PETSC_FALSE, &o->violation));
   o->error = ObjectiveError(p, o->f);
   if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
   else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
@@ -127,39 +128,13 @@ static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *
   PetscFunctionReturn(0);
 }
 
-/* tao: the solver after it, which has the sentence */
-static PetscErrorCode Solve(MPI_Comm comm, const NLP *p, Outcome *outcome, Tao *tao)
+/* The problem stays: its solver has the sentence */
+static PetscErrorCode SolveAndJudge(MPI_Comm comm, const NLP *p, Outcome *outcome, FormulasProblem *problem)
 {
-  Formulas ctx = {.p = p};
-  Vec      x, xl, xu, ci, ce;
-  Mat      H, Ji, Je;
-
   PetscFunctionBeginUser;
-  FormulasRead(p, &ctx);
-  PetscCall(FormulasVector(comm, ctx.n, p->start, -1, &x));
-  PetscCall(FormulasVector(comm, ctx.n, p->bounds, 0, &xl));
-  PetscCall(FormulasVector(comm, ctx.n, p->bounds, 1, &xu));
-  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ci.m, &ci));
-  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, ctx.ce.m, &ce));
-  PetscCall(FormulasMatrix(x, x, "-dense_hessian", &H));
-  PetscCall(FormulasMatrix(ci, x, "-dense_jacobians", &Ji));
-  PetscCall(FormulasMatrix(ce, x, "-dense_jacobians", &Je));
-  PetscCall(TaoCreate(comm, tao));
-  PetscCall(TaoSetType(*tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(*tao, x));
-  PetscCall(TaoSetVariableBounds(*tao, xl, xu));
-  PetscCall(FormulasSetProblem(*tao, &ctx, ci, ce, H, Ji, Je));
-  PetscCall(TaoSetFromOptions(*tao));
-  PetscCall(TaoSolve(*tao));
-  PetscCall(Judge(*tao, &ctx, x, xl, xu, outcome));
-  PetscCall(MatDestroy(&H));
-  PetscCall(MatDestroy(&Ji));
-  PetscCall(MatDestroy(&Je));
-  PetscCall(VecDestroy(&x));
-  PetscCall(VecDestroy(&xl));
-  PetscCall(VecDestroy(&xu));
-  PetscCall(VecDestroy(&ci));
-  PetscCall(VecDestroy(&ce));
+  PetscCall(FormulasCreate(comm, p, problem));
+  PetscCall(TaoSolve(problem->tao));
+  PetscCall(Judge(problem, outcome));
   PetscFunctionReturn(0);
 }
 
@@ -192,14 +167,14 @@ static PetscErrorCode Measure(const NLP *p, PetscInt mode, Counts *most)
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCall(PushMode(mode, &options));
   for (PetscMPIInt n = 1; n <= size; n++) {
-    MPI_Comm comm;
-    Outcome  outcome;
-    Tao      tao;
+    MPI_Comm        comm;
+    Outcome         outcome;
+    FormulasProblem problem;
 
     PetscCallMPI(MPI_Comm_split(PETSC_COMM_WORLD, rank < n ? 0 : MPI_UNDEFINED, rank, &comm));
     if (comm == MPI_COMM_NULL) continue;
-    PetscCall(Solve(comm, p, &outcome, &tao));
-    PetscCall(TaoDestroy(&tao));
+    PetscCall(SolveAndJudge(comm, p, &outcome, &problem));
+    PetscCall(FormulasDestroy(&problem));
     PetscCallMPI(MPI_Comm_free(&comm));
     most->steps       = PetscMax(most->steps, outcome.counts.steps);
     most->evaluations = PetscMax(most->evaluations, outcome.counts.evaluations);
@@ -252,15 +227,15 @@ static PetscErrorCode SolveAll(PetscInt mode)
   PetscCall(PetscOptionsGetStringArray(NULL, NULL, "-problems", only, &nonly, NULL));
   if (mode >= 0) PetscCall(PushMode(mode, &options));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
-    Outcome   outcome;
-    Tao       tao;
-    PetscBool wanted;
+    Outcome         outcome;
+    FormulasProblem problem;
+    PetscBool       wanted;
 
     PetscCall(Wanted(&problems[k], mode, nonly, only, &wanted));
     if (!wanted) continue;
-    PetscCall(Solve(PETSC_COMM_WORLD, &problems[k], &outcome, &tao));
+    PetscCall(SolveAndJudge(PETSC_COMM_WORLD, &problems[k], &outcome, &problem));
     PetscCall(ReportVerdict(&problems[k], mode, &outcome));
-    PetscCall(TaoDestroy(&tao));
+    PetscCall(FormulasDestroy(&problem));
   }
   if (mode >= 0) PetscCall(PopMode(&options));
   for (PetscInt i = 0; i < nonly; i++) PetscCall(PetscFree(only[i]));
