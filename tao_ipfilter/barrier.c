@@ -29,7 +29,7 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
   return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
 }
 
-/* mu+ = max(tol/10, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
+/* mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -38,7 +38,7 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
-    const PetscReal next = PetscMax(ip->tol / 10.0, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+    const PetscReal next = PetscMax(IPWorthLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -70,7 +70,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
   ip->bar.corrector_max = 100.0 * before;
-  ip->mu                = PetscMax(sigma * before, ip->tol / 10.0 * ip->scale.product);
+  ip->mu                = PetscMax(sigma * before, IPWorthLeastMu(ip));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
@@ -96,7 +96,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   PetscFunctionBegin;
   ip->bar.free = PETSC_FALSE;
   PetscCall(IPBarrierAverage(tao, &ip->mu));
-  ip->mu = PetscMax(0.8 * ip->mu, ip->tol / 10.0 * ip->scale.product);
+  ip->mu = PetscMax(0.8 * ip->mu, IPWorthLeastMu(ip));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);

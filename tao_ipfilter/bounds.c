@@ -91,9 +91,18 @@ PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) && (!ip->mi || ip->given.warm_s));
 }
 
+/* Size of an unknown and its bound; all: of all unknowns */
+static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
+{
+  const PetscReal size = PetscMax(PetscAbsReal(bound), PetscAbsReal(x));
+
+  return size > 0.0 ? size : (all > 0.0 ? all : 1.0);
+}
+
 /* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances.
-   The margin is a fraction of the distance between the bounds, or of the bound's or of x's size where only one is given;
-   next to nothing of it where multipliers are given that tell how near to its bounds x belongs. */
+   The margin is a fraction of the bound's or of the unknown's own size, or, where both are zero, of that of all unknowns, and of the
+   distance between the bounds where that is less: a far bound that means none pushes nothing away from the other one. Next to nothing
+   of it where multipliers are given that tell how near to its bounds x belongs. */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -114,14 +123,11 @@ PetscErrorCode IPBoundsPush(Tao tao)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
     const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
-    PetscReal       gap;
+    const PetscReal distance = hasl && hasu ? u - l : PETSC_INFINITY;
 
     if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
-    gap = hasl && hasu ? u - l : PetscMax(PetscAbsReal(hasl ? l : u), size);
-    if (gap == 0.0) gap = 1.0;
-    gap *= push;
-    if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + gap);
-    if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - gap);
+    if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), l, size)));
+    if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), u, size)));
   }
   PetscCall(VecRestoreArray(tao->solution, &x));
   for (PetscInt k = 0; k < 2; k++)

@@ -1,26 +1,44 @@
 /* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough curvature. */
 #include "ipfilterimpl.h"
 
-/* d^T (H + Sigma + delta M_u) d and d^T d */
-static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature, PetscReal *square)
+/* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than d^T |diag(H)| d, in
+   which an unknown of another unit counts no more than the others do. */
+static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           d  = ip->dir.x, hd;
+  PetscScalar   dd, dhd;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(d, d, &dd));
+  *square = PetscRealPart(dd);
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hd));
+  PetscCall(VecPointwiseMult(hd, ip->stiff.hdiag, d));
+  PetscCall(VecDot(hd, d, &dhd));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &hd));
+  *square = PetscMin(ip->stiff.hscale * *square, PetscRealPart(dhd));
+  PetscFunctionReturn(0);
+}
+
+/* d^T (H + Sigma + delta M_u) d */
+static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           d  = ip->dir.x, Wd;
-  PetscScalar   dHd, dd, dSd = 0.0;
+  PetscScalar   dHd, dSd = 0.0;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
   PetscCall(MatMult(ip->hess.H, d, Wd));
   PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
-  PetscCall(VecDot(d, d, &dd));
   if (ip->cond.shifted) {
     PetscCall(VecPointwiseMult(Wd, ip->cond.shift, d));
     PetscCall(VecDot(d, Wd, &dSd));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Wd));
   *curvature = PetscRealPart(dHd) + PetscRealPart(dSd);
-  *square    = PetscRealPart(dd);
   PetscFunctionReturn(0);
 }
 
@@ -71,7 +89,7 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal kappa     = ip->opt.kappa_curvature * (ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->stiff.hscale);
+  const PetscReal kappa     = ip->opt.kappa_curvature;
   PetscReal       curvature = 0.0, square = 0.0, step, size;
 
   PetscFunctionBegin;
@@ -79,7 +97,8 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
   *passes = (PetscBool)(step <= IP_TINY_STEP * size);
   if (*passes) PetscFunctionReturn(0);
-  PetscCall(CurvatureOfUnknowns(tao, &curvature, &square));
+  PetscCall(CurvatureOfUnknowns(tao, &curvature));
+  PetscCall(CurvatureSquare(tao, &square));
   if (ip->mi) PetscCall(CurvatureAddSlacks(tao, &curvature, &square));
   if (ip->me) PetscCall(CurvatureAddEqualities(tao, &curvature));
   *passes = (PetscBool)(curvature >= kappa * square);
@@ -93,17 +112,18 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
   const PetscReal margin  = 0.9;
-  PetscReal       largest = 0.0, primal = 1.0, dual = 1.0;
+  PetscReal       largest = 0.0, total = 0.0, primal = 1.0, dual = 1.0;
 
   PetscFunctionBegin;
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, margin, &primal, &dual));
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
-    PetscReal product;
+    PetscReal product, sum;
 
-    PetscCall(IPPairStepProducts(&ip->pair[b], 1.0, 1.0, &product, NULL));
+    PetscCall(IPPairStepProducts(&ip->pair[b], 1.0, 1.0, &product, &sum));
     largest = PetscMax(largest, product);
+    total += sum;
   }
-  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product);
+  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product && IPWorthWithin(ip, total));
   PetscFunctionReturn(0);
 }
 
@@ -140,7 +160,7 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal last = ip->opt.forcing_last * ip->tol * ip->scale.dual;
+  const PetscReal last = ip->opt.forcing_last * ip->tol * IPWorthForceUnit(ip);
   PetscReal       norm;
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;

@@ -366,7 +366,7 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   tao->ksp_its        = 0;
   ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are the method's way */
-  *done                               = FilteredProgresses(f, ip->kkt.error);
+  *done                               = FilteredProgresses(f, IPBothErrors(ip));
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));

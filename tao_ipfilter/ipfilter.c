@@ -39,7 +39,14 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_acceptable_it <15>                          - iterates in a row within the acceptable tolerance that end
                                                               the solve
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
-. -tao_ipfilter_scaling <problem> (problem,none)            - constants that follow the units, or stand as they are
+. -tao_ipfilter_scaling <problem> (problem,gradient,none)   - constants that follow the units, those of IPOPT after a scaling
+                                                              by the gradients at the start, or those as they stand
+. -tao_ipfilter_gradient_max <100>                          - gradient: entry of the gradients at the start above which the
+                                                              objective and constraints are scaled down to it; 0: none
+. -tao_ipfilter_dual_inf_tol <-1>                           - limit of the stationarity residual's entries at convergence,
+                                                              in the caller's units; negative: 1 with gradient, else none
+. -tao_ipfilter_constr_viol_tol <-1>                        - the same of the constraint violation; negative: 1e-4, or none
+. -tao_ipfilter_compl_inf_tol <-1>                          - the same of slacks times multipliers; negative: 1e-4, or none
 . -tao_ipfilter_row_ratio <100>                             - constraints whose gradient exceeds this many times the
                                                               smallest at the start are scaled down to that; 0: none
 . -tao_ipfilter_unbounded_factor <1e10>                     - fall of the objective, against its first size, that counts as
@@ -58,7 +65,8 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               those the constraints transmit
 . -tao_ipfilter_warm_mu <0.03>                              - warm start: least mu as a fraction of the mean product length
                                                               x pressure
-. -tao_ipfilter_bound_push <0.01>                           - distance of the start from its bounds, relative
+. -tao_ipfilter_bound_push <0.01>                           - distance of the start from its bounds, relative to the bound's or
+                                                              the unknown's size, or to the distance between the bounds
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
 . -tao_ipfilter_kappa_epsilon <10>                          - monotone: mu is reduced once the errors of the barrier
                                                               problem are below kappa_epsilon mu
@@ -149,6 +157,8 @@ static PetscErrorCode DestroyType(Tao tao)
   `MATOP_GET_DIAGONAL`, or else estimated. With another preconditioner, or with equality constraints that are not condensed, it is read column by
   column up to 1,000 unknowns, as are Jacobians that give products alone; with more unknowns that is an error.
 
+  An error of a library inside the Krylov method or its preconditioner, hypre's say, is a failure of that solve.
+
   The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
   iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns are
   filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory`
@@ -167,10 +177,28 @@ static PetscErrorCode DestroyType(Tao tao)
   `TaoComputeDualVariables()` gives the multipliers of the bounds, those of upper bounds negative, so that
   grad f + J_E^T DE - J^T DI = DL + DU.
 
-  Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
-  gradient that `TaoGetGradient()` returns are zero. Rows of the
+  Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the gradient that `TaoGetGradient()` returns are zero. Rows of the
   inequality constraints may have two bounds, `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. Where the bounds are
   equal it is an equality constraint; infinite ones are none.
+
+  The KKT error of `-tao_ipfilter_kkt relative` is measured twice, and both must be within the tolerance; with `-tao_ipfilter_scaling
+  problem` neither depends on the units of lengths, forces, rows or the objective. First by sizes of a kind: the norm of the stationarity
+  residual r over that of the gradient, the largest violation over the largest constraint value, the largest product of a slack s or
+  distance t and its multiplier over the largest length times the largest multiplier. Where one of these sizes vanishes, a small fraction of
+  its first value, or of what the Hessian's diagonal makes of x, takes its place, and a gradient of nothing but rounding is none.
+  Second by what residuals are worth in the objective, each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| and
+  sum_i m_i t_i z_i, where l_j is the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over twenty times 1e-6 of the
+  terms sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In these sums no row, bound or unknown is
+  measured by the size of another, a far bound counts no more than a near one, and many bounds count as much as the error they make: 2e-7
+  of the objective at the default tolerance. A number added to the objective changes the second measure, not the first.
+
+  With `none` and `gradient` the residuals count as they are, with `gradient` after the objective and each row are divided by what brings
+  their gradients at the start down to `-tao_ipfilter_gradient_max`. Absolute limits, in the caller's units, hold beside any of these.
+
+  Where the iterates show that inequalities have no interior they are relaxed by a hundredth of the tolerance times their size, or by the
+  tolerance if that was not enough, and the sentence says by how much; what that is worth in the objective beyond the tolerance makes the
+  result acceptable only. A solve that fails returns the least infeasible of its points, and of those within the tolerance the one of the
+  smallest KKT error.
 
   Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
   `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been called (or

@@ -14,9 +14,9 @@
    The files, each calling none but those above it in this list:
 
      problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, matrices, jacobian, hessian, evaluate, difference, quasinewton
-     measure  stiffness, scale, kkt
+     measure  stiffness, scale, worth, kkt
      system   rows, operator, assemble, subspace, condense
-     linear   residual, krylov, direct, linsolve, augmented, proximal, equality
+     linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
      space    basis, compliance, activeset, reduced, kept, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
      driver   reason, convergence, monitor, setup, solve
@@ -52,6 +52,7 @@ typedef enum {
 } IPForcing;
 typedef enum {
   IP_SCALING_PROBLEM,
+  IP_SCALING_GRADIENT,
   IP_SCALING_NONE
 } IPScaling;
 typedef enum {
@@ -85,7 +86,8 @@ typedef struct {
   PetscReal        kappa_soc;
   PetscReal        forcing_max, forcing_reduce, forcing_last;
   PetscReal        kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal        filter_threshold, filter_switch, row_ratio;
+  PetscReal        filter_threshold, filter_switch, row_ratio, gradient_max;
+  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: what the scaling has */
   PetscReal        bound_push, unbounded_factor;
   PetscReal        direct_memory;
   PetscBool        direct_always;
@@ -207,10 +209,12 @@ typedef struct {
 /* Sizes at the starting point */
 typedef struct {
   PetscReal f, gradient;      /* objective and norm of its gradient */
+  PetscReal unit;             /* of the objective, with scaling by gradients: 1, or what brings them down to the limit */
   PetscReal length, equality; /* of c_I and c_E */
   PetscReal x;
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
+  PetscReal energy;            /* of the terms that make up the objective */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */
@@ -218,7 +222,8 @@ typedef struct {
   Vec       rho;    /* pressure per length that resists each constraint */
   PetscReal mean;   /* harmonic mean of rho, weighted */
   Vec       hdiag;  /* |diagonal of H|, now */
-  PetscReal hscale; /* its mean at the start */
+  PetscReal hscale; /* its mean at the start, */
+  PetscBool flat;   /* where all of it was zero: nothing resists a constraint */
 } IPStiffness;
 
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
@@ -226,18 +231,23 @@ typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
   PetscReal length;   /* values of c_I */
   PetscReal equality; /* values of c_E */
-  PetscReal pressure; /* multipliers */
+  PetscReal pressure; /* multipliers, */
+  PetscReal balance;  /* and those of one active constraint that balances the objective's gradient; 0: not known */
   PetscReal product;  /* length x pressure: complementarity and mu */
+  PetscReal energy;   /* the objective; PETSC_INFINITY in the measures that do not ask for it */
 } IPScale;
 
 /* Residuals of the optimality conditions at the current iterate */
 typedef struct {
   PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
   PetscReal centrality;                    /* as complementarity, for the present mu */
-  PetscReal error;                         /* max(dual, primal, complementarity): decides convergence */
+  PetscReal error;                         /* max(dual, primal, complementarity): decides convergence, together with */
+  PetscReal work;                          /* what the residuals are worth in the objective, over a multiple of its size */
+  PetscReal work_dual;                     /* the stationarity residual's share of it */
+  PetscReal violation;                     /* of constraints, slacks apart, over their first size */
   PetscReal unscaled;                      /* largest absolute entry of all residuals, mu = 0 */
   PetscReal dual_norm;                     /* 2-norm of the stationarity residual */
-  PetscReal inf_pr, inf_du;                /* largest absolute entries of the primal and the dual residual */
+  PetscReal inf_pr, inf_du, inf_compl;     /* largest absolute entries of the primal and the dual residual, and of t z */
 } IPKKT;
 
 /* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too */
@@ -353,7 +363,9 @@ typedef struct {
 
 /* Relaxation of constraints without an interior */
 typedef struct {
-  PetscReal by;          /* what c_I is raised by */
+  PetscReal by;          /* what c_I is raised by, */
+  PetscReal size;        /* the size of the constraints that it is a fraction of, */
+  PetscInt  times;       /* and how often it was */
   PetscReal least_slack; /* that the last step left */
   PetscInt  nvanished;   /* iterates in a row that have a slack of next to nothing */
 } IPRelaxation;
@@ -451,7 +463,8 @@ typedef struct {
   PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
   PetscInt             napplications;          /* of the preconditioner in the filtered subspace method, */
   PetscInt             nreduced, npivots;      /* its reduced problems, and the active sets that they took */
-  PetscReal            best_error;             /* KKT error of the best iterate */
+  PetscReal            best_error;             /* KKT error of the best iterate, */
+  PetscReal            best_violation;         /* and its violation */
   char                 reason[256];
 } IPRecord;
 
@@ -625,11 +638,23 @@ PETSC_INTERN PetscErrorCode IPCompliances(Tao, Mat, Vec);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscReal *mean);
 
 /* scale.c */
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
+PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
+
+/* worth.c */
+PETSC_INTERN PetscErrorCode IPWorthTerms(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPWorthEnergy(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPWorthOfResiduals(Tao);
+PETSC_INTERN PetscErrorCode IPWorthOfRelaxation(Tao, PetscReal *);
+PETSC_INTERN PetscBool      IPWorthWithin(const TAO_IPFILTER *, PetscReal gap);
+PETSC_INTERN PetscReal      IPWorthForceUnit(const TAO_IPFILTER *);
+PETSC_INTERN PetscReal      IPWorthLeastMu(const TAO_IPFILTER *);
 
 /* kkt.c */
+PETSC_INTERN PetscReal      IPBothErrors(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
 PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
@@ -665,6 +690,9 @@ PETSC_INTERN PetscErrorCode IPResidualMeasure(Tao, Vec, Vec);
 PETSC_INTERN PetscBool      IPResidualReached(const TAO_IPFILTER *, KSPConvergedReason);
 PETSC_INTERN PetscErrorCode IPResidualRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec), KSPConvergedReason);
 PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
+
+/* guard.c */
+PETSC_INTERN PetscErrorCode IPGuardedSolve(Tao, KSP, Vec b, Vec x, PetscBool *failed);
 
 /* krylov.c */
 PETSC_INTERN PetscErrorCode IPKrylovRecord(Tao, PetscInt its);
@@ -787,6 +815,7 @@ PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 
 /* relax.c */
 PETSC_INTERN PetscErrorCode IPRelax(Tao);
+PETSC_INTERN PetscErrorCode IPRelaxInstead(Tao, PetscBool *);
 
 /* restore.c */
 PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
@@ -801,6 +830,7 @@ PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);
 PETSC_INTERN PetscErrorCode IPTestNumbers(Tao);
 PETSC_INTERN PetscBool      IPConstraintsMet(Tao);
 PETSC_INTERN PetscErrorCode IPTestConvergence(Tao);
+PETSC_INTERN PetscBool      IPAcceptable(const TAO_IPFILTER *);
 
 /* monitor.c */
 PETSC_INTERN PetscErrorCode IPMonitor(Tao);

@@ -83,6 +83,14 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
+/* What violations are compared by from one iterate to the next: the constraints' first values, or what their gradients made of x then */
+static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
+{
+  const PetscReal size = PetscMax(values, jacobian * ip->first.x);
+
+  return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
+}
+
 /* c_I - s into ip->rc, and how far the constraints are from being met: per unit of their scales, and in the caller's units */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {
@@ -90,8 +98,11 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   PetscReal     norm;
 
   PetscFunctionBegin;
-  *primal = *largest = 0.0;
+  *primal = *largest = ip->kkt.violation = 0.0;
   if (ip->mi) {
+    PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
+    ip->kkt.violation = norm / FirstSize(ip, ip->first.length, ip->first.jacobian);
     PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->at.c));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
     *primal = norm / ip->scale.length;
@@ -99,11 +110,18 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
-    *primal = PetscMax(*primal, norm / ip->scale.equality);
+    *primal           = PetscMax(*primal, norm / ip->scale.equality);
+    ip->kkt.violation = PetscMax(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
     *largest = PetscMax(*largest, norm);
   }
   PetscFunctionReturn(0);
+}
+
+/* The larger one of the KKT error's two measures */
+PetscReal IPBothErrors(const TAO_IPFILTER *ip)
+{
+  return PetscMax(ip->kkt.error, ip->kkt.work);
 }
 
 /* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
@@ -115,6 +133,7 @@ PetscErrorCode IPComputeKKT(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPComputeScale(tao));
+  if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE) PetscCall(IPWorthEnergy(tao, &ip->scale.energy));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
@@ -128,9 +147,11 @@ PetscErrorCode IPComputeKKT(Tao tao)
     products  = PetscMax(products, zero);
     deviation = PetscMax(deviation, central);
   }
+  k->inf_compl       = products;
   k->complementarity = products / ip->scale.product;
   k->centrality      = deviation / ip->scale.product;
   k->error           = PetscMax(PetscMax(k->dual, k->primal), k->complementarity);
-  k->unscaled        = PetscMax(PetscMax(k->inf_du, k->inf_pr), products);
+  PetscCall(IPWorthOfResiduals(tao));
+  k->unscaled = PetscMax(PetscMax(k->inf_du, k->inf_pr), products);
   PetscFunctionReturn(0);
 }

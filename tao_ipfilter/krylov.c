@@ -1,5 +1,6 @@
 /* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the record of iterations. */
 #include "ipfilterimpl.h"
+#include "../pc_amgf/mumps.h"
 
 /* The KSP's own convergence test, and what tells that a run is not worth going on with */
 typedef struct {
@@ -53,8 +54,8 @@ static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KS
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve() with the test for stalling */
-static PetscErrorCode KrylovUnlessStalled(KSP ksp, Vec b, Vec d)
+/* IPGuardedSolve() with the test for stalling */
+static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscBool *failed)
 {
   KSPNormType type;
   StallTest   stall = {.least = 0.0};
@@ -65,7 +66,7 @@ static PetscErrorCode KrylovUnlessStalled(KSP ksp, Vec b, Vec d)
   stall.close *= IP_CLOSE;
   PetscCall(KSPGetAndClearConvergenceTest(ksp, &stall.test, &stall.ctx, &stall.destroy));
   PetscCall(KSPSetConvergenceTest(ksp, KrylovTestStalled, &stall, NULL));
-  PetscCall(KSPSolve(ksp, b, d));
+  PetscCall(IPGuardedSolve(tao, ksp, b, d, failed));
   PetscCall(KSPSetConvergenceTest(ksp, stall.test, stall.ctx, stall.destroy));
   PetscFunctionReturn(0);
 }
@@ -76,7 +77,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     rtol, abstol, dtol;
   PetscInt      maxits, its;
-  PetscBool     guess, direct;
+  PetscBool     guess, direct, failed;
 
   PetscFunctionBegin;
   PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond.A));
@@ -89,11 +90,12 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
     PetscCall(KSPSetInitialGuessNonzero(ksp, direct ? PETSC_FALSE : PETSC_TRUE));
     PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->lin.target, dtol, ip->lin.limit));
   }
-  PetscCall(KrylovUnlessStalled(ksp, b, d));
+  PetscCall(KrylovUnlessStalled(tao, ksp, b, d, &failed));
   PetscCall(KSPSetTolerances(ksp, rtol, abstol, dtol, maxits));
   PetscCall(KSPSetInitialGuessNonzero(ksp, guess));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(KSPGetConvergedReason(ksp, &ip->lin.reason));
+  if (failed) ip->lin.reason = KSP_DIVERGED_PC_FAILED;
   PetscCall(IPKrylovRecord(tao, its));
   ip->lin.its = its;
   PetscFunctionReturn(0);
@@ -165,13 +167,65 @@ static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
   PetscFunctionReturn(0);
 }
 
+/* Whether J^T D J is so large beside the Hessian that rounding may have changed the signs of pivots */
+static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal ratio = 1e10;
+  PetscReal       a, h;
+  PetscBool       has;
+  Vec             diagonal;
+
+  PetscFunctionBegin;
+  *drowned = PETSC_TRUE;
+  PetscCall(MatHasOperation(tao->hessian, MATOP_NORM, &has));
+  if (!has) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_INFINITY, &a));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(MatNorm(tao->hessian, NORM_FROBENIUS, &h));
+  *drowned = (PetscBool) !(a <= ratio * h);
+  PetscFunctionReturn(0);
+}
+
+/* Whether the factors of the filter's matrix, a principal part of A, have negative pivots: then A is indefinite, which a Krylov method
+   that the filter leaves few iterations may not meet. Looked at only where the problem has shown that it is not convex, and its constraints have an interior. */
+static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  PetscInt      negative = 0;
+  PetscBool     amgf, mumps = PETSC_FALSE, drowned = PETSC_TRUE;
+  KSP           filter;
+  PC            pc;
+  Mat           F;
+  MatSolverType solver;
+
+  PetscFunctionBegin;
+  *indefinite = PETSC_FALSE;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (!amgf || !ip->lin.filtered || !ip->bar.curved || ip->relax.times) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFilterKSP(pc, &filter));
+  PetscCall(KSPGetPC(filter, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCCHOLESKY, &mumps));
+  if (mumps) PetscCall(PCFactorGetMatSolverType(pc, &solver));
+  if (mumps) PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
+  PetscCall(KrylovDrowned(tao, &drowned));
+  if (!mumps || drowned) PetscFunctionReturn(0);
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(AMGFMumpsGetInfog(F, 12, &negative));
+  *indefinite = (PetscBool)(negative > 0);
+  PetscFunctionReturn(0);
+}
+
 /* A d = b by the KSP, refined */
 PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   KSPConvergedReason reason;
   PetscInt           its;
-  PetscBool          direct, zero = PETSC_FALSE;
+  PetscBool          direct, indefinite, zero = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (ip->opt.forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
@@ -184,7 +238,9 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   ip->lin.reason = reason;
   ip->lin.its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
-  if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
+  PetscCall(KrylovFilterIndefinite(tao, &indefinite));
+  if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
+  else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
   else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
   if (*verdict == IP_LINEAR_SOLVED) {
     ip->lin.longest = PetscMax(ip->lin.longest, its);

@@ -7,7 +7,7 @@ const char *const        IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasur
 const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
 const char *const        IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_", NULL};
 const char *const        IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
-static const char *const IPScalings[]        = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
+static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
 typedef struct {
@@ -61,6 +61,10 @@ static const RealOption real_options[] = {
   IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
   IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
   IP_REAL("row_ratio", row_ratio, 100.0, "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
+  IP_REAL("gradient_max", gradient_max, 100.0, "scaling by gradients: objective and constraints are scaled down to no larger entries of their gradients at the start"),
+  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0, "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
+  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0, "absolute limit of the constraint violation at convergence; negative: 1e-4 with scaling by gradients, else none"),
+  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0, "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else none"),
   IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
   IP_REAL("direct_memory", direct_memory, 2000, "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
@@ -98,7 +102,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "update of the barrier parameter", TAOIPFILTER, IPBarrierRules, (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures, (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing", "tolerance of the linear solver: from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings, (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling", "scale-free constants, or constants in the problem's units", TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling", "scale-free constants, IPOPT's after scaling by gradients at the start, or constants in the problem's units", TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_equality", "equality constraints in an augmented system that MUMPS factors, or condensed with proximal updates", TAOIPFILTER, IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "most reductions of mu at the first iteration", TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER, opt->max_mu_later, &opt->max_mu_later, NULL));

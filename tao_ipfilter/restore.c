@@ -356,7 +356,7 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
   const PetscReal no_change = 1e-8, falling = 0.9;
-  const PetscInt  patience = 15;
+  const PetscInt  patience = 10;
   PetscReal       size = 0.0, gradient = 1.0;
   PetscInt        idle = 0;
 

@@ -1,14 +1,20 @@
 /*
    Scaling of the constraints by their gradients at the start: a row d_i c_i, with d_i so small that its gradient is at most
-   row_ratio times the smallest one. Rows of like size stay as they are, whatever the units. All of the iteration sees the
-   scaled rows; multipliers and slacks are scaled back on return.
+   row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are, whatever the units. All of
+   the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
 */
 #include "ipfilterimpl.h"
 
 #define IP_LEAST_SCALE 1e-20
 
-/* d = NULL where no row is larger than ratio times the smallest nonzero one */
-static PetscErrorCode RowScale(Mat J, Vec layout, PetscReal ratio, Vec *d)
+/* Largest entry that a row may keep: a multiple of that of the smallest row, or one that is given */
+static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
+{
+  return opt->scaling == IP_SCALING_GRADIENT ? opt->gradient_max : opt->row_ratio * smallest;
+}
+
+/* d = NULL where no row is larger than the limit */
+static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
 {
   PetscScalar *a;
   PetscInt     rstart, rend;
@@ -32,12 +38,12 @@ static PetscErrorCode RowScale(Mat J, Vec layout, PetscReal ratio, Vec *d)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extreme, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
   for (PetscInt i = 0; i < rend - rstart; i++) {
-    const PetscReal row = PetscRealPart(a[i]), most = -ratio * extreme[0];
+    const PetscReal row = PetscRealPart(a[i]), limit = RowLimit(opt, -extreme[0]);
 
-    a[i] = row > most ? PetscMax(most / row, IP_LEAST_SCALE) : 1.0;
+    a[i] = row > limit ? PetscMax(limit / row, IP_LEAST_SCALE) : 1.0;
   }
   PetscCall(VecRestoreArrayWrite(*d, &a));
-  if (!(extreme[1] > -ratio * extreme[0])) PetscCall(VecDestroy(d));
+  if (!(extreme[1] > RowLimit(opt, -extreme[0]))) PetscCall(VecDestroy(d));
   PetscFunctionReturn(0);
 }
 
@@ -48,9 +54,9 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->opt.scaling == IP_SCALING_NONE || ip->opt.row_ratio <= 0.0) PetscFunctionReturn(0);
-  if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, ip->opt.row_ratio, &ip->rows.inequality));
-  if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, ip->opt.row_ratio, &ip->rows.equality));
+  if (ip->opt.scaling == IP_SCALING_NONE || (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0) PetscFunctionReturn(0);
+  if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
+  if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
   *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);
   PetscFunctionReturn(0);
 }

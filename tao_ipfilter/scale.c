@@ -2,6 +2,7 @@
 #include "ipfilterimpl.h"
 
 #define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
+#define IP_AMPLE     30.0  /* a gradient is small that moves the unknowns by no more than so many times the tolerance */
 #define IP_RUNAWAY   100.0 /* an iterate counts for no more than so many times its first size */
 
 /* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
@@ -12,12 +13,13 @@ static PetscReal Within(PetscReal size, PetscReal limit)
 }
 
 /* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
-   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. */
+   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. Where none is active,
+   a small fraction of the pressure that would balance the objective's gradient is one that matters. */
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPScale      *s  = &ip->scale;
-  PetscReal     c, t, upper = 0.0;
+  PetscReal     c, t, gradient, upper = 0.0, transmitted = ip->first.jacobian * ip->pair[IP_SLACK].weight / ip->mi;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &c));
@@ -27,6 +29,9 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length), 10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  if (transmitted > 0.0) s->balance = gradient / transmitted;
+  s->pressure = PetscMax(s->pressure, IP_VANISHING * s->balance);
   s->product  = s->length * s->pressure;
   PetscFunctionReturn(0);
 }
@@ -61,10 +66,17 @@ static PetscErrorCode DualScale(Tao tao)
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   PetscCall(IPStiffnessTerms(tao, &terms));
   PetscCall(VecNorm(ip->stiff.hdiag, NORM_2, &stiffness));
-  ip->scale.dual = Within(first, PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
+  ip->scale.dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
   if (limited) ip->scale.dual = PetscMax(ip->scale.dual, norm);
   ip->scale.dual = PetscMax(ip->scale.dual, rounding * terms / ip->tol);
   PetscFunctionReturn(0);
+}
+
+/* An absolute limit as it was given, or what the scaling has */
+PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
+{
+  if (given >= 0.0) return given;
+  return ip->opt.scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
 }
 
 /* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
@@ -77,9 +89,9 @@ PetscErrorCode IPComputeScale(Tao tao)
   IPScale      *s = &ip->scale;
 
   PetscFunctionBegin;
-  *s = (IPScale){1.0, 1.0, 1.0, 1.0, 1.0};
-  if (ip->opt.scaling == IP_SCALING_NONE || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
-  *s = (IPScale){0.0, 0.0, 0.0, 0.0, 0.0};
+  *s = (IPScale){ip->first.unit, 1.0, 1.0, ip->first.unit, 0.0, ip->first.unit, PETSC_INFINITY};
+  if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  *s = (IPScale){.dual = 0.0};
   PetscCall(DualScale(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first.x), ip->first.x);

@@ -51,10 +51,13 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPFirst      *first = &ip->first;
+  PetscReal     largest;
 
   PetscFunctionBegin;
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
+  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0 ? PetscMax(1.0, largest / ip->opt.gradient_max) : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
@@ -98,13 +101,13 @@ static PetscErrorCode ResetSolve(Tao tao)
   IPRecord     *rec = &ip->rec;
 
   PetscFunctionBegin;
-  *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY};
+  *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY, .best_violation = PETSC_INFINITY};
   ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
   ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B), .curved = (PetscBool)(ip->qn.B != NULL)};
   ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
   ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
   ip->shift        = (IPShift){.delta = 0.0};
-  ip->first        = (IPFirst){.f = 0.0};
+  ip->first        = (IPFirst){.f = 0.0, .energy = -1.0};
   ip->dir.norm     = 0.0;
   tao->ksp_its     = 0;
   tao->ksp_tot_its = 0;
@@ -114,14 +117,24 @@ static PetscErrorCode ResetSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Keeps the iterate of smallest KKT error */
+/* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than the tolerance and its
+   KKT error is no larger; of two that differ in no digit the later one is better */
+static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
+{
+  const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol), same = 1.01;
+
+  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
+}
+
+/* Keeps the best iterate */
 static PetscErrorCode KeepBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->kkt.error >= ip->rec.best_error) PetscFunctionReturn(0);
-  ip->rec.best_error = ip->kkt.error;
+  if (!BetterThanBest(ip)) PetscFunctionReturn(0);
+  ip->rec.best_error     = IPBothErrors(ip);
+  ip->rec.best_violation = ip->kkt.violation;
   PetscCall(IPIterateCopy(&ip->at, &ip->best));
   PetscFunctionReturn(0);
 }
@@ -132,7 +145,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error == PETSC_INFINITY || ip->kkt.error <= ip->rec.best_error) PetscFunctionReturn(0);
+  if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error) PetscFunctionReturn(0);
   if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
@@ -182,22 +195,22 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
   else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s", (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
   else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
-  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)ip->kkt.error));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
   PetscFunctionReturn(0);
 }
 
-/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then the violation is
-   reduced by itself. */
+/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then constraints without an interior are
+   relaxed, then the violation is reduced by itself. */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
   const PetscInt  iterations = 10;
   const PetscBool violated   = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
-  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
-  if (ip->kkt.error <= ip->opt.acceptable_tol && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)ip->kkt.error, (double)ip->tol));
+  if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)IPBothErrors(ip), (double)ip->tol));
     PetscFunctionReturn(0);
   }
   if (!solved && ip->lin.failed) {
@@ -208,7 +221,10 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPBarrierHold(tao, iterations));
     PetscFunctionReturn(0);
   }
-  if (violated) {
+  if (!violated) {
+    PetscCall(IPRelaxInstead(tao, &relaxed));
+    if (relaxed) PetscFunctionReturn(0);
+  } else {
     PetscCall(IPMeritMeasure(tao)); /* no line search has where there was no direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
@@ -220,6 +236,29 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscFunctionReturn(0);
 }
 
+/* Multipliers of equality constraints whose forces have outgrown the gradient they balance, as those of constraints that cannot be met do,
+   drown the objective in the Hessian: they are estimated anew */
+static PetscErrorCode RenewMultipliers(Tao tao)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal huge = 1e8;
+  PetscReal       force, gradient;
+  Vec             v;
+
+  PetscFunctionBegin;
+  if (!ip->me) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(MatMultTranspose(ip->jac.equality, ip->at.y, v));
+  PetscCall(VecNorm(v, NORM_2, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
+  if (force <= huge * PetscMax(gradient, ip->first.gradient)) PetscFunctionReturn(0);
+  PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
 /* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
 static PetscErrorCode TakeNewtonStep(Tao tao)
 {
@@ -227,6 +266,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
 
   PetscFunctionBegin;
   tao->ksp_its = 0;
+  PetscCall(RenewMultipliers(tao));
   PetscCall(IPRelax(tao));
   PetscCall(IPBarrierUpdate(tao));
   PetscCall(IPHessianEvaluate(tao));

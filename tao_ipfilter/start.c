@@ -1,16 +1,18 @@
 /* Starting values of slacks and multipliers. */
 #include "ipfilterimpl.h"
 
+#define IP_LEAST_START 1e-10 /* gap of the pairs at the start, as a fraction of the terms of the objective */
+
 /* The given constants: t stays for bounds, s = s0, z = z0, lambda = 0, mu = mu0 */
 static PetscErrorCode StartCold(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->mu = ip->opt.mu0;
+  ip->mu = ip->opt.mu0 * ip->first.unit;
   if (ip->mi) {
     PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt.s0));
-    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0 * ip->first.unit));
     PetscCall(IPSlackKeepInside(tao, ip->at.s, 0.5));
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
     PetscCall(VecSet(ip->at.lambda, 0.0));
@@ -52,7 +54,7 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Without a penalty step the stiffness is that of multipliers which balance the gradient, over the constraints' mean value */
+/* Without a penalty step, or an objective that resists one, the stiffness is that of multipliers which balance the gradient, over the constraints' mean value */
 static PetscErrorCode GradientStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -70,16 +72,17 @@ static PetscErrorCode GradientStiffness(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there */
+/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there. Constraints that
+   all happen to be active there say nothing: pairs start with a gap that is worth something beside the objective. */
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     length, pressure, mean;
+  PetscReal     length, pressure, mean, terms;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
 
   PetscFunctionBegin;
-  PetscCall(IPPenaltyStep(tao, &moved));
+  if (!ip->stiff.flat) PetscCall(IPPenaltyStep(tao, &moved));
   if (!moved) PetscCall(GradientStiffness(tao));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
   PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
@@ -88,6 +91,8 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
   ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
+  PetscCall(IPWorthTerms(tao, &terms));
+  ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -187,15 +192,16 @@ static PetscErrorCode StartWarmBounds(Tao tao)
 static PetscErrorCode StartBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     x, energy;
+  PetscReal     x, mean;
   PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD) PetscCall(IPFreeStep(tao, &moved, &energy));
-  if (moved) ip->mu = ip->opt.mu_start * energy;
+  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD) PetscCall(IPFreeStep(tao, &moved, &mean));
+  if (moved) ip->mu = ip->opt.mu_start * mean;
   else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-    ip->mu = ip->opt.mu_start * ip->stiff.hscale * (x > 0.0 ? x * x : 1.0);
+    PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
+    ip->mu = ip->opt.mu_start * (mean > 0.0 ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);

@@ -15,6 +15,26 @@ PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
+/* Energies |H_jj| x_j^2 of the unknowns, each in its own units: the largest, and the mean; either may be NULL */
+PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           energies;
+  PetscScalar   sum;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &energies));
+  PetscCall(VecPointwiseMult(energies, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecPointwiseMult(energies, energies, tao->solution));
+  if (largest) PetscCall(VecNorm(energies, NORM_INFINITY, largest));
+  PetscCall(VecSum(energies, &sum));
+  PetscCall(VecGetSize(energies, &n));
+  if (mean) *mean = PetscRealPart(sum) / n;
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &energies));
+  PetscFunctionReturn(0);
+}
+
 /* 1/sqrt|H_jj|, of entries that are not next to nothing */
 static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
 {
@@ -112,7 +132,8 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(VecSum(s->hdiag, &sum));
   PetscCall(VecGetSize(s->hdiag, &n));
-  s->hscale = PetscRealPart(sum) > 0.0 ? PetscRealPart(sum) / n : 1.0;
+  s->flat   = (PetscBool) !(PetscRealPart(sum) > 0.0);
+  s->hscale = s->flat ? 1.0 : PetscRealPart(sum) / n;
   if (ip->mi) PetscCall(ConstraintStiffness(tao));
   PetscFunctionReturn(0);
 }

@@ -230,16 +230,85 @@ static inline PetscReal FormulasRowViolation(const char *formula, const PetscRea
   return (equality ? PetscAbsReal(jet.v) : PetscMax(-jet.v, 0.0)) / size;
 }
 
-/* Largest violation of constraints and bounds, evaluated here; relative: to the rows of the Jacobian, and to the bounds, where those are above 1 */
-static inline PetscErrorCode FormulasViolation(Formulas *ctx, Vec x, Vec xl, Vec xu, PetscBool relative, PetscReal *violation)
+/* A problem with what TAO takes it by */
+typedef struct {
+  Formulas formulas;
+  Tao      tao;
+  Vec      x, xl, xu, ci, ce;
+  Mat      H, Ji, Je;
+} FormulasProblem;
+
+static inline PetscErrorCode FormulasSetRoutines(FormulasProblem *problem)
 {
-  PetscReal a[EXPRESSION_MAX], l[EXPRESSION_MAX], u[EXPRESSION_MAX];
+  Formulas *ctx    = &problem->formulas;
+  Tao       tao    = problem->tao;
+  PetscBool second = PETSC_TRUE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-hessian", &second, NULL));
+  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, FormulasObjectiveAndGradient, ctx));
+  if (second) PetscCall(TaoSetHessian(tao, problem->H, problem->H, FormulasHessian, ctx));
+  if (ctx->ci.m) {
+    PetscCall(TaoSetInequalityConstraintsRoutine(tao, problem->ci, FormulasConstraints, &ctx->ci));
+    PetscCall(TaoSetJacobianInequalityRoutine(tao, problem->Ji, problem->Ji, FormulasJacobian, &ctx->ci));
+  }
+  if (ctx->ce.m) {
+    PetscCall(TaoSetEqualityConstraintsRoutine(tao, problem->ce, FormulasConstraints, &ctx->ce));
+    PetscCall(TaoSetJacobianEqualityRoutine(tao, problem->Je, problem->Je, FormulasJacobian, &ctx->ce));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The problem before TAOIPFILTER, or the solver that the options name. It points into itself: not to be copied. */
+static inline PetscErrorCode FormulasCreate(MPI_Comm comm, const NLP *p, FormulasProblem *problem)
+{
+  Formulas *formulas = &problem->formulas;
+
+  PetscFunctionBeginUser;
+  FormulasRead(p, formulas);
+  PetscCall(FormulasVector(comm, formulas->n, p->start, -1, &problem->x));
+  PetscCall(FormulasVector(comm, formulas->n, p->bounds, 0, &problem->xl));
+  PetscCall(FormulasVector(comm, formulas->n, p->bounds, 1, &problem->xu));
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, formulas->ci.m, &problem->ci));
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, formulas->ce.m, &problem->ce));
+  PetscCall(FormulasMatrix(problem->x, problem->x, "-dense_hessian", &problem->H));
+  PetscCall(FormulasMatrix(problem->ci, problem->x, "-dense_jacobians", &problem->Ji));
+  PetscCall(FormulasMatrix(problem->ce, problem->x, "-dense_jacobians", &problem->Je));
+  PetscCall(TaoCreate(comm, &problem->tao));
+  PetscCall(TaoSetType(problem->tao, TAOIPFILTER));
+  PetscCall(TaoSetSolution(problem->tao, problem->x));
+  PetscCall(TaoSetVariableBounds(problem->tao, problem->xl, problem->xu));
+  PetscCall(FormulasSetRoutines(problem));
+  PetscCall(TaoSetFromOptions(problem->tao));
+  PetscFunctionReturn(0);
+}
+
+static inline PetscErrorCode FormulasDestroy(FormulasProblem *problem)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoDestroy(&problem->tao));
+  PetscCall(MatDestroy(&problem->H));
+  PetscCall(MatDestroy(&problem->Ji));
+  PetscCall(MatDestroy(&problem->Je));
+  PetscCall(VecDestroy(&problem->x));
+  PetscCall(VecDestroy(&problem->xl));
+  PetscCall(VecDestroy(&problem->xu));
+  PetscCall(VecDestroy(&problem->ci));
+  PetscCall(VecDestroy(&problem->ce));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation of constraints and bounds, evaluated here; relative: to the rows of the Jacobian, and to the bounds, where those are above 1 */
+static inline PetscErrorCode FormulasViolation(const FormulasProblem *problem, PetscBool relative, PetscReal *violation)
+{
+  const Formulas *ctx = &problem->formulas;
+  PetscReal       a[EXPRESSION_MAX], l[EXPRESSION_MAX], u[EXPRESSION_MAX];
 
   PetscFunctionBeginUser;
   *violation = 0.0;
-  PetscCall(FormulasGather(xl, l));
-  PetscCall(FormulasGather(xu, u));
-  PetscCall(FormulasGather(x, a));
+  PetscCall(FormulasGather(problem->xl, l));
+  PetscCall(FormulasGather(problem->xu, u));
+  PetscCall(FormulasGather(problem->x, a));
   for (PetscInt i = 0; i < ctx->n; i++) {
     const PetscReal size = relative ? PetscMax(1.0, PetscAbsReal(l[i] > a[i] ? l[i] : u[i])) : 1.0;
 
@@ -247,25 +316,6 @@ static inline PetscErrorCode FormulasViolation(Formulas *ctx, Vec x, Vec xl, Vec
   }
   for (PetscInt i = 0; i < ctx->ce.m; i++) *violation = PetscMax(*violation, FormulasRowViolation(ctx->ce.formula[i], a, PETSC_TRUE, relative));
   for (PetscInt i = 0; i < ctx->ci.m; i++) *violation = PetscMax(*violation, FormulasRowViolation(ctx->ci.formula[i], a, PETSC_FALSE, relative));
-  PetscFunctionReturn(0);
-}
-
-static inline PetscErrorCode FormulasSetProblem(Tao tao, Formulas *ctx, Vec ci, Vec ce, Mat H, Mat Ji, Mat Je)
-{
-  PetscBool second = PETSC_TRUE;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-hessian", &second, NULL));
-  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, FormulasObjectiveAndGradient, ctx));
-  if (second) PetscCall(TaoSetHessian(tao, H, H, FormulasHessian, ctx));
-  if (ctx->ci.m) {
-    PetscCall(TaoSetInequalityConstraintsRoutine(tao, ci, FormulasConstraints, &ctx->ci));
-    PetscCall(TaoSetJacobianInequalityRoutine(tao, Ji, Ji, FormulasJacobian, &ctx->ci));
-  }
-  if (ctx->ce.m) {
-    PetscCall(TaoSetEqualityConstraintsRoutine(tao, ce, FormulasConstraints, &ctx->ce));
-    PetscCall(TaoSetJacobianEqualityRoutine(tao, Je, Je, FormulasJacobian, &ctx->ce));
-  }
   PetscFunctionReturn(0);
 }
 

@@ -135,9 +135,26 @@ static const NLP problems[] = {
   {"large", "1e8*((x1-2)^2+(x2-1)^2)", "1e8*(-x1-x2+2); 1e-8*(-x1^2+x2)", "", "", "2 2", 1e8, NLP_SOLVED, NULL},
   {"small", "1e-8*(" HS71 ")", "1e8*(x1*x2*x3*x4-25)", "1e-8*(x1^2+x2^2+x3^2+x4^2-40)", "1:5 1:5 1:5 1:5", "1 5 5 1", 17.0140172892e-8, NLP_SOLVED, NULL},
 
+  /* unknowns, rows and bounds whose sizes have nothing to do with one another: none is to be measured by that of another */
+  {"HS54", "-exp(-(((x1-1e4)^2/6.4e7+(x1-1e4)*(x2-1)/2e4+(x2-1)^2)/0.96+(x3-2e6)^2/4.9e13+(x4-10)^2/2.5e3+(x5-1e-3)^2/2.5e-3+(x6-1e8)^2/2.5e17)/2)", "", "x1+4e3*x2-1.76e4", "0:2e4 -10:10 0:1e7 0:20 -1:1 0:2e8", "6e3 1.5 4e6 2 3e-3 5e7", -0.9080747577659853, NLP_SOLVED, NULL},
+  {"HS74", "3*x1+1e-6*x1^3+2*x2+2e-6/3*x2^3", "x4-x3+0.55; x3-x4+0.55", "1000*sin(-x3-0.25)+1000*sin(-x4-0.25)+894.8-x1; 1000*sin(x3-0.25)+1000*sin(x3-x4-0.25)+894.8-x2; 1000*sin(x4-0.25)+1000*sin(x4-x3-0.25)+1294.8", "0:1200 0:1200 -0.55:0.55 -0.55:0.55", "0 0 0 0", 5126.4981, NLP_SOLVED, NULL},
+  {"HS98", "4.3*x1+31.8*x2+63.3*x3+15.8*x4+68.5*x5+4.7*x6", "17.1*x1+38.2*x2+204.2*x3+212.3*x4+623.4*x5+1495.5*x6-169*x1*x3-3580*x3*x5-3810*x4*x5-18500*x4*x6-24300*x5*x6-32.97; 17.9*x1+36.8*x2+113.9*x3+169.7*x4+337.8*x5+1385.2*x6-139*x1*x3-2450*x4*x5-16600*x4*x6-17200*x5*x6-25.12; -273*x2-70*x4-819*x5+26000*x4*x5--124.08; 159.9*x1-311*x2+587*x4+391*x5+2198*x6-14000*x1*x6--173.02", "", "0:0.31 0:0.046 0:0.068 0:0.042 0:0.028 0:0.0134", "0 0 0 0 0 0", 3.1358091, NLP_SOLVED, "4.07124638"},
+  {"far upper bounds", "(x1+1)^2+(x2+1)^2+(x3-1)^2", "", "", "0:1e9 0:1e9 0:1e9", "100 100 100", 2.0, NLP_SOLVED, NULL},
+  {"gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", "", "", "0:0.001 0:1e6", "0.0005 1", -0.5009995, NLP_SOLVED, NULL},
+  {"rows with gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", "0.001-x1; 1e6-x2; x1+1e6; x2", "", "", "0 0", -0.5009995, NLP_SOLVED, NULL},
+  {"mixed units, QP", "(1e6*x1-3)^2+(1e-6*x2-2)^2", "3-1e6*x1-1e-6*x2", "", "", "0 0", 2.0, NLP_SOLVED, NULL},
+  {"mixed units, HS35", "9-8e6*x1-6*x2-4e-6*x3+2e12*x1^2+2*x2^2+1e-12*x3^2+2e6*x1*x2+2*x1*x3", "3-1e6*x1-x2-2e-6*x3", "", "0: 0: 0:", "0.5e-6 0.5 0.5e6", 0.1111111111111111, NLP_SOLVED, NULL},
+  /* a gradient that is zero everywhere, and constraints that all are active at the penalty step */
+  {"constant objective, disc", "0", "1-x1^2-x2^2", "", "", "3 4", 0.0, NLP_SOLVED, NULL},
+  {"line by two inequalities", "x1^2+x2^2", "x1+x2-1; 1-x1-x2", "", "", "2 0", 0.5, NLP_SOLVED, NULL},
+  /* complementarity without an interior: a slack vanishes before mu does, and hypre meets a pivot of zero */
+  {"jr2", "(x2-1)^2+x1^2", "x2; x2-x1; -(x2)*(x2-x1)", "", "", "0 0", 0.5, NLP_DEGENERATE, NULL},
+
   {"apart", "x1^2", "x1-1; -x1", "", "", "0.5", 0.0, NLP_INFEASIBLE, NULL},
   {"nowhere", "x1", "-x1^2-1", "", "", "3", 0.0, NLP_INFEASIBLE, NULL},
   {"circles", "x1+x2", "", "x1^2+x2^2-1; (x1-3)^2+x2^2-1", "", "1 1", 0.0, NLP_INFEASIBLE, NULL},
+  /* multipliers of equality constraints that cannot be met outgrow everything */
+  {"square of -1", "x1", "", "x1^2+1", "", "2", 0.0, NLP_INFEASIBLE, NULL},
   {"bounded out", "x1", "", "x1+x2-3", "0:1 0:1", "0.5 0.5", 0.0, NLP_INFEASIBLE, NULL},
   {"line", "-x1", "", "", "0:", "1", 0.0, NLP_UNBOUNDED, NULL},
   {"cubic", "x1^3", "", "", "", "-1", 0.0, NLP_UNBOUNDED, NULL},

@@ -51,8 +51,6 @@ add("HS25", total(f"-{0.01 * i!r}+exp(-({25 + (-50 * math.log(0.01 * i)) ** (2 /
 add("HS41", "2-x1*x2*x3", 52 / 27, "4*2", eq=["x1+2*x2+2*x3-x4"], bounds="3*0:1 0:2", others=(2.0,))
 add("HS46", "(x1-x2)^2+(x3-1)^2+(x4-1)^4+(x5-1)^6", 0.0, [math.sqrt(2) / 2, 1.75, 0.5, 2, 2], eq=["x1^2*x4+sin(x4-x5)-1", "x2+x3^4*x4^2-2"])
 add("HS47", "(x1-x2)^2+(x2-x3)^3+(x3-x4)^4+(x4-x5)^4", 0.0, [2, math.sqrt(2), -1, 2 - math.sqrt(2), 0.5], eq=["x1+x2^2+x3^3-3", "x2-x3^2+x4-1", "x1*x5-1"])
-add("HS54", "-exp(-(((x1-1e4)^2/6.4e7+(x1-1e4)*(x2-1)/2e4+(x2-1)^2)/0.96+(x3-2e6)^2/4.9e13+(x4-10)^2/2.5e3+(x5-1e-3)^2/2.5e-3+(x6-1e8)^2/2.5e17)/2)", -math.exp(-27 / 280),
-    "6e3 1.5 4e6 2 3e-3 5e7", eq=["x1+4e3*x2-1.76e4"], bounds="0:2e4 -10:10 0:1e7 0:20 -1:1 0:2e8")
 add("HS55", "x1+2*x2+4*x5+exp(x1*x4)", 19 / 3, "1 2 0 0 0 2", eq=["x1+2*x2+5*x5-6", "x1+x2+x3-3", "x4+x5+x6-2", "x1+x4-1", "x2+x5-2", "x3+x6-2"], bounds="0:1 0: 0: 0:1 0: 0:",
     others=(20 / 3,))
 add("HS56", "-x1*x2*x3", -3.456, [1, 1, 1] + [math.asin(math.sqrt(1 / 4.2))] * 3 + [math.asin(math.sqrt(5 / 7.2))],
@@ -78,9 +76,8 @@ for name, a, b, d, n, optimum in (("HS68", 1e-4, 1, 1, 24, -0.920425026), ("HS69
 add("HS72", "1+x1+x2+x3+x4", 727.67937, "4*1", ge=["0.0401-4/x1-2.25/x2-1/x3-0.25/x4", "0.010085-0.16/x1-0.36/x2-0.64/x3-0.64/x4"], bounds="0.001:4e5 0.001:3e5 0.001:2e5 0.001:1e5")
 add("HS73", "24.55*x1+26.75*x2+39*x3+40.5*x4", 29.894378, "4*1",
     ge=["2.3*x1+5.6*x2+11.1*x3+1.3*x4-5", "12*x1+11.9*x2+41.8*x3+52.1*x4-21-1.645*sqrt(0.28*x1^2+0.19*x2^2+20.5*x3^2+0.62*x4^2)"], eq=["x1+x2+x3+x4-1"], bounds="4*0:")
-for name, a, optimum in (("HS74", 0.55, 5126.4981), ("HS75", 0.48, 5174.4129)):
-    add(name, "3*x1+1e-6*x1^3+2*x2+2e-6/3*x2^3", optimum, "4*0", ge=[f"x4-x3+{a}", f"x3-x4+{a}"], bounds=f"2*0:1200 2*-{a}:{a}",
-        eq=["1000*sin(-x3-0.25)+1000*sin(-x4-0.25)+894.8-x1", "1000*sin(x3-0.25)+1000*sin(x3-x4-0.25)+894.8-x2", "1000*sin(x4-0.25)+1000*sin(x4-x3-0.25)+1294.8"])
+add("HS75", "3*x1+1e-6*x1^3+2*x2+2e-6/3*x2^3", 5174.4129, "4*0", ge=["x4-x3+0.48", "x3-x4+0.48"], bounds="2*0:1200 2*-0.48:0.48",
+    eq=["1000*sin(-x3-0.25)+1000*sin(-x4-0.25)+894.8-x1", "1000*sin(x3-0.25)+1000*sin(x3-x4-0.25)+894.8-x2", "1000*sin(x4-0.25)+1000*sin(x4-x3-0.25)+1294.8"])
 add("HS81", "exp(x1*x2*x3*x4*x5)-0.5*(x1^3+x2^3+1)^2", 0.0539498478, "-2 2 2 -1 -1", eq=["x1^2+x2^2+x3^2+x4^2+x5^2-10", "x2*x3-5*x4*x5", "x1^3+x2^3+1"], bounds="2*-2.3:2.3 3*-3.2:3.2",
     others=(0.43885110, 1.0))
 HS83 = ["85.334407+0.0056858*x2*x5+0.0006262*x1*x4-0.0022053*x3*x5", "80.51249+0.0071317*x2*x5+0.0029955*x1*x2+0.0021813*x3^2", "9.300961+0.0047026*x3*x5+0.0012547*x1*x3+0.0019085*x3*x4"]
@@ -100,7 +97,7 @@ add("HS86", "+".join([linear(COLVILLE_E)] + [f"{COLVILLE_C[i][j]}*x{i + 1}*x{j +
 HS95 = ["17.1*x1+38.2*x2+204.2*x3+212.3*x4+623.4*x5+1495.5*x6-169*x1*x3-3580*x3*x5-3810*x4*x5-18500*x4*x6-24300*x5*x6",
         "17.9*x1+36.8*x2+113.9*x3+169.7*x4+337.8*x5+1385.2*x6-139*x1*x3-2450*x4*x5-16600*x4*x6-17200*x5*x6", "-273*x2-70*x4-819*x5+26000*x4*x5", "159.9*x1-311*x2+587*x4+391*x5+2198*x6-14000*x1*x6"]
 for name, b, optimum, others in (("HS95", (4.97, -1.88, -29.08, -78.02), 0.015619525, ()), ("HS96", (4.97, -1.88, -69.08, -118.02), 0.015619525, ()),
-                                 ("HS97", (32.97, 25.12, -29.08, -78.02), 3.1358091, (4.07124638,)), ("HS98", (32.97, 25.12, -124.08, -173.02), 3.1358091, (4.07124638,))):
+                                 ("HS97", (32.97, 25.12, -29.08, -78.02), 3.1358091, (4.07124638,))):
     add(name, "4.3*x1+31.8*x2+63.3*x3+15.8*x4+68.5*x5+4.7*x6", optimum, "6*0", ge=[f"{row}-{value!r}" for row, value in zip(HS95, b)], bounds="0:0.31 0:0.046 0:0.068 0:0.042 0:0.028 0:0.0134",
         others=others)
 
@@ -384,7 +381,6 @@ def complementary(name, objective, optimum, start, pairs, ge=(), **rest):
 
 complementary("bard1", "(x1-5)^2+(2*x2+1)^2", 17.0, "5*0", [("3*x1-x2-3", "x3"), ("-x1+0.5*x2+4", "x4"), ("-x1-x2+7", "x5")], eq=["2*(x2-1)-1.5*x1+x3-0.5*x4+x5"], bounds="2*0: 3*:")
 complementary("jr1", "(x1-1)^2+x2^2", 0.5, "0 0", [("x2", "x2-x1")])
-complementary("jr2", "(x2-1)^2+x1^2", 0.5, "0 0", [("x2", "x2-x1")])
 complementary("ralph1", "2*x1-x2", 0.0, "1 0", [("x2", "x2-x1")], bounds="0: :")
 complementary("ralph2", "x1^2+x2^2-4*x1*x2", 0.0, "1 1", [("x1", "x2")])
 complementary("scale1", "(100*x1-1)^2+(x2-1)^2", 1.0, "0.01 1", [("x1", "x2")])
@@ -409,14 +405,12 @@ add("x^2<=0", "x1+x2^2", 0.0, "1 1", ge=["-x1^2"], end=DEGENERATE)
 add("tangent circles", "x1", 0.0, "0.5 0.5", ge=["1-(x1-1)^2-x2^2", "1-(x1+1)^2-x2^2"], end=DEGENERATE)
 add("point by two squares", "x1+x2", 2.0, "0 0", eq=["(x1-1)^2+(x2-1)^2"], end=DEGENERATE)
 add("circle by two inequalities", "x1+x2", -math.sqrt(2), "1 0.5", ge=["x1^2+x2^2-1", "1-x1^2-x2^2"])
-add("line by two inequalities", "x1^2+x2^2", 0.5, "2 0", ge=["x1+x2-1", "1-x1-x2"])
 add("row stated four times", "(x1-2)^2+x2^2", 1.0, "0 1", ge=["1-x1", "2-2*x1", "1-x1", "10-10*x1"])
 add("more active rows than unknowns", "-x1-x2", -2.0, "0 0", ge=["1-x1", "1-x2", "2-x1-x2", "3-2*x1-x2", "3-x1-2*x2"])
 add("equality stated three times", "x1^2+x2^2+x3^2", 1 / 3, "3 -1 2", eq=["x1+x2+x3-1", "2*x1+2*x2+2*x3-2", "-x1-x2-x3+1"])
 add("plane through the start", "(x1-1)^2+(x2-1)^2+(x3-1)^2", 0.09 / 0.59, "0 0 0", eq=["0.1*x1+0.3*x2-0.7*x3"])
 add("plane through the start, no curvature", "x1^2+x2^2+x3^2", 0.0, "0 0 0", eq=["0.1*x1+0.3*x2-0.7*x3"])
 add("constant objective, box", "0", 0.0, "3 -4", ge=["1-x1", "1+x1", "1-x2", "1+x2"])
-add("constant objective, disc", "0", 0.0, "3 4", ge=["1-x1^2-x2^2"])
 add("constant objective, disc and line", "7", 7.0, "3 4", ge=["1-x1^2-x2^2"], eq=["x1-x2"])
 add("constant objective, feasible start", "1", 1.0, "0.5 0.5", ge=["x1", "x2", "2-x1-x2"])
 add("nothing to do", "x1^2+x2^2", 0.0, "0 0")
@@ -444,16 +438,11 @@ add("log barrier of its own", "-log(x1)-log(1-x1)+x1", -math.log((3 - math.sqrt(
 add("bounds of 1e9 that mean none", "x1^2+x2^2+x1*x2-x1", -1 / 3, "10 -20", bounds="2*-1e9:1e9")
 add("bounds of 1e7 that mean none", "x1^2+x1", -0.25, "18", bounds="-1e7:1e7")
 add("bounds of 1e9 that mean none, one unknown", "x1^2+x1", -0.25, "18", bounds="-1e9:1e9")
-add("far upper bounds", "(x1+1)^2+(x2+1)^2+(x3-1)^2", 2.0, "100 100 100", bounds="3*0:1e9")
 add("far rows", "(x1-1)^2+(x2+1)^2", 0.0, "5 5", ge=["1e9-x1-x2", "1e9+x1-x2"])
-add("gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", -0.5 - (1e-3 - 0.5e-6), "0.0005 1", bounds="0:0.001 0:1e6")
-add("rows with gaps of 1e-3 and 1e6", "0.5*x1^2+0.5*x2^2-x1-x2", -0.5 - (1e-3 - 0.5e-6), "0 0", ge=["0.001-x1", "1e6-x2", "x1+1e6", "x2"])
 add("rosenbrock from afar", ROSENBROCK, 0.0, "-1e3 1e3")
 add("rosenbrock from afar, bounded", ROSENBROCK, 0.0, "-1e3 1e3", bounds="2*-1e4:1e4")
 add("rosenbrock in millions", "100*(1e-6*x2-1e-12*x1^2)^2+(1-1e-6*x1)^2", 0.0, "-1.2e6 1e6")
 add("rosenbrock in millionths", "100*(1e6*x2-1e12*x1^2)^2+(1-1e6*x1)^2", 0.0, "-1.2e-6 1e-6")
-add("mixed units, QP", "(1e6*x1-3)^2+(1e-6*x2-2)^2", 2.0, "0 0", ge=["3-1e6*x1-1e-6*x2"])
-add("mixed units, HS35", "9-8e6*x1-6*x2-4e-6*x3+2e12*x1^2+2*x2^2+1e-12*x3^2+2e6*x1*x2+2*x1*x3", 1 / 9, "0.5e-6 0.5 0.5e6", ge=["3-1e6*x1-x2-2e-6*x3"], bounds="3*0:")
 add("mixed units, HS71", "1e6*x1*x4*(1e6*x1+x2+1e-6*x3)+1e-6*x3", 17.0140173, "1e-6 5 5e6 1", ge=["x1*x2*x3*x4-25"],
     eq=["1e12*x1^2+x2^2+1e-12*x3^2+x4^2-40"], bounds="1e-6:5e-6 1:5 1e6:5e6 1:5")
 add("rows in mixed units, HS43", "x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4", -44.0, "4*0",
@@ -481,7 +470,6 @@ add("parallel lines", "x1^2+x2^2", 0.0, "0 0", eq=["x1+x2-1", "x1+x2-2"], end=IN
 add("disc beside the half plane", "x1", 0.0, "0 0", ge=["1-x1^2-x2^2", "x1-2"], end=INFEASIBLE)
 add("discs apart", "x1+x2", 0.0, "1.5 1", ge=["1-x1^2-x2^2", "1-(x1-3)^2-x2^2"], end=INFEASIBLE)
 add("sum below bounds", "x1^2+x2^2+x3^2", 0.0, "3*2", ge=["2-x1-x2-x3"], bounds="3*1:", end=INFEASIBLE)
-add("square of -1", "x1", 0.0, "2", eq=["x1^2+1"], end=INFEASIBLE)
 add("exponential below zero", "x1+x2", 0.0, "0 0", ge=["-exp(x1)-1-x2^2"], end=INFEASIBLE)
 add("three half planes", "0", 0.0, "5 5", ge=["-x1", "-x2", "x1+x2-1"], end=INFEASIBLE)
 add("equality beyond bounds", "(x1-1)^2", 0.0, "0.5 0.5", eq=["x1+x2-3"], bounds="0:1 0:1", end=INFEASIBLE)

@@ -14,8 +14,10 @@ static const char *Ending(TaoConvergedReason reason, const char *sentence)
   return strstr(sentence, "unbounded") ? "unbounded" : "failed";
 }
 
-static PetscErrorCode ReportProblem(Tao tao, Formulas *formulas, Vec x, Vec xl, Vec xu, double seconds)
+static PetscErrorCode ReportProblem(const FormulasProblem *problem, double seconds)
 {
+  const Formulas    *formulas = &problem->formulas;
+  Tao                tao      = problem->tao;
   TaoConvergedReason reason;
   PetscReal          violation, a[EXPRESSION_MAX];
   PetscInt           its, npoints = formulas->npoints;
@@ -28,9 +30,9 @@ static PetscErrorCode ReportProblem(Tao tao, Formulas *formulas, Vec x, Vec xl, 
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
   if (own) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   else sentence = TaoConvergedReasons[reason];
-  PetscCall(FormulasGather(x, a));
+  PetscCall(FormulasGather(problem->x, a));
   ExpressionEvaluate(formulas->p->objective, a, NULL, &f);
-  PetscCall(FormulasViolation(formulas, x, xl, xu, PETSC_TRUE, &violation));
+  PetscCall(FormulasViolation(problem, PETSC_TRUE, &violation));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.12e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.5f|%s\n", formulas->p->name, Ending(reason, sentence), (double)f.v, (double)violation, its, npoints, seconds, sentence));
   fflush(stdout);
   PetscFunctionReturn(0);
@@ -38,41 +40,16 @@ static PetscErrorCode ReportProblem(Tao tao, Formulas *formulas, Vec x, Vec xl, 
 
 static PetscErrorCode SolveProblem(const NLP *p)
 {
-  Formulas       formulas;
-  Tao            tao;
-  Vec            x, xl, xu, ci, ce;
-  Mat            H, Ji, Je;
-  PetscLogDouble begin, end;
+  FormulasProblem problem;
+  PetscLogDouble  begin, end;
 
   PetscFunctionBeginUser;
-  FormulasRead(p, &formulas);
-  PetscCall(FormulasVector(PETSC_COMM_WORLD, formulas.n, p->start, -1, &x));
-  PetscCall(FormulasVector(PETSC_COMM_WORLD, formulas.n, p->bounds, 0, &xl));
-  PetscCall(FormulasVector(PETSC_COMM_WORLD, formulas.n, p->bounds, 1, &xu));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, formulas.ci.m, &ci));
-  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, formulas.ce.m, &ce));
-  PetscCall(FormulasMatrix(x, x, "-dense_hessian", &H));
-  PetscCall(FormulasMatrix(ci, x, "-dense_jacobians", &Ji));
-  PetscCall(FormulasMatrix(ce, x, "-dense_jacobians", &Je));
-  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
-  PetscCall(TaoSetType(tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(tao, x));
-  PetscCall(TaoSetVariableBounds(tao, xl, xu));
-  PetscCall(FormulasSetProblem(tao, &formulas, ci, ce, H, Ji, Je));
-  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(FormulasCreate(PETSC_COMM_WORLD, p, &problem));
   PetscCall(PetscTime(&begin));
-  PetscCall(TaoSolve(tao));
+  PetscCall(TaoSolve(problem.tao));
   PetscCall(PetscTime(&end));
-  PetscCall(ReportProblem(tao, &formulas, x, xl, xu, end - begin));
-  PetscCall(TaoDestroy(&tao));
-  PetscCall(MatDestroy(&H));
-  PetscCall(MatDestroy(&Ji));
-  PetscCall(MatDestroy(&Je));
-  PetscCall(VecDestroy(&x));
-  PetscCall(VecDestroy(&xl));
-  PetscCall(VecDestroy(&xu));
-  PetscCall(VecDestroy(&ci));
-  PetscCall(VecDestroy(&ce));
+  PetscCall(ReportProblem(&problem, end - begin));
+  PetscCall(FormulasDestroy(&problem));
   PetscFunctionReturn(0);
 }
 
