@@ -178,13 +178,13 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 
   PetscFunctionBegin;
   *drowned = PETSC_TRUE;
-  PetscCall(MatHasOperation(tao->hessian, MATOP_NORM, &has));
+  PetscCall(MatHasOperation(ip->hess.H, MATOP_NORM, &has));
   if (!has) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
   PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
   PetscCall(VecNorm(diagonal, NORM_INFINITY, &a));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
-  PetscCall(MatNorm(tao->hessian, NORM_FROBENIUS, &h));
+  PetscCall(MatNorm(ip->hess.H, NORM_FROBENIUS, &h));
   *drowned = (PetscBool) !(a <= ratio * h);
   PetscFunctionReturn(0);
 }

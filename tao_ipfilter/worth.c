@@ -111,8 +111,9 @@ static PetscErrorCode WorthOfGap(Tao tao, PetscReal *worth)
 /* Terms that make up the objective: sum_j |x_j (H x)_j| + |x_j g_j| */
 PetscErrorCode IPWorthTerms(Tao tao, PetscReal *terms)
 {
-  PetscReal linear;
-  Vec       Hx;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     linear;
+  Vec           Hx;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
