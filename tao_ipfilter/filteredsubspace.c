@@ -44,6 +44,7 @@ static PetscErrorCode FilteredIsThin(Tao tao, PetscBool *thin)
   PetscInt        n, nw;
 
   PetscFunctionBegin;
+  PetscCall(IPRowsTake(tao));
   PetscCall(IPSubspaceUpdate(tao));
   PetscCall(ISGetSize(ip->cond.filter, &nw));
   PetscCall(VecGetSize(tao->solution, &n));

@@ -661,6 +661,7 @@ PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 /* ---- system ---- */
 
 /* rows.c */
+PETSC_INTERN PetscErrorCode IPRowsTake(Tao);
 PETSC_INTERN PetscErrorCode IPRowsUpdate(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPRowsDestroy(IPRows *);
 

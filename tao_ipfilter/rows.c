@@ -97,7 +97,7 @@ static PetscErrorCode RowsStack(Tao tao)
 }
 
 /* One Jacobian, or none, as it is */
-static PetscErrorCode RowsTake(Mat J, const IPStamp *stamp, IPRows *rows)
+static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
 {
   PetscFunctionBegin;
   if (J) PetscCall(PetscObjectReference((PetscObject)J));
@@ -175,6 +175,20 @@ static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool equality)
   PetscFunctionReturn(0);
 }
 
+/* The rows at the present point, without weights */
+PetscErrorCode IPRowsTake(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  IPRows         *rows     = &ip->cond.rows;
+  const PetscBool equality = (PetscBool)(ip->me && ip->prox.condensed);
+
+  PetscFunctionBegin;
+  if (ip->mi && equality) PetscCall(RowsStack(tao));
+  else if (equality) PetscCall(RowsTakeOne(ip->jac.equality, &ip->jac.equality_stamp, rows));
+  else PetscCall(RowsTakeOne(ip->mi ? ip->jac.inequality : NULL, &ip->jac.inequality_stamp, rows));
+  PetscFunctionReturn(0);
+}
+
 /* Rows and weights for the weights D of the inequality constraints, NULL where there are none */
 PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 {
@@ -183,9 +197,7 @@ PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
   const PetscBool equality = (PetscBool)(ip->me && ip->prox.condensed);
 
   PetscFunctionBegin;
-  if (ip->mi && equality) PetscCall(RowsStack(tao));
-  else if (equality) PetscCall(RowsTake(ip->jac.equality, &ip->jac.equality_stamp, rows));
-  else PetscCall(RowsTake(ip->mi ? ip->jac.inequality : NULL, &ip->jac.inequality_stamp, rows));
+  PetscCall(IPRowsTake(tao));
   if (ip->mi) PetscCall(RowsKeep(D, &rows->inequality));
   if (equality) {
     if (!rows->equality) PetscCall(VecDuplicate(ip->at.ce, &rows->equality));
