@@ -189,12 +189,12 @@ PetscErrorCode IPTestNumbers(Tao tao)
 }
 
 /* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds the largest violation,
-   crtol the one that the KKT error holds */
+   crtol the one that the KKT error holds. As for all of TAO's tolerances 0 is none. */
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
 
-  return (PetscBool)(k->inf_pr <= tao->catol && k->primal <= tao->crtol);
+  return (PetscBool)((k->inf_pr <= tao->catol || tao->catol == 0.0) && (k->primal <= tao->crtol || tao->crtol == 0.0));
 }
 
 /*@C

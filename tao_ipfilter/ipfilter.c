@@ -203,7 +203,7 @@ static PetscErrorCode DestroyType(Tao tao)
   Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
   `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been called (or
   `-tao_catol`, `-tao_crtol` given), convergence asks for a largest violation of the constraints within catol, and a relative one within
-  crtol, besides. `TaoSetConvergenceTest()` replaces `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
+  crtol, besides; 0 is none. `TaoSetConvergenceTest()` replaces `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
   (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`), `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the
   constraints may be infeasible), `TAO_DIVERGED_USER` (no direction, or the objective seems unbounded), `TAO_DIVERGED_NAN`,
   `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.

@@ -171,7 +171,7 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscFunctionBegin;
   PetscCall(CheckVector(tao, tao->solution, "solution"));
   if (ip->mi) PetscCall(CheckJacobian(tao, tao->jacobian_inequality, "inequality"));
-  if (ip->me) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
+  if (ip->me > ip->sides.nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
   PetscCall(IPMatrixHasEntries(tao->hessian, &has));
   PetscCall(HessianReader(tao, &needed, &reader, &instead));
   PetscCall(MatGetSize(tao->hessian, &n, NULL));

@@ -30,11 +30,13 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 }
 
 /* The same, or its multiplier on the central path of a mu that does not fall is so much larger than what balances the objective's
-   gradient that no slack of a constraint with an interior would be so small. Far from feasible points that happens on the way. */
+   gradient that no slack of a constraint with an interior would be so small. Far from feasible points that happens on the way. Without
+   scales nothing says what balances. */
 static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
 {
   const PetscReal met = 1e-4;
 
+  if (ip->opt.scaling == IP_SCALING_NONE) return RelaxRounding(ip);
   return (PetscBool)(RelaxRounding(ip) || (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
 }
 

@@ -9,8 +9,8 @@ static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
 
   PetscFunctionBegin;
   if (!ip->mi && !ip->me) PetscFunctionReturn(0);
-  if (tao->catol < PETSC_INFINITY) PetscCall(PetscSNPrintf(catol, sizeof(catol), " (catol %g)", (double)tao->catol));
-  if (tao->crtol < PETSC_INFINITY) PetscCall(PetscSNPrintf(crtol, sizeof(crtol), " (crtol %g)", (double)tao->crtol));
+  if (tao->catol < PETSC_INFINITY && tao->catol > 0.0) PetscCall(PetscSNPrintf(catol, sizeof(catol), " (catol %g)", (double)tao->catol));
+  if (tao->crtol < PETSC_INFINITY && tao->crtol > 0.0) PetscCall(PetscSNPrintf(crtol, sizeof(crtol), " (crtol %g)", (double)tao->crtol));
   PetscCall(PetscViewerASCIIPrintf(viewer, "constraints: largest violation %g%s, relative %g%s\n", (double)ip->kkt.inf_pr, catol, (double)ip->kkt.primal, crtol));
   PetscFunctionReturn(0);
 }

@@ -88,7 +88,7 @@ static SceneContactPair CurvedPair(Shape shape, PetscBool swap, GapType gap, Pet
 {
   static char inner[2][16] = {"inner.outer", "inner.surface"}, outer[] = "outer.inner";
 
-  return (SceneContactPair){(char *)"pair", swap ? inner[shape] : outer, swap ? outer : inner[shape], gap, 0.0, 0.0, smooth};
+  return (SceneContactPair){.name = (char *)"pair", .mortar = swap ? inner[shape] : outer, .nonmortar = swap ? outer : inner[shape], .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = smooth};
 }
 
 /* Both bodies turn and shift together */
@@ -424,7 +424,7 @@ static PetscErrorCode Compare(DM dm, const char what[], const char mortar[], con
   PetscReal            difference;
 
   PetscFunctionBeginUser;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinearizeCurved(dm, (SceneContactPair){(char *)"pair", (char *)mortar, (char *)nonmortar, gap, 0.0, 0.0, (PetscBool)k}, PartingField, &size, &lin[k]));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinearizeCurved(dm, (SceneContactPair){.name = (char *)"pair", .mortar = (char *)mortar, .nonmortar = (char *)nonmortar, .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = (PetscBool)k}, PartingField, &size, &lin[k]));
   PetscCall(VecAXPY(lin[0]->g, -1.0, lin[1]->g));
   PetscCall(VecNorm(lin[0]->g, NORM_INFINITY, &difference));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: smooth and facets %s\n", what, GapTypes[gap], (difference == 0.0) == same ? (same ? "are the same" : "differ") : (same ? "DIFFER" : "ARE THE SAME")));

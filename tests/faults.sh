@@ -13,7 +13,7 @@ try() {
     sed -e "s|$PWD/||g" -e 's/KKT error .*/KKT error/' -e 's/||b - A d|| = .*/.../' -e 's/full? .*/full?/')"
 }
 
-one_step=(-refine 0 -load_steps 1 -load_max_cuts 0 -tao_max_it 20)
+one_step=(-refine 0 -load_steps 1 -load_max_cuts 0 -tao_max_it 20 -tao_ipfilter_subspace false)
 no_space=(-options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_mat_mumps_icntl_23 1 -tao_ipfilter_mat_mumps_icntl_14 0)
 for memory in 2000 0; do
   try "MUMPS without work space, allowed for another: $memory MB" "$contact" "$blocks" "${one_step[@]}" "${no_space[@]}" -tao_ipfilter_direct_memory $memory

@@ -10,8 +10,8 @@ run() {
   timeout 300 "${launch[@]}" "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/$scene.yaml" -quiet -refine 0 -contact_updates 1 -tao_gatol 1e-10 -summary "$name.json" "$@" 2> /dev/null || echo "$name: exit code $?"
 }
 
-run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false
+run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false -tao_gatol 1e-12
 for ranks in 1 3; do run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true -contact_free; done
-run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false
+run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false -tao_gatol 1e-12
 for ranks in 1 5; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -contact_free; done
 "$PYTHON" "$AMGF_DIR/tests/filtered_subspace.py"
