@@ -389,7 +389,7 @@ static PetscErrorCode TestRigidPatches(Shape shape, GapType gap)
 /* The gap's derivative, J, and the forces that they transmit, bent, slid off one another, and across a sharp edge */
 static PetscErrorCode TestJacobian(GapType gap)
 {
-  const SceneContactPair kinked = {(char *)"pair", (char *)"inner.zmax", (char *)"outer.zmin", gap, 0.0, 0.0, PETSC_TRUE};
+  const SceneContactPair kinked = {.name = (char *)"pair", .mortar = (char *)"inner.zmax", .nonmortar = (char *)"outer.zmin", .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = PETSC_TRUE};
   State                  state;
   DM                     dm;
 
