@@ -600,7 +600,6 @@ PETSC_INTERN PetscErrorCode IPRowScalePair(Tao, Vec, Vec, PetscBool back);
 PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
 
 /* matrices.c */
-PETSC_INTERN PetscErrorCode IPMatrixHasEntries(Mat, PetscBool *);
 PETSC_INTERN PetscErrorCode IPMatrixSamePattern(Mat, Mat, PetscBool *);
 PETSC_INTERN PetscErrorCode IPMatrixKeep(Mat *, Mat *);
 PETSC_INTERN PetscErrorCode IPMatrixConvert(Mat, Mat *);

@@ -31,6 +31,8 @@ static PetscErrorCode MatrixHasRows(Mat A, PetscBool *has)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode MatrixHasEntries(Mat, PetscBool *);
+
 /* Whether every block of a nest has entries */
 static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
 {
@@ -40,12 +42,12 @@ static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
   PetscFunctionBegin;
   PetscCall(MatNestGetSubMats(A, &m, &n, &blocks));
   for (PetscInt k = 0; k < m * n && *has; k++)
-    if (blocks[k / n][k % n]) PetscCall(IPMatrixHasEntries(blocks[k / n][k % n], has));
+    if (blocks[k / n][k % n]) PetscCall(MatrixHasEntries(blocks[k / n][k % n], has));
   PetscFunctionReturn(0);
 }
 
 /* Whether a matrix can be read, as it is or converted */
-PetscErrorCode IPMatrixHasEntries(Mat A, PetscBool *has)
+static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
 {
   PetscBool nest;
 
@@ -106,7 +108,7 @@ PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
   Mat       fresh;
 
   PetscFunctionBegin;
-  PetscCall(IPMatrixHasEntries(A, &has));
+  PetscCall(MatrixHasEntries(A, &has));
   if (has) PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &fresh));
   else PetscCall(MatComputeOperator(A, MATAIJ, &fresh));
   PetscCall(IPMatrixKeep(&fresh, kept));
@@ -141,7 +143,7 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   MatType   type;
 
   PetscFunctionBegin;
-  PetscCall(IPMatrixHasEntries(J, &has));
+  PetscCall(MatrixHasEntries(J, &has));
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
   PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP, "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than %d unknowns, not %" PetscInt_FMT ": give it as AIJ", kind, type, IP_COLUMNS_MAX, n);
@@ -172,7 +174,7 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscCall(CheckVector(tao, tao->solution, "solution"));
   if (ip->mi) PetscCall(CheckJacobian(tao, tao->jacobian_inequality, "inequality"));
   if (ip->me > ip->sides.nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
-  PetscCall(IPMatrixHasEntries(tao->hessian, &has));
+  PetscCall(MatrixHasEntries(tao->hessian, &has));
   PetscCall(HessianReader(tao, &needed, &reader, &instead));
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
   PetscCall(MatGetType(tao->hessian, &type));

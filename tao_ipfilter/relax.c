@@ -66,12 +66,12 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 PetscErrorCode IPRelax(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt patience = 3, patience_rounding = 3;
+  const PetscInt patience = 3;
 
   PetscFunctionBegin;
   if (!ip->mi || ip->relax.times || ip->bar.free) PetscFunctionReturn(0);
   ip->relax.nvanished = RelaxVanished(ip) ? ip->relax.nvanished + 1 : 0;
-  if (ip->relax.nvanished >= (RelaxRounding(ip) ? patience_rounding : patience)) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
+  if (ip->relax.nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }
 
