@@ -20,19 +20,32 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscFunctionReturn(0);
 }
 
-/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton systems */
+/* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which then serves all solves */
+static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, amg));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, factored, PCCHOLESKY, PCLU, ""));
+  PetscFunctionReturn(0);
+}
+
+/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton systems, as tolerances of
+   a Krylov method do */
 static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
   const IPOptions *opt = &ip->opt;
-  PC               pc;
+  PetscBool        amg, factored;
 
   PetscFunctionBegin;
   *applies = (PetscBool)(opt->subspace != IP_SUBSPACE_FALSE && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE) PetscFunctionReturn(0);
-  PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, applies));
-  if (!ip->filtered.constant || opt->direct_always || opt->forcing != IP_FORCING_ADAPTIVE || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
+  PetscCall(FilteredIsServed(tao, &amg, &factored));
+  *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
+  if (!ip->filtered.constant || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 

@@ -167,8 +167,8 @@ static PetscErrorCode DestroyType(Tao tao)
   With `-tao_ipfilter_subspace` a quadratic objective under linear inequalities that touch few unknowns W is minimized over span{e_i, i in W} + span(P), exactly,
   by an active set method on the first rank; the residual that is left, preconditioned by the `PC` of the Krylov method for H alone, is the next direction in P.
   The directions serve all later solves with the same Hessian, whatever constraints and loads: `TaoIPFilterSetSubspace()`. The end is judged as ever, by the KKT error made of the caller's
-  gradient. auto takes it where the routines of Hessian and Jacobian leave their matrices alone, W is no more than half of the unknowns, the `PC` is `PCAMGF`, and nothing but
-  the default is asked of start, forcing and measure. Where it does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
+  gradient. auto takes it where the routines of Hessian and Jacobian leave their matrices alone, W is no more than half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing,
+  or a factorization, which is then made of H, once, and nothing but the default is asked of start and measure. Where it does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
   An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
   constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of

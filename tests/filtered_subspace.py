@@ -1,5 +1,7 @@
-"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the ranks, for little more than CG takes without contact."""
+"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the ranks, for little more than CG takes without contact;
+with MUMPS in place of AMG, for one factorization a run and a solve with it where Newton's method takes a factorization."""
 import json
+import re
 
 
 def steps(name):
@@ -37,3 +39,16 @@ for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5
         verdict("  of a later one", max(step["amg_applications"] for step in run[1:]) / free, cost[1])
         print("  the AMG was set up", "once" if sum(step["amg_setups"] for step in run) == 1 else "MORE THAN ONCE")
         print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
+
+interior, _ = steps("beam_sphere")
+for n in 1, 2:
+    run, _ = steps(f"beam_sphere_direct_{n}")
+    print(f"beam_sphere with a factorization, {n} ranks")
+    energy, force = difference(run, interior)
+    verdict("  energy against the interior point method's", energy, 1e-8)
+    verdict("  forces", force, 1e-7)
+    verdict("  solves with the factors, of a load step", max(sum(step["ksp_iterations"]) for step in run), 15)
+    with open(f"beam_sphere_direct_{n}.log") as file:
+        setups = int(re.search(r"^PCSetUp +(\d+)", file.read(), re.M)[1])
+    print("  the stiffness matrix was factored", "once" if setups == 1 else f"{setups} times")
+    print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")

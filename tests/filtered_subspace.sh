@@ -12,6 +12,7 @@ run() {
 
 run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false -tao_gatol 1e-12
 for ranks in 1 3; do run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true -contact_free; done
+for ranks in 1 2; do run "beam_sphere_direct_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -options_file "$AMGF_DIR/share/options/direct.opts" -log_view ":beam_sphere_direct_$ranks.log"; done
 run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false -tao_gatol 1e-12
 for ranks in 1 5; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -contact_free; done
 "$PYTHON" "$AMGF_DIR/tests/filtered_subspace.py"
