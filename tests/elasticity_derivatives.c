@@ -346,6 +346,11 @@ int main(int argc, char **argv)
       args: -element bbar
 
    test:
+      suffix: linear_incompatible
+      nsize: {{1 3}}
+      args: -element incompatible
+
+   test:
       suffix: neohookean
       nsize: {{1 3}}
       args: -material neohookean

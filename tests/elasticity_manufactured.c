@@ -267,8 +267,8 @@ int main(int argc, char **argv)
          nsize: {{1 3}}
          args: -elasticity_mat_type sbaij -pc_type bjacobi -sub_pc_type icc
       test:
-         suffix: bbar
-         args: -element bbar -pc_type pbjacobi
+         suffix: linear
+         args: -element {{bbar incompatible}} -pc_type pbjacobi
       test:
          suffix: neohookean
          nsize: {{1 3}}

@@ -222,6 +222,9 @@ int main(int argc, char **argv)
       test:
          suffix: finite
          args: -material neohookean
+      test:
+         suffix: incompatible
+         args: -element incompatible -elasticity_quadrature {{2 3}}
 
    testset:
       nsize: {{1 3}}

@@ -76,6 +76,7 @@ static const Mistake mistakes[] = {
   {"no displacement at all", "displacements:\n  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n  - top: {face: block.zmax, value: [0, 0, -1/10]}\n", ""},
   {"normal motion held by contact", "value: [0, 0, -1/10]", "value: [0, 0, free]"},
   {"unknown element", "slab: {", "slab: {element: hybrid, "},
+  {"incompatible modes at finite strain", "slab: {", "slab: {material: neohookean, element: incompatible, "},
   {"unknown model", "refine: 0", "model: exact"},
   {"no linearization of the gap", "refine: 0", "contact_updates: 0"},
   {"bounds from the first step", "refine: 0", "displacement_bounds: 1"},

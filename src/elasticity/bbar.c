@@ -120,4 +120,17 @@ static PetscBool ElementCauchy_Bbar(const HexBasis *basis, const BodyMaterial *m
   return PETSC_TRUE;
 }
 
-const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar, PETSC_TRUE};
+/* The dilatation enters by its mean over the cell */
+static void ElementStrains_Bbar(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+{
+  Dilatation d;
+
+  ElementDilatation(basis, m, X, U, &d);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    w[q] = d.w[q];
+    for (int k = 0; k < 9; ++k) H[q][k] = d.H[q][k];
+    H[q][9] = d.mean;
+  }
+}
+
+const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar, ElementStrains_Bbar};

@@ -77,8 +77,9 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 + dm        - the mesh, from `MeshCreate()`
 . nbodies   - number of bodies
 . materials - materials[b] belongs to the cells whose "body" label is b
-- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`, or `ELEMENT_BBAR`, which does not lock as Poisson's
-              ratio nears 1/2; `NULL` for full integration everywhere
+- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as Poisson's ratio
+              nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain; `NULL` for
+              full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
@@ -108,6 +109,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCall(MaterialGetLame(&materials[b], &m->lambda, &m->mu));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     PetscCall(ElementGet(elements ? elements[b] : ELEMENT_FULL, &e->bodies[b].element));
+    PetscCheck(m->law->constant || e->bodies[b].element != &ElementIncompatible, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
   }
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));

@@ -13,6 +13,7 @@
 typedef struct {
   PetscInt  npoints;
   PetscReal weight[HEX_MAX_POINTS];
+  PetscReal xi[HEX_MAX_POINTS][3];
   PetscReal N[HEX_MAX_POINTS][8];
   PetscReal dN[HEX_MAX_POINTS][3][8]; /* dN/dxi_k */
 } HexBasis;
@@ -84,7 +85,7 @@ static inline void HexForceAdd(PetscReal w, PetscReal G[3][8], const PetscReal P
 }
 
 /*
-   full.c, bbar.c: elements, which are how energy, force, stiffness and stress of a cell follow from its law and its vertices.
+   full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from its law and its vertices.
 
    A new element is one file with an Element, one line in element.c, and its name in src/scene/formulation.c.
 */
@@ -104,6 +105,8 @@ static inline PetscReal BulkModulus(const BodyMaterial *m)
   return m->lambda + 2 * m->mu / 3;
 }
 
+#define ELEMENT_STRAINS 10
+
 /*
    A cell with vertices X[d][a] displaced by U[d][a]. Where a point of it is turned inside out the energy is PETSC_INFINITY, and
    the others return PETSC_FALSE and what they wrote means nothing.
@@ -116,11 +119,13 @@ typedef struct {
   PetscBool (*stiffness)(const HexBasis *, const BodyMaterial *, PetscReal X[3][8], PetscReal U[3][8], PetscScalar K[24][24]);
   /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
   PetscBool (*cauchy)(const HexBasis *, const BodyMaterial *, PetscReal X[3][8], PetscReal U[3][8], PetscReal sigma[6]);
-  PetscBool mean_dilatation; /* the law's dilatation enters by its mean over the cell */
+  /* Volumes of the points; displacement gradient (9) and dilatation there, those whose energy is the cell's */
+  void (*strains)(const HexBasis *, const BodyMaterial *, PetscReal X[3][8], PetscReal U[3][8], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
 
 PETSC_INTERN const Element ElementFull;
 PETSC_INTERN const Element ElementBbar;
+PETSC_INTERN const Element ElementIncompatible;
 
 /* element.c: the table of elements */
 PETSC_INTERN PetscErrorCode ElementGet(ElementType, const Element **);
@@ -179,11 +184,9 @@ PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
 /* tangent.c, assemble.c: the matrix and what is put into it, public */
 
 /* recovery.c: displacement gradient (9) and dilatation at the nodes */
-#define ELASTICITY_RECOVERED 10
-
 typedef struct {
   PetscReal n; /* polynomials that were continued to a node on the surface */
-  PetscReal value[ELASTICITY_RECOVERED];
+  PetscReal value[ELEMENT_STRAINS];
 } RecoveredNode;
 
 PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);

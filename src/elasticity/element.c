@@ -11,6 +11,9 @@ PetscErrorCode ElementGet(ElementType type, const Element **element)
   case ELEMENT_BBAR:
     *element = &ElementBbar;
     break;
+  case ELEMENT_INCOMPATIBLE:
+    *element = &ElementIncompatible;
+    break;
   default:
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Unknown element type %d", (int)type);
   }

@@ -6,7 +6,7 @@
    own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform pressure. At finite strain the isochoric
    tangent may be indefinite; no error is negative.
 */
-static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELASTICITY_RECOVERED])
+static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELEMENT_STRAINS])
 {
   const PetscReal volumetric = BulkModulus(m) * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
@@ -22,23 +22,15 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
 static PetscReal EstimateCellSquared(const HexBasis *basis, const Body *body, PetscReal X[3][8], PetscReal U[3][8], const PetscReal *const recovered[8])
 {
   const BodyMaterial *m = &body->material;
-  PetscReal           w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELASTICITY_RECOVERED], G[3][8], C[9];
-  PetscReal           volume = 0, mean = 0, sum = 0;
+  PetscReal           w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
 
+  body->element->strains(basis, m, X, U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    w[q] = HexGradients(basis, q, X, G);
-    HexDisplacementGradient(U, G, H[q]);
-    H[q][9] = m->law->dilatation(H[q], C);
-    volume += w[q];
-    mean += w[q] * H[q][9];
-  }
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    PetscReal error[ELASTICITY_RECOVERED];
+    PetscReal error[ELEMENT_STRAINS];
 
-    if (body->element->mean_dilatation) H[q][9] = mean / volume;
-    for (int k = 0; k < ELASTICITY_RECOVERED; ++k) error[k] = -H[q][k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = -H[q][k];
     for (int a = 0; a < 8; ++a) {
-      for (int k = 0; k < ELASTICITY_RECOVERED; ++k) error[k] += basis->N[q][a] * recovered[a][k];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[a][k];
     }
     sum += w[q] * EstimateNormSquared(m, H[q], error);
   }

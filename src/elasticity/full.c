@@ -74,4 +74,15 @@ static PetscBool ElementCauchy_Full(const HexBasis *basis, const BodyMaterial *m
   return PETSC_TRUE;
 }
 
-const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full, PETSC_FALSE};
+static void ElementStrains_Full(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+{
+  PetscReal G[3][8], C[9];
+
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    w[q] = HexGradients(basis, q, X, G);
+    HexDisplacementGradient(U, G, H[q]);
+    H[q][9] = m->law->dilatation(H[q], C);
+  }
+}
+
+const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full, ElementStrains_Full};

@@ -15,6 +15,7 @@ PetscErrorCode HexBasisCreate(PetscInt n, HexBasis *basis)
     const PetscReal xi[3] = {x[p[0]], x[p[1]], x[p[2]]};
 
     basis->weight[q] = w[p[0]] * w[p[1]] * w[p[2]];
+    for (PetscInt d = 0; d < 3; ++d) basis->xi[q][d] = xi[d];
     for (PetscInt a = 0; a < 8; ++a) {
       PetscReal L[3], s[3];
 

@@ -12,13 +12,13 @@
 /* Of the cells around a node, their places relative to it */
 typedef struct {
   PetscReal n, d[3], dd[6];                                       /* number, sum of places and of their products xx yy zz xy yz zx */
-  PetscReal s[ELASTICITY_RECOVERED], ds[3][ELASTICITY_RECOVERED]; /* sum of values, and of places times values */
+  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sum of values, and of places times values */
   PetscReal normal[3], area;                                      /* sum of int grad N, which vanishes inside a body; sum of its lengths */
 } NodeSums;
 
 typedef struct {
   PetscBool inside;
-  PetscReal value[ELASTICITY_RECOVERED], slope[3][ELASTICITY_RECOVERED]; /* at the node */
+  PetscReal value[ELEMENT_STRAINS], slope[3][ELEMENT_STRAINS]; /* at the node */
 } NodePolynomial;
 
 typedef union {
@@ -27,7 +27,7 @@ typedef union {
 } NodePatch;
 
 typedef struct {
-  PetscReal x[3], s[ELASTICITY_RECOVERED], B[3][8]; /* centroid, averages, int grad N */
+  PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid, averages, int grad N */
 } CellSample;
 
 static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], CellSample *cell)
@@ -37,12 +37,12 @@ static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, Pet
   *cell = (CellSample){0};
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w = HexGradients(basis, q, X, G);
-    PetscReal       s[ELASTICITY_RECOVERED];
+    PetscReal       s[ELEMENT_STRAINS];
 
     HexDisplacementGradient(U, G, s);
     s[9] = m->law->dilatation(s, C);
     volume += w;
-    for (int k = 0; k < ELASTICITY_RECOVERED; ++k) cell->s[k] += w * s[k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {
       for (int a = 0; a < 8; ++a) {
         cell->x[d] += w * basis->N[q][a] * X[d][a];
@@ -50,7 +50,7 @@ static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, Pet
       }
     }
   }
-  for (int k = 0; k < ELASTICITY_RECOVERED; ++k) cell->s[k] /= volume;
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] /= volume;
   for (int d = 0; d < 3; ++d) cell->x[d] /= volume;
 }
 
@@ -61,11 +61,11 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][8], int a, const CellSamp
 
   sums->n += 1;
   for (int k = 0; k < 6; ++k) sums->dd[k] += d[row[k]] * d[column[k]];
-  for (int k = 0; k < ELASTICITY_RECOVERED; ++k) sums->s[k] += cell->s[k];
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->s[k] += cell->s[k];
   for (int i = 0; i < 3; ++i) {
     sums->d[i] += d[i];
     sums->normal[i] += cell->B[i][a];
-    for (int k = 0; k < ELASTICITY_RECOVERED; ++k) sums->ds[i][k] += d[i] * cell->s[k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->ds[i][k] += d[i] * cell->s[k];
   }
   sums->area += PetscSqrtReal(PetscSqr(cell->B[0][a]) + PetscSqr(cell->B[1][a]) + PetscSqr(cell->B[2][a]));
 }
@@ -97,9 +97,9 @@ static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
   PetscReal       inverse[3][3];
 
   p->inside = (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * sums->area && NodeSumsInvertScatter(sums, mean, inverse));
-  for (int k = 0; k < ELASTICITY_RECOVERED; ++k) p->value[k] = sums->s[k] / sums->n;
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) p->value[k] = sums->s[k] / sums->n;
   if (!p->inside) return;
-  for (int k = 0; k < ELASTICITY_RECOVERED; ++k) {
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
     const PetscReal average = sums->s[k] / sums->n;
     PetscReal       c[3];
 
@@ -202,7 +202,7 @@ static void CellContinue(const NodePatch patches[], const PetscInt nodes[8], Pet
 
       if (!p->inside) continue;
       r->n += 1;
-      for (int k = 0; k < ELASTICITY_RECOVERED; ++k) r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
     }
   }
 }
@@ -226,7 +226,7 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     const PetscReal n = recovered[v].n;
 
-    for (int k = 0; k < ELASTICITY_RECOVERED; ++k) recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
   }
   PetscCall(PetscFree(patches));
   PetscFunctionReturn(0);

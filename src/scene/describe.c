@@ -250,6 +250,11 @@ static PetscBool DescribeIsBbar(const SceneBody *body)
   return body->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
 }
 
+static PetscBool DescribeIsIncompatible(const SceneBody *body)
+{
+  return body->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
 {
   PetscFunctionBegin;
@@ -270,7 +275,8 @@ static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
   PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, "every material is linear"));
   if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, "every element is full"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, "no element is bbar"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, "no element is incompatible"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));

@@ -8,6 +8,7 @@ typedef enum {
   EFFECT_FILTER,
   EFFECT_FINITE_STRAIN,
   EFFECT_BBAR,
+  EFFECT_INCOMPATIBLE,
   EFFECT_PRESSURE,
   EFFECT_BODY_FORCE,
   EFFECT_BOUNDS,
@@ -15,7 +16,7 @@ typedef enum {
   EFFECT_COUNT
 } EffectType;
 
-static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "pressure", "body force", "displacement bounds", "error estimate"};
+static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "incompatible modes", "pressure", "body force", "displacement bounds", "error estimate"};
 
 static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
 
@@ -37,12 +38,13 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, mean = 0;
+  PetscInt finite = 0, mean = 0, modes = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (scene->bodies[b].material.type == MATERIAL_NEOHOOKEAN) ++finite;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
+    if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
   }
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
@@ -52,6 +54,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies neo-Hookean%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
                                                                                                                                                                                                   : ", true energy"));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
+  PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures", scene->npressures));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
