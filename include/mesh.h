@@ -9,7 +9,7 @@
 #define MESH_H
 
 #include <petscdmplex.h>
-#include <scene.h>
+#include "scene.h"
 
 #define MESH_BODY_LABEL "body"
 

@@ -122,6 +122,7 @@ PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
 /* library.c */
 PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
+/* version.c: a public function */
 /* register.c: the two public functions with which the plugin begins and ends */
 
 #endif
