@@ -72,6 +72,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFSetFilterIS(PC, IS);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterActive(PC, PetscBool);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterOptional(PC, PetscBool);
 PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
