@@ -2,14 +2,11 @@
 #
 # PETSc is found through PETSC_DIR (and PETSC_ARCH) if set, else through pkg-config alone.
 
-# petscamgf.h has the version; while it is 0.x, a plugin and the programs linked with it belong together up to its second number
-VERSION   := $(subst $(eval) ,.,$(shell sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$$/\1/p' include/petscamgf.h))
-SOVERSION := $(basename $(VERSION))
+VERSION := 0.1.0
+PREFIX  ?= /usr/local
+DESTDIR ?=
 
 include share/toolchain.mk
-
-.DEFAULT_GOAL := all
-include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
@@ -19,7 +16,7 @@ programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard a
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo check stress scene-stress clean help dependencies FORCE
+.PHONY: all complex demo check stress scene-stress install clean help dependencies FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -28,7 +25,7 @@ all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs)
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
 
-build/%.o: %.c makefile share/toolchain.mk $(configuration)
+build/%.o: %.c makefile share/toolchain.mk
 	@mkdir -p $(@D)
 	$(call say,CC,$<)
 	$(Q)$(COMPILE) $< -o $@
@@ -38,12 +35,10 @@ $(source_list): FORCE
 	@echo '$(plugin_objects) $(library_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects)' > $@
 
 # PETSc closes what it opened; nodelete keeps the registered types callable until the process ends
-$(PLUGIN): $(plugin_objects) $(source_list) $(configuration) include/petscamgf.h
+$(PLUGIN): $(plugin_objects) $(source_list)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)rm -f $@*
-	$(Q)$(CC) -shared -Wl,-soname,$(@F).$(SOVERSION) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@.$(VERSION)
-	$(Q)ln -sf $(@F).$(VERSION) $@.$(SOVERSION) && ln -sf $(@F).$(SOVERSION) $@
+	$(Q)$(CC) -shared -Wl,-soname,$(@F) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@
 
 $(LIBRARY): $(library_objects) $(source_list)
 	@mkdir -p $(@D)
@@ -51,7 +46,7 @@ $(LIBRARY): $(library_objects) $(source_list)
 	$(call say,AR,$@)
 	$(Q)$(AR) rcs $@ $(library_objects)
 
-bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
+bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) -lmetis -lyaml -lm -o $@
@@ -81,7 +76,16 @@ scene-stress: dependencies
 	@mkdir -p build/stress
 	$(PYTHON) -B tests/stress/run.py --report build/stress/report.md $(STRESS)
 
-include share/install.mk
+install: all
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options share/amgf/gmsh)
+	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
+	install -m 755 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib
+	$(if $(PETSC_COMPLEX),,install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib)
+	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
+	$(if $(PETSC_COMPLEX),,install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact)
+	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*.*),install -m 644 $(wildcard share/$(kind)/*.*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
+
 include share/checks.mk
 include share/bench.mk
 
@@ -99,7 +103,7 @@ help:
 	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
-	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR; make uninstall takes it away again'
+	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
 	@echo 'make clean           removes build, bin and lib'
 	@echo
 	@echo 'PETSC_DIR, PETSC_ARCH  the PETSc to use (now: $(or $(PETSC_PREFIX),none found))'

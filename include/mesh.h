@@ -2,16 +2,19 @@
    Meshes: one DMPlex of hexahedra for all bodies (disjoint components), distributed and refined.
 
    Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components per vertex, interleaved,
-   block size 3, no constrained dofs. Coordinates are the reference geometry.
+   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components per node, interleaved,
+   block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a body of order 2 also its edges, facets and
+   cells. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
 #define MESH_H
 
 #include <petscdmplex.h>
-#include "scene.h"
+#include <scene.h>
 
-#define MESH_BODY_LABEL "body"
+#define MESH_BODY_LABEL      "body"
+#define MESH_MAX_NODES       27 /* of a cell */
+#define MESH_MAX_FACET_NODES 9
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
@@ -26,11 +29,16 @@ PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
-/* Global rows of the given component of the face's vertices that this rank owns */
+/* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
 /* The 4 vertices of a facet, counterclockwise seen from outside the body; the 8 of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
+/* The nodes of a facet: 4 as above, or 9 with the edges and itself; of a hexahedron: 8, or 27, in tensor order */
+PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
+PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
+/* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
+PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
 /* PETSCPARTITIONER type "metis" */

@@ -15,7 +15,6 @@ static PetscErrorCode CreateKSP(Tao tao)
   PetscCall(KSPSetNormType(tao->ksp, KSP_NORM_UNPRECONDITIONED));
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
-  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 

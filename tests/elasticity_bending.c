@@ -40,6 +40,7 @@ static PetscErrorCode Solve(ElementType element, PetscInt layers, PetscReal *rat
 
   PetscFunctionBeginUser;
   ProblemBox(name, lower, upper, cells, &beam);
+  PetscCall(ProblemSetOrder(1, &beam));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &beam, 0, &dm));
   PetscCall(ProblemFixFace(dm, "beam.xmin", &rows));
   PetscCall(ProblemBodyCreate(dm, &material, element, rows, &body));
@@ -75,9 +76,15 @@ int main(int argc, char **argv)
 
 /*TEST
 
-   test:
-      suffix: incompatible
-      nsize: {{1 3}}
-      args: -element incompatible -elasticity_mat_type aij -ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps
+   testset:
+      args: -elasticity_mat_type aij -ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps
+      test:
+         suffix: incompatible
+         nsize: {{1 3}}
+         args: -element incompatible
+      test:
+         suffix: order2
+         nsize: {{1 3}}
+         args: -order 2 -element {{full bbar}} -tolerance 0.01
 
 TEST*/

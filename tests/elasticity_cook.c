@@ -10,7 +10,7 @@ static char help[] = "Cook's membrane in plane strain, nearly incompressible: di
    and plasticity using higher-order NURBS elements, 2008, set the problem. OpenGeoSys 6 publishes figures of quadrilaterals on the
    same n x n meshes: fully integrated, with B-bar, and with the F-bar of de Souza Neto et al., which is another one than ours. Its B-bar
    figures are given to 2 % only; a plane strain program of this project's, which shares nothing with it, gave 7.7281869 and 7.9347247.
-   Incompatible modes are held against the finest meshes.
+   Incompatible modes and cells of order 2 are held against the finest meshes.
 */
 static const PetscInt meshes[2] = {10, 20};
 
@@ -76,7 +76,7 @@ static PetscErrorCode CornerDisplacement(DM dm, Vec u, PetscReal *value)
 
   PetscFunctionBeginUser;
   *value = PETSC_MIN_REAL;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(DMGetLocalVector(dm, &local));
   PetscCall(DMGlobalToLocal(dm, u, INSERT_VALUES, local));
   PetscCall(VecGetLocalSize(coordinates, &n));
@@ -106,8 +106,9 @@ static PetscErrorCode Solve(MaterialType type, ElementType element, PetscInt n, 
 
   PetscFunctionBeginUser;
   ProblemBox(name, lower, upper, cells, &panel);
+  PetscCall(ProblemSetOrder(1, &panel));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &panel, 0, &dm));
-  PetscCall(ProblemMapVertices(dm, Map));
+  PetscCall(ProblemMapNodes(dm, Map));
   PetscCall(PrescribedRows(dm, &rows));
   PetscCall(ProblemBodyCreate(dm, &material, element, rows, &body));
   for (PetscInt step = 1; step <= published[type].loadsteps; ++step) {
@@ -123,11 +124,13 @@ int main(int argc, char **argv)
 {
   MaterialType     type    = MATERIAL_LINEAR;
   ElementType      element = ELEMENT_FULL;
+  PetscInt         order   = 1;
   const Published *known;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(ProblemOptions(&type, &element));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
   known = &published[type];
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g, %s\n", MaterialTypes[type], (double)known->poisson, ElementTypes[element]));
   for (PetscInt k = 0; k < 2; ++k) {
@@ -135,7 +138,8 @@ int main(int argc, char **argv)
 
     PetscCall(Solve(type, element, meshes[k], &value));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " x %" PetscInt_FMT " cells: corner moves %.3f, %.0f %% of %g\n", meshes[k], meshes[k], (double)value, (double)(100 * value / known->fine), (double)known->fine));
-    PetscCall(ProblemReport("  difference from the known value of this mesh, relative", PetscAbsReal(value / known->value[element][k] - 1), known->tolerance[element]));
+    if (order == 1) PetscCall(ProblemReport("  difference from the known value of this mesh, relative", PetscAbsReal(value / known->value[element][k] - 1), known->tolerance[element]));
+    else PetscCall(ProblemReport("  difference from the finest meshes, relative", PetscAbsReal(value / known->fine - 1), 0.01));
   }
   PetscCall(PetscFinalize());
   return 0;
@@ -160,5 +164,8 @@ int main(int argc, char **argv)
       test:
          suffix: neohookean_bbar
          args: -material neohookean -element bbar
+      test:
+         suffix: order2
+         args: -order 2 -element bbar -material {{linear neohookean}separate output}
 
 TEST*/

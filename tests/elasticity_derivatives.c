@@ -299,8 +299,9 @@ int main(int argc, char **argv)
   PetscCall(ProblemOptions(&type, &elements[0]));
   elements[1] = elements[0];
   PetscCall(ProblemBodies(type, bodies));
-  PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
-  PetscCall(ProblemMoveVertices(dm, 0.02));
+  PetscCall(ProblemSetOrder(2, bodies));
+  PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, bodies[0].order == 2 ? 0 : 1, &dm));
+  PetscCall(ProblemMoveNodes(dm, 0.02));
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
   PetscCall(ElasticityCreate(dm, 2, materials, elements, &e));
   PetscCall(ElasticityCreateTangent(e, &K));
@@ -359,5 +360,21 @@ int main(int argc, char **argv)
       suffix: neohookean_bbar
       nsize: {{1 3}}
       args: -material neohookean -element bbar
+
+   testset:
+      nsize: {{1 3}}
+      args: -order 2
+      test:
+         suffix: order2
+         args: -elasticity_mat_type {{baij aij sbaij}}
+      test:
+         suffix: order2_bbar
+         args: -element bbar
+      test:
+         suffix: order2_neohookean
+         args: -material neohookean
+      test:
+         suffix: order2_neohookean_bbar
+         args: -material neohookean -element bbar
 
 TEST*/

@@ -55,7 +55,7 @@ static PetscErrorCode CreateMesh(PetscInt nx, PetscInt ny, PetscBool cut, Field 
   PetscFunctionBeginUser;
   ProblemBox(chain, lower, upper, cells, &body);
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &body, 0, dm));
-  if (map) PetscCall(ProblemMapVertices(*dm, map));
+  if (map) PetscCall(ProblemMapNodes(*dm, map));
   if (!cut) PetscFunctionReturn(0);
   PetscCall(DMGetLabel(*dm, MESH_BODY_LABEL, &label));
   PetscCall(DMGetCoordinatesLocal(*dm, &coordinates));

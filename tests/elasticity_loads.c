@@ -89,7 +89,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(ProblemBodies(MATERIAL_LINEAR, bodies));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
-  PetscCall(ProblemMoveVertices(dm, 0.02));
+  PetscCall(ProblemMoveNodes(dm, 0.02));
   for (PetscInt b = 0; b < 2; ++b) materials[b] = bodies[b].material;
   PetscCall(CheckPressure(dm, materials, ELEMENT_FULL));
   PetscCall(CheckPressure(dm, materials, ELEMENT_BBAR));

@@ -47,15 +47,26 @@ static inline PetscErrorCode ProblemOptions(MaterialType *type, ElementType *ele
   PetscFunctionReturn(0);
 }
 
-/* Moves every vertex by a rough function of its place, the same on all ranks that share it */
-static inline PetscErrorCode ProblemMoveVertices(DM dm, PetscReal distance)
+/* -order of bodies */
+static inline PetscErrorCode ProblemSetOrder(PetscInt nbodies, SceneBody bodies[])
+{
+  PetscInt order = 1;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
+  for (PetscInt b = 0; b < nbodies; ++b) bodies[b].order = order;
+  PetscFunctionReturn(0);
+}
+
+/* Moves every node by a rough function of its place, the same on all ranks that share it */
+static inline PetscErrorCode ProblemMoveNodes(DM dm, PetscReal distance)
 {
   Vec          coordinates;
   PetscScalar *x;
   PetscInt     n;
 
   PetscFunctionBeginUser;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(VecGetLocalSize(coordinates, &n));
   PetscCall(VecGetArray(coordinates, &x));
   for (PetscInt i = 0; i < n; i += 3) {
@@ -89,18 +100,18 @@ static inline PetscErrorCode ProblemMapVector(Vec v, Field map)
   PetscFunctionReturn(0);
 }
 
-/* Moves every vertex to its image */
-static inline PetscErrorCode ProblemMapVertices(DM dm, Field map)
+/* Moves every node to its image */
+static inline PetscErrorCode ProblemMapNodes(DM dm, Field map)
 {
   Vec coordinates;
 
   PetscFunctionBeginUser;
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(ProblemMapVector(coordinates, map));
   PetscFunctionReturn(0);
 }
 
-/* Vertex values of a displacement field, as a new global vector */
+/* A displacement field at the nodes, as a new global vector */
 static inline PetscErrorCode ProblemInterpolate(DM dm, Field field, Vec *u)
 {
   Vec                coordinates, local;
@@ -110,7 +121,7 @@ static inline PetscErrorCode ProblemInterpolate(DM dm, Field field, Vec *u)
 
   PetscFunctionBeginUser;
   PetscCall(DMCreateGlobalVector(dm, u));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(DMGetLocalVector(dm, &local));
   PetscCall(VecGetLocalSize(coordinates, &n));
   PetscCall(VecGetArrayRead(coordinates, &x));

@@ -46,6 +46,18 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
+/* Collective. The gap knows of bilinear facets alone */
+static PetscErrorCode SurfaceCheckOrder(DM dm, const char face[], PetscInt nfacets, const PetscInt facet[])
+{
+  PetscInt n = 0, nodes[MESH_MAX_FACET_NODES];
+
+  PetscFunctionBegin;
+  if (nfacets) PetscCall(MeshGetFacetNodes(dm, facet[0], &n, nodes));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
+  PetscCheck(n <= 4, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Face \"%s\" of a contact pair is of a body of order 2; contact takes bodies of order 1", face);
+  PetscFunctionReturn(0);
+}
+
 /* Collective. thickness: of every body */
 PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal thickness[], ContactSurface *s)
 {
@@ -66,6 +78,7 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference, 12 * s->nfacets, &s->x));
   PetscCall(DMGetGlobalSection(dm, &global));
   PetscCall(ISGetIndices(facets, &f));
+  PetscCall(SurfaceCheckOrder(dm, face, s->nfacets, f));
   for (PetscInt i = 0; i < s->nfacets; ++i) {
     PetscCall(MeshGetFacetVertices(dm, f[i], &s->vertex[4 * i]));
     for (PetscInt a = 0; a < 4; ++a) PetscCall(SurfaceVertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));

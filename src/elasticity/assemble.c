@@ -6,17 +6,19 @@
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 /* Zeroes rows and columns of prescribed displacements; their diagonal keeps the stiffness's scale */
-static void HexMaskPrescribed(const unsigned char prescribed[], const PetscInt nodes[8], PetscScalar K[24][24])
+static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, const PetscInt nodes[], PetscScalar K[])
 {
-  for (int a = 0; a < 8; ++a) {
+  const PetscInt width = 3 * n;
+
+  for (PetscInt a = 0; a < n; ++a) {
     if (!prescribed[nodes[a]]) continue;
-    for (int i = 0; i < 3; ++i) {
-      const int         r        = 3 * a + i;
-      const PetscScalar diagonal = K[r][r];
+    for (PetscInt i = 0; i < 3; ++i) {
+      const PetscInt    r        = 3 * a + i;
+      const PetscScalar diagonal = K[width * r + r];
 
       if (!(prescribed[nodes[a]] >> i & 1)) continue;
-      for (int s = 0; s < 24; ++s) K[r][s] = K[s][r] = 0;
-      K[r][r] = diagonal;
+      for (PetscInt s = 0; s < width; ++s) K[width * r + s] = K[width * s + r] = 0;
+      K[width * r + r] = diagonal;
     }
   }
 }
@@ -44,12 +46,14 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
   PetscCall(MatGetOwnershipRange(tangent, &first, &last));
   PetscCall(PetscMalloc1(last - first, &rows));
   PetscCall(PetscCalloc1(e->nnodes, &seen));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    const PetscInt node = e->cellnodes[i], row = 3 * global[node];
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    for (PetscInt i = e->cellstart[c]; i < e->cellstart[c + 1]; ++i) {
+      const PetscInt node = e->cellnodes[i], row = 3 * global[node];
 
-    if (seen[node] || e->bodies[e->cellbody[i / 8]].kept || row < first || row >= last) continue;
-    seen[node] = PETSC_TRUE;
-    for (PetscInt d = 0; d < 3; ++d) rows[n++] = row + d;
+      if (seen[node] || e->bodies[e->cellbody[c]].kept || row < first || row >= last) continue;
+      seen[node] = PETSC_TRUE;
+      for (PetscInt d = 0; d < 3; ++d) rows[n++] = row + d;
+    }
   }
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
@@ -66,23 +70,20 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt *nodes = e->cellnodes + 8 * c;
-    const Body     *body  = &e->bodies[e->cellbody[c]];
-    PetscInt        rows[8];
-    PetscReal       X[3][8], U[3][8];
-    PetscScalar     K[24][24];
+    CellState   cell;
+    PetscInt    rows[CELL_MAX_NODES];
+    PetscScalar K[9 * CELL_MAX_NODES * CELL_MAX_NODES];
 
-    if (body->kept && !all) continue;
-    ElasticityGatherCell(nodes, x, X);
-    ElasticityGatherCell(nodes, ul, U);
-    if (!body->element->stiffness(&e->basis, &body->material, X, U, K)) {
-      PetscReal rest[3][8] = {{0}};
+    if (e->bodies[e->cellbody[c]].kept && !all) continue;
+    ElasticityGetCell(e, c, x, ul, &cell);
+    if (!cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, cell.U, K)) {
+      PetscReal rest[3][CELL_MAX_NODES] = {{0}};
 
-      (void)body->element->stiffness(&e->basis, &body->material, X, rest, K);
+      (void)cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, rest, K);
     }
-    if (e->prescribed) HexMaskPrescribed(e->prescribed, nodes, K);
-    for (PetscInt a = 0; a < 8; ++a) rows[a] = global[nodes[a]];
-    PetscCall(MatSetValuesBlocked(tangent, 8, rows, 8, rows, &K[0][0], ADD_VALUES));
+    if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
+    for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
+    PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
   PetscCall(MatAssemblyBegin(tangent, MAT_FINAL_ASSEMBLY));
@@ -97,7 +98,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
   Input Parameters:
 + elasticity - the context
-. u          - displacement, global, 3 components a vertex [length]; may be `NULL` (no displacement)
+. u          - displacement, global, 3 components a node [length]; may be `NULL` (no displacement)
 - tangent    - matrix from `ElasticityCreateTangent()`
 
   Output Parameter:
@@ -107,7 +108,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
   Notes:
   When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with a constant
-  tangent are left as they are, unless they share vertices with a body that is assembled again. If every body's tangent is constant,
+  tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's tangent is constant,
   nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without `MatZeroRows()` (sbaij).
 
   A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.

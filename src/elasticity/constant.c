@@ -39,8 +39,9 @@ static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks
   PetscCall(VecZeroEntries(local));
   PetscCall(VecZeroEntries(global));
   PetscCall(VecGetArray(local, &l));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    if (!e->bodies[e->cellbody[i / 8]].kept) l[3 * e->cellnodes[i]] = 1;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    if (e->bodies[e->cellbody[c]].kept) continue;
+    for (PetscInt i = e->cellstart[c]; i < e->cellstart[c + 1]; ++i) l[3 * e->cellnodes[i]] = 1;
   }
   PetscCall(VecRestoreArray(local, &l));
   PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, global));
@@ -70,8 +71,10 @@ PetscErrorCode ElasticitySetUpKept(Elasticity e)
     if (!nkept) break;
     PetscCall(ElasticityMarkAssembledAgain(e, marks));
     PetscCall(PetscArrayzero(lost, e->nbodies));
-    for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-      if (marks[e->cellnodes[i]] && e->bodies[e->cellbody[i / 8]].kept) lost[e->cellbody[i / 8]] = 1;
+    for (PetscInt c = 0; c < e->ncells; ++c) {
+      for (PetscInt i = e->cellstart[c]; i < e->cellstart[c + 1]; ++i) {
+        if (marks[e->cellnodes[i]] && e->bodies[e->cellbody[c]].kept) lost[e->cellbody[c]] = 1;
+      }
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lost, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
     nlost = 0;

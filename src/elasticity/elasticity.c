@@ -5,41 +5,70 @@
 
 static PetscErrorCode ElasticityReadOptions(Elasticity e)
 {
-  PetscInt points = 2;
-
   PetscFunctionBegin;
+  e->quadrature = 2;
   PetscCall(PetscStrncpy(e->mattype, MATBAIJ, sizeof(e->mattype)));
   PetscOptionsBegin(PetscObjectComm((PetscObject)e->dm), NULL, "Elasticity options", NULL);
-  PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3", "ElasticityCreate", points, &points, NULL));
+  PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3", "ElasticityCreate", e->quadrature, &e->quadrature, NULL));
   PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList, e->mattype, e->mattype, sizeof(e->mattype), &e->mattype_given));
   PetscOptionsEnd();
-  PetscCall(HexBasisCreate(points, &e->basis));
+  PetscCheck(e->quadrature == 2 || e->quadrature == 3, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, e->quadrature);
+  PetscFunctionReturn(0);
+}
+
+/* The basis of cells with so many nodes, and the body's element on it */
+static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
+{
+  const PetscInt order = nnodes == 27 ? 2 : 1;
+
+  PetscFunctionBegin;
+  if (!e->basis[order - 1]) {
+    PetscCall(PetscNew(&e->basis[order - 1]));
+    PetscCall(CellBasisCreate(order, order == 1 ? e->quadrature : 3, e->basis[order - 1]));
+  }
+  PetscCheck(!body->basis || body->basis == e->basis[order - 1], PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The cells of a body are of different order");
+  body->basis = e->basis[order - 1];
+  PetscCall(ElementGet(body->type, nnodes, &body->element));
   PetscFunctionReturn(0);
 }
 
 /* Nodes and body of every cell of this rank */
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
-  PetscSection section, coordinates;
+  PetscSection section;
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(e->dm, &section));
-  PetscCall(DMGetCoordinateSection(e->dm, &coordinates));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    PetscInt vertices[8];
+    PetscInt n, nodes[MESH_MAX_NODES];
 
     PetscCall(DMLabelGetValue(label, start + c, &e->cellbody[c]));
     PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
-    PetscCall(MeshGetCellVertices(e->dm, start + c, vertices));
-    for (PetscInt a = 0; a < 8; ++a) {
-      PetscInt offset, coordinateoffset;
+    PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
+    PetscCall(ElasticitySetBasis(e, n, &e->bodies[e->cellbody[c]]));
+    for (PetscInt a = 0; a < n; ++a) {
+      PetscInt offset;
 
-      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
-      PetscCall(PetscSectionGetOffset(coordinates, vertices[a], &coordinateoffset));
-      PetscCheck(offset == coordinateoffset, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The mesh's local section does not lay out the displacements as the coordinates are");
-      e->cellnodes[8 * c + a] = offset / 3;
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
+      e->cellnodes[e->cellstart[c] + a] = offset / 3;
     }
   }
+  PetscFunctionReturn(0);
+}
+
+/* Where the nodes of each cell begin */
+static PetscErrorCode ElasticityCountNodes(Elasticity e, PetscSection section, PetscInt start)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(e->ncells + 1, &e->cellstart, e->ncells, &e->cellbody));
+  e->cellstart[0] = 0;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscInt within;
+
+    PetscCall(PetscSectionGetDof(section, start + c, &within));
+    e->cellstart[c + 1] = e->cellstart[c] + (within ? 27 : 8);
+  }
+  PetscCall(PetscMalloc1(e->cellstart[e->ncells], &e->cellnodes));
   PetscFunctionReturn(0);
 }
 
@@ -60,7 +89,7 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   PetscCall(PetscSectionGetStorageSize(section, &size));
   e->nnodes = size / 3;
   e->ncells = end - start;
-  PetscCall(PetscMalloc2(8 * e->ncells, &e->cellnodes, e->ncells, &e->cellbody));
+  PetscCall(ElasticityCountNodes(e, section, start));
   PetscCall(RankErrorBegin(&error));
   ierr = ElasticityNumberCells(e, label, start);
   PetscCall(RankErrorEnd(comm, ierr, &error));
@@ -69,7 +98,7 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 }
 
 /*@
-  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of trilinear hexahedra
+  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of hexahedra of order 1 and 2
 
   Collective
 
@@ -85,7 +114,7 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 . elasticity - the new context
 
   Options Database Keys:
-+ -elasticity_quadrature <2>   - Gauss points per axis, 2 or 3; 2 is exact for the linear law on parallelepipeds
++ -elasticity_quadrature <2>   - Gauss points per axis in cells of order 1, 2 or 3; 2 is exact for the linear law on parallelepipeds
 - -elasticity_mat_type <baij>  - type of the tangent: baij, aij or sbaij
 
   Level: beginner
@@ -108,8 +137,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
 
     PetscCall(MaterialGetLame(&materials[b], &m->lambda, &m->mu));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
-    PetscCall(ElementGet(elements ? elements[b] : ELEMENT_FULL, &e->bodies[b].element));
-    PetscCheck(m->law->constant || e->bodies[b].element != &ElementIncompatible, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
+    e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
+    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
   }
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
@@ -192,7 +221,9 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   if (!*e) PetscFunctionReturn(0);
   PetscCall(DMDestroy(&(*e)->dm));
   PetscCall(PetscFree((*e)->bodies));
-  PetscCall(PetscFree2((*e)->cellnodes, (*e)->cellbody));
+  PetscCall(PetscFree2((*e)->cellstart, (*e)->cellbody));
+  PetscCall(PetscFree((*e)->cellnodes));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree(*e));
   PetscFunctionReturn(0);

@@ -1,7 +1,7 @@
 /* The table of elements */
 #include "elasticityimpl.h"
 
-PetscErrorCode ElementGet(ElementType type, const Element **element)
+PetscErrorCode ElementGet(ElementType type, PetscInt nnodes, const Element **element)
 {
   PetscFunctionBegin;
   switch (type) {
@@ -12,6 +12,7 @@ PetscErrorCode ElementGet(ElementType type, const Element **element)
     *element = &ElementBbar;
     break;
   case ELEMENT_INCOMPATIBLE:
+    PetscCheck(nnodes == 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "Incompatible modes are for cells of 8 nodes, not of %" PetscInt_FMT, nnodes);
     *element = &ElementIncompatible;
     break;
   default:

@@ -19,18 +19,19 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
   return PetscMax(isochoric, 0) + volumetric;
 }
 
-static PetscReal EstimateCellSquared(const HexBasis *basis, const Body *body, PetscReal X[3][8], PetscReal U[3][8], const PetscReal *const recovered[8])
+static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recovered[])
 {
-  const BodyMaterial *m = &body->material;
-  PetscReal           w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
+  const CellBasis    *basis = cell->body->basis;
+  const BodyMaterial *m     = &cell->body->material;
+  PetscReal           w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
 
-  body->element->strains(basis, m, X, U, w, H);
+  cell->body->element->strains(basis, m, cell->X, cell->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal error[ELEMENT_STRAINS];
 
     for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = -H[q][k];
-    for (int a = 0; a < 8; ++a) {
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[a][k];
+    for (PetscInt a = 0; a < cell->n; ++a) {
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[cell->nodes[a]].value[k];
     }
     sum += w[q] * EstimateNormSquared(m, H[q], error);
   }
@@ -41,15 +42,13 @@ static PetscReal EstimateCellSquared(const HexBasis *basis, const Body *body, Pe
 static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
 {
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt  *nodes = e->cellnodes + 8 * c, b = e->cellbody[c];
-    const PetscReal *values[8];
-    PetscReal        X[3][8], U[3][8], error;
+    const PetscInt b = e->cellbody[c];
+    CellState      cell;
+    PetscReal      error;
 
     if (!selected[b]) continue;
-    for (int a = 0; a < 8; ++a) values[a] = recovered[nodes[a]].value;
-    ElasticityGatherCell(nodes, x, X);
-    ElasticityGatherCell(nodes, u, U);
-    error = EstimateCellSquared(&e->basis, &e->bodies[b], X, U, values);
+    ElasticityGetCell(e, c, x, u, &cell);
+    error = EstimateCellSquared(&cell, recovered);
     bodies[b] += error;
     if (cells) cells[c] = error;
   }
@@ -67,19 +66,21 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   PetscCall(PetscMalloc2(e->nnodes, &first, e->nbodies, &second));
   for (PetscInt v = 0; v < e->nnodes; ++v) first[v] = PETSC_MAX_INT;
   PetscCall(PetscArrayzero(second, e->nbodies));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    const PetscInt b = e->cellbody[i / 8];
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt b = e->cellbody[c];
 
-    if (remaining[b]) first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
+    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i) first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
   }
   PetscCall(PetscSFReduceBegin(sf, MPIU_INT, first, first, MPI_MIN));
   PetscCall(PetscSFReduceEnd(sf, MPIU_INT, first, first, MPI_MIN));
   PetscCall(PetscSFBcastBegin(sf, MPIU_INT, first, first, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(sf, MPIU_INT, first, first, MPI_REPLACE));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    const PetscInt b = e->cellbody[i / 8];
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt b = e->cellbody[c];
 
-    if (remaining[b] && first[e->cellnodes[i]] < b) second[b] = 1;
+    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i) {
+      if (first[e->cellnodes[i]] < b) second[b] = 1;
+    }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, second, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
   *more = PETSC_FALSE;
@@ -128,10 +129,12 @@ PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], 
   Vec                local;
   const PetscScalar *ul, *x;
   PetscSF            sf;
-  PetscBool         *remaining, *selected, more = PETSC_TRUE;
+  PetscBool         *remaining, *selected, more = PETSC_TRUE, second = (PetscBool)(e->basis[1] != NULL);
   RecoveredNode     *recovered;
 
   PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
+  PetscCheck(!second, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_SUP, "The discretization error of bodies of order 2 is not estimated");
   PetscCall(PetscLogEventBegin(ELASTICITY_Error, u, 0, 0, 0));
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   PetscCall(ElasticityCreateNodeSF(e, &sf));

@@ -8,7 +8,7 @@
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components a node [length]
 
   Output Parameter:
 . energy - stored energy of all bodies [force length]
@@ -31,14 +31,13 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   PetscCall(PetscLogEventBegin(ELASTICITY_Force, u, 0, 0, 0));
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const Body *body = &e->bodies[e->cellbody[c]];
-    PetscReal   X[3][8], U[3][8], cell;
+    CellState cell;
+    PetscReal stored;
 
-    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
-    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
-    cell = body->element->energy(&e->basis, &body->material, X, U);
-    if (cell >= PETSC_INFINITY) sums[1] += 1;
-    else sums[0] += cell;
+    ElasticityGetCell(e, c, x, ul, &cell);
+    stored = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    if (stored >= PETSC_INFINITY) sums[1] += 1;
+    else sums[0] += stored;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
@@ -54,7 +53,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components a node [length]
 
   Output Parameter:
 . force - dE/du on all rows; on prescribed rows it is the reaction [force]
@@ -62,7 +61,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   Level: beginner
 
   Notes:
-  Where the energy is infinite there is no force: the rows of the vertices of every cell turned inside out hold `PETSC_INFINITY`
+  Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold `PETSC_INFINITY`
   or more, and so the norm of the vector is infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
@@ -80,16 +79,14 @@ PetscErrorCode ElasticityForce(Elasticity e, Vec u, Vec force)
   PetscCall(VecZeroEntries(flocal));
   PetscCall(VecGetArray(flocal, &fl));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt *nodes = e->cellnodes + 8 * c;
-    const Body     *body  = &e->bodies[e->cellbody[c]];
-    PetscReal       X[3][8], U[3][8], F[3][8];
-    PetscBool       valid;
+    CellState cell;
+    PetscReal F[3][CELL_MAX_NODES];
+    PetscBool valid;
 
-    ElasticityGatherCell(nodes, x, X);
-    ElasticityGatherCell(nodes, ul, U);
-    valid = body->element->force(&e->basis, &body->material, X, U, F);
-    for (int a = 0; a < 8; ++a) {
-      for (int i = 0; i < 3; ++i) fl[3 * nodes[a] + i] += valid ? F[i][a] : PETSC_INFINITY;
+    ElasticityGetCell(e, c, x, ul, &cell);
+    valid = cell.body->element->force(cell.body->basis, &cell.body->material, cell.X, cell.U, F);
+    for (int a = 0; a < cell.n; ++a) {
+      for (int i = 0; i < 3; ++i) fl[3 * cell.nodes[a] + i] += valid ? F[i][a] : PETSC_INFINITY;
     }
   }
   PetscCall(VecRestoreArray(flocal, &fl));

@@ -1,5 +1,5 @@
 /*
-   Incompatible modes, for linear laws: E = min over a of int W(H + sum_m a_m M_m), the modes of a cell condensed in it. With J the
+   Incompatible modes, for linear laws and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), the modes of a cell condensed in it. With J the
    Jacobian at a point and J0 that at the centre the 12 modes are
 
      M_(3 i + k) = det J0/det J  xi_k e_i (x) (row k of J0^(-1)),   M_(9 + k) = det J0/det J  xi_(k + 1) xi_(k + 2) I:
@@ -17,12 +17,12 @@
 #define MODES 12
 
 typedef struct {
-  PetscReal K[MODES][3][8];  /* derivatives of the energy by a mode and U[i][a] */
-  PetscReal L[MODES][MODES]; /* Cholesky factor of those by two modes */
+  PetscReal K[MODES][3][CELL_MAX_NODES]; /* derivatives of the energy by a mode and U[i][a] */
+  PetscReal L[MODES][MODES];             /* Cholesky factor of those by two modes */
 } Incompatibility;
 
 /* det J0 J0^(-1): the modes are scaled by det J0 */
-static void IncompatibleCentre(PetscReal X[3][8], PetscReal cofactor[3][3])
+static void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
 {
   PetscReal J[3][3];
 
@@ -40,7 +40,7 @@ static void IncompatibleCentre(PetscReal X[3][8], PetscReal cofactor[3][3])
 }
 
 /* The modes as displacement gradients at point q, whose volume is w */
-static void IncompatibleModes(const HexBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3], PetscReal M[MODES][9])
+static void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3], PetscReal M[MODES][9])
 {
   const PetscReal *xi = basis->xi[q], inverse = basis->weight[q] / w;
 
@@ -68,19 +68,19 @@ static void IncompatibleFactor(PetscReal L[MODES][MODES])
   }
 }
 
-static void IncompatibleSetUp(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], Incompatibility *modes)
+static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], Incompatibility *modes)
 {
-  PetscReal G[3][8], M[MODES][9], P[9], cofactor[3][3];
+  PetscReal G[3][CELL_MAX_NODES], M[MODES][9], P[9], cofactor[3][3];
 
   *modes = (Incompatibility){0};
   IncompatibleCentre(X, cofactor);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = HexGradients(basis, q, X, G);
+    const PetscReal w = CellGradients(8, basis, q, X, G);
 
     IncompatibleModes(basis, q, w, cofactor, M);
     for (int k = 0; k < MODES; ++k) {
       (void)m->law->stress(m->lambda, m->mu, M[k], P);
-      HexForceAdd(w, G, P, modes->K[k]);
+      CellForceAdd(8, w, G, P, modes->K[k]);
       for (int l = 0; l <= k; ++l) {
         for (int j = 0; j < 9; ++j) modes->L[k][l] += w * P[j] * M[l][j];
       }
@@ -90,7 +90,7 @@ static void IncompatibleSetUp(const HexBasis *basis, const BodyMaterial *m, Pets
 }
 
 /* a = -K_aa^(-1) K_au u; returns the energy that the modes take away, a.K_aa a/2 */
-static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][8], PetscReal a[MODES])
+static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][CELL_MAX_NODES], PetscReal a[MODES])
 {
   PetscReal released = 0;
 
@@ -110,7 +110,7 @@ static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][
   return released;
 }
 
-static PetscReal ElementEnergy_Incompatible(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8])
+static PetscReal ElementEnergy_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
   Incompatibility modes;
   PetscReal       a[MODES];
@@ -119,7 +119,7 @@ static PetscReal ElementEnergy_Incompatible(const HexBasis *basis, const BodyMat
   return ElementFull.energy(basis, m, X, U) - IncompatibleSolve(&modes, U, a);
 }
 
-static PetscBool ElementForce_Incompatible(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscReal F[3][8])
+static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   Incompatibility modes;
   PetscReal       a[MODES];
@@ -136,7 +136,7 @@ static PetscBool ElementForce_Incompatible(const HexBasis *basis, const BodyMate
 }
 
 /* K_uu - (L^(-1) K_au)^T (L^(-1) K_au) */
-static PetscBool ElementStiffness_Incompatible(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscScalar K[24][24])
+static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   Incompatibility modes;
   PetscReal       row[24];
@@ -152,19 +152,19 @@ static PetscBool ElementStiffness_Incompatible(const HexBasis *basis, const Body
       row[r] = *entry;
     }
     for (int r = 0; r < 24; ++r) {
-      for (int s = 0; s < 24; ++s) K[r][s] -= row[r] * row[s];
+      for (int s = 0; s < 24; ++s) K[24 * r + s] -= row[r] * row[s];
     }
   }
   return PETSC_TRUE;
 }
 
 /* The modes' stresses have no mean */
-static PetscBool ElementCauchy_Incompatible(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscReal sigma[6])
+static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   return ElementFull.cauchy(basis, m, X, U, sigma);
 }
 
-static void ElementStrains_Incompatible(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
   Incompatibility modes;
   PetscReal       a[MODES], M[MODES][9], C[9], cofactor[3][3];

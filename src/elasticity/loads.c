@@ -10,23 +10,24 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const Pet
   PetscScalar       *l;
 
   PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(e->dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(DMGetLocalVector(e->dm, &local));
   PetscCall(VecZeroEntries(local));
   PetscCall(VecGetArrayRead(coordinates, &x));
   PetscCall(VecGetArray(local, &l));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt *nodes = e->cellnodes + 8 * c;
-    PetscReal       X[3][8], G[3][8], volume[8] = {0};
+    const PetscInt   n = e->cellstart[c + 1] - e->cellstart[c], *nodes = e->cellnodes + e->cellstart[c];
+    const CellBasis *basis = e->bodies[e->cellbody[c]].basis;
+    PetscReal        X[3][CELL_MAX_NODES], G[3][CELL_MAX_NODES], volume[CELL_MAX_NODES] = {0};
 
     if (body != PETSC_DECIDE && body != e->cellbody[c]) continue;
-    ElasticityGatherCell(nodes, x, X);
-    for (PetscInt q = 0; q < e->basis.npoints; ++q) {
-      const PetscReal w = HexGradients(&e->basis, q, X, G);
+    CellGather(n, nodes, x, X);
+    for (PetscInt q = 0; q < basis->npoints; ++q) {
+      const PetscReal w = CellGradients((int)n, basis, q, X, G);
 
-      for (int a = 0; a < 8; ++a) volume[a] += w * e->basis.N[q][a];
+      for (PetscInt a = 0; a < n; ++a) volume[a] += w * basis->N[q][a];
     }
-    for (int a = 0; a < 8; ++a) {
+    for (PetscInt a = 0; a < n; ++a) {
       for (int i = 0; i < 3; ++i) l[3 * nodes[a] + i] += factor[i] * volume[a];
     }
   }
@@ -38,7 +39,7 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const Pet
 }
 
 /*@
-  ElasticityLumpedMass - Computes the row-sum lumped mass of unit density, the integral of each vertex's shape function
+  ElasticityLumpedMass - Computes the row-sum lumped mass of unit density, the integral of each node's shape function
 
   Collective
 
@@ -46,7 +47,7 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const Pet
 . elasticity - the context
 
   Output Parameter:
-. mass - new global vector, the same value for the 3 components of a vertex [length^3]
+. mass - new global vector, the same value for the 3 components of a node [length^3]
 
   Level: intermediate
 
@@ -88,25 +89,52 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* F[a][d] = int N_a n dA of a bilinear facet, n dA = dX/ds x dX/dt; of degree 2 in s and in t, so 2 x 2 Gauss points are exact */
-static void ElasticityFacetNormals(PetscReal X[4][3], PetscReal F[4][3])
+/* Shape functions of a facet on [0,1]^2 and their derivatives, of 4 nodes around it, or of 9: then of its edges, and of its middle */
+static void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
 {
-  const PetscReal gauss[2] = {0.5 - PetscSqrtReal(3) / 6, 0.5 + PetscSqrtReal(3) / 6};
+  static const PetscInt place[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+  const PetscReal       at[2]       = {s, t};
+  PetscReal             L[2][3], D[2][3];
 
-  for (int a = 0; a < 4; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
-  for (int q = 0; q < 4; ++q) {
-    const PetscReal s = gauss[q & 1], t = gauss[q >> 1];
-    const PetscReal N[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}, Ns[4] = {t - 1, 1 - t, t, -t}, Nt[4] = {s - 1, -s, s, 1 - s};
-    PetscReal       xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0};
+  for (PetscInt d = 0; d < 2; ++d) {
+    const PetscReal x = at[d];
 
-    for (int a = 0; a < 4; ++a) {
+    L[d][0] = n == 4 ? 1 - x : (1 - x) * (1 - 2 * x);
+    L[d][1] = 4 * x * (1 - x);
+    L[d][2] = n == 4 ? x : x * (2 * x - 1);
+    D[d][0] = n == 4 ? -1 : 4 * x - 3;
+    D[d][1] = 4 - 8 * x;
+    D[d][2] = n == 4 ? 1 : 4 * x - 1;
+  }
+  for (PetscInt a = 0; a < n; ++a) {
+    N[a]  = L[0][place[a][0]] * L[1][place[a][1]];
+    Ns[a] = D[0][place[a][0]] * L[1][place[a][1]];
+    Nt[a] = L[0][place[a][0]] * D[1][place[a][1]];
+  }
+}
+
+/* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
+   are exact, or 3 x 3 */
+static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
+{
+  const PetscReal two[2] = {0.5 - PetscSqrtReal(3) / 6, 0.5 + PetscSqrtReal(3) / 6}, three[3] = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)};
+  const PetscReal halves[2] = {0.5, 0.5}, eighteenths[3] = {5. / 18, 8. / 18, 5. / 18};
+  const PetscInt  npoints = n == 4 ? 2 : 3;
+
+  for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
+  for (PetscInt q = 0; q < npoints * npoints; ++q) {
+    const PetscReal *gauss = n == 4 ? two : three, *w = n == 4 ? halves : eighteenths, weight = w[q % npoints] * w[q / npoints];
+    PetscReal        N[MESH_MAX_FACET_NODES], Ns[MESH_MAX_FACET_NODES], Nt[MESH_MAX_FACET_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0};
+
+    FacetShape(n, gauss[q % npoints], gauss[q / npoints], N, Ns, Nt);
+    for (PetscInt a = 0; a < n; ++a) {
       for (int d = 0; d < 3; ++d) {
         xs[d] += Ns[a] * X[a][d];
         xt[d] += Nt[a] * X[a][d];
       }
     }
-    for (int a = 0; a < 4; ++a) {
-      for (int d = 0; d < 3; ++d) F[a][d] += 0.25 * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+    for (PetscInt a = 0; a < n; ++a) {
+      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
     }
   }
 }
@@ -127,7 +155,7 @@ static void ElasticityFacetNormals(PetscReal X[4][3], PetscReal F[4][3])
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the bilinear facets of the reference geometry. A name that is not a face of the mesh is an
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not a face of the mesh is an
   error.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
@@ -145,7 +173,7 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   PetscFunctionBegin;
   PetscCall(MeshGetFacets(e->dm, face, &facets));
   PetscCall(DMGetLocalSection(e->dm, &section));
-  PetscCall(DMGetCoordinatesLocal(e->dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(DMGetLocalVector(e->dm, &local));
   PetscCall(VecZeroEntries(local));
   PetscCall(VecGetArrayRead(coordinates, &x));
@@ -153,16 +181,16 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  vertices[4], offset[4];
-    PetscReal X[4][3], F[4][3];
+    PetscInt  nnodes, nodes[MESH_MAX_FACET_NODES], offset[MESH_MAX_FACET_NODES];
+    PetscReal X[MESH_MAX_FACET_NODES][3], F[MESH_MAX_FACET_NODES][3];
 
-    PetscCall(MeshGetFacetVertices(e->dm, f[i], vertices));
-    for (PetscInt a = 0; a < 4; ++a) {
-      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset[a]));
+    PetscCall(MeshGetFacetNodes(e->dm, f[i], &nnodes, nodes));
+    for (PetscInt a = 0; a < nnodes; ++a) {
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset[a]));
       for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(x[offset[a] + d]);
     }
-    ElasticityFacetNormals(X, F);
-    for (PetscInt a = 0; a < 4; ++a) {
+    ElasticityFacetNormals(nnodes, X, F);
+    for (PetscInt a = 0; a < nnodes; ++a) {
       for (PetscInt d = 0; d < 3; ++d) l[offset[a] + d] -= pressure * F[a][d];
     }
   }

@@ -1,12 +1,13 @@
 /* Displacements and coordinates as the cells of this rank see them */
 #include "elasticityimpl.h"
+#include <mesh.h>
 
 PetscErrorCode ElasticityGetLocals(Elasticity e, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x)
 {
   Vec coordinates;
 
   PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(e->dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(VecGetArrayRead(coordinates, x));
   PetscCall(DMGetLocalVector(e->dm, local));
   if (u) PetscCall(DMGlobalToLocal(e->dm, u, INSERT_VALUES, *local));
@@ -22,7 +23,7 @@ PetscErrorCode ElasticityRestoreLocals(Elasticity e, Vec *local, const PetscScal
   PetscFunctionBegin;
   PetscCall(VecRestoreArrayRead(*local, ul));
   PetscCall(DMRestoreLocalVector(e->dm, local));
-  PetscCall(DMGetCoordinatesLocal(e->dm, &coordinates));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(VecRestoreArrayRead(coordinates, x));
   PetscFunctionReturn(0);
 }

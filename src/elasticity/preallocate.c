@@ -8,13 +8,15 @@ static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, Pets
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(e->nnodes + 1, &first));
-  PetscCall(PetscMalloc1(8 * e->ncells, &list));
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) ++first[e->cellnodes[i]];
+  PetscCall(PetscMalloc1(e->cellstart[e->ncells], &list));
+  for (PetscInt i = 0; i < e->cellstart[e->ncells]; ++i) ++first[e->cellnodes[i]];
   for (PetscInt v = 0, sum = 0; v <= e->nnodes; ++v) {
     sum += first[v];
     first[v] = sum;
   }
-  for (PetscInt i = 8 * e->ncells - 1; i >= 0; --i) list[--first[e->cellnodes[i]]] = i / 8;
+  for (PetscInt c = e->ncells - 1; c >= 0; --c) {
+    for (PetscInt i = e->cellstart[c]; i < e->cellstart[c + 1]; ++i) list[--first[e->cellnodes[i]]] = c;
+  }
   *offsets = first;
   *cells   = list;
   PetscFunctionReturn(0);
@@ -36,8 +38,8 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
     for (PetscInt v = 0; v < e->nnodes; ++v) {
       start[v] = n;
       for (PetscInt i = first[v]; i < first[v + 1]; ++i) {
-        for (PetscInt a = 0; a < 8; ++a) {
-          const PetscInt w = e->cellnodes[8 * cells[i] + a];
+        for (PetscInt k = e->cellstart[cells[i]]; k < e->cellstart[cells[i] + 1]; ++k) {
+          const PetscInt w = e->cellnodes[k];
 
           if (seen[w] == v + pass * e->nnodes) continue;
           seen[w] = v + pass * e->nnodes;

@@ -11,9 +11,9 @@
 
 /* Of the cells around a node, their places relative to it */
 typedef struct {
-  PetscReal n, d[3], dd[6];                                       /* number, sum of places and of their products xx yy zz xy yz zx */
+  PetscReal n, d[3], dd[6];                             /* number, sum of places and of their products xx yy zz xy yz zx */
   PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sum of values, and of places times values */
-  PetscReal normal[3], area;                                      /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal normal[3], area;                            /* sum of int grad N, which vanishes inside a body; sum of its lengths */
 } NodeSums;
 
 typedef struct {
@@ -30,22 +30,24 @@ typedef struct {
   PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid, averages, int grad N */
 } CellSample;
 
-static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, PetscReal X[3][8], PetscReal U[3][8], CellSample *cell)
+static void CellSampleAverages(CellState *state, CellSample *cell)
 {
-  PetscReal G[3][8], C[9], volume = 0;
+  const CellBasis   *basis = state->body->basis;
+  const MaterialLaw *law   = state->body->material.law;
+  PetscReal          G[3][CELL_MAX_NODES], C[9], volume = 0;
 
   *cell = (CellSample){0};
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = HexGradients(basis, q, X, G);
+    const PetscReal w = CellGradients(8, basis, q, state->X, G);
     PetscReal       s[ELEMENT_STRAINS];
 
-    HexDisplacementGradient(U, G, s);
-    s[9] = m->law->dilatation(s, C);
+    CellDisplacementGradient(8, state->U, G, s);
+    s[9] = law->dilatation(s, C);
     volume += w;
     for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {
       for (int a = 0; a < 8; ++a) {
-        cell->x[d] += w * basis->N[q][a] * X[d][a];
+        cell->x[d] += w * basis->N[q][a] * state->X[d][a];
         cell->B[d][a] += w * G[d][a];
       }
     }
@@ -54,7 +56,7 @@ static void CellSampleAverages(const HexBasis *basis, const BodyMaterial *m, Pet
   for (int d = 0; d < 3; ++d) cell->x[d] /= volume;
 }
 
-static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][8], int a, const CellSample *cell)
+static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, const CellSample *cell)
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   const PetscReal  d[3] = {cell->x[0] - X[0][a], cell->x[1] - X[1][a], cell->x[2] - X[2][a]};
@@ -174,15 +176,13 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt *nodes = e->cellnodes + 8 * c;
-    PetscReal       X[3][8], U[3][8];
-    CellSample      cell;
+    CellState  state;
+    CellSample cell;
 
     if (!selected[e->cellbody[c]]) continue;
-    ElasticityGatherCell(nodes, x, X);
-    ElasticityGatherCell(nodes, u, U);
-    CellSampleAverages(&e->basis, &e->bodies[e->cellbody[c]].material, X, U, &cell);
-    for (int a = 0; a < 8; ++a) NodeSumsAdd(&patches[nodes[a]].sums, X, a, &cell);
+    ElasticityGetCell(e, c, x, u, &state);
+    CellSampleAverages(&state, &cell);
+    for (int a = 0; a < 8; ++a) NodeSumsAdd(&patches[state.nodes[a]].sums, state.X, a, &cell);
   }
   PetscCall(ElasticitySumNodes(sf, sizeof(NodePatch) / sizeof(PetscReal), (PetscReal *)patches));
   for (PetscInt v = 0; v < e->nnodes; ++v) NodePatchFit(&patches[v]);
@@ -190,7 +190,7 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
 }
 
 /* Continues the polynomials of a cell's interior vertices to the others */
-static void CellContinue(const NodePatch patches[], const PetscInt nodes[8], PetscReal X[3][8], RecoveredNode recovered[])
+static void CellContinue(const NodePatch patches[], const PetscInt nodes[8], PetscReal X[3][CELL_MAX_NODES], RecoveredNode recovered[])
 {
   for (int a = 0; a < 8; ++a) {
     RecoveredNode *r = &recovered[nodes[a]];
@@ -216,11 +216,11 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   PetscCall(PetscCalloc1(e->nnodes, &patches));
   PetscCall(ElasticityFitPatches(e, sf, selected, x, u, patches));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    PetscReal X[3][8];
+    CellState state;
 
     if (!selected[e->cellbody[c]]) continue;
-    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
-    CellContinue(patches, e->cellnodes + 8 * c, X, recovered);
+    ElasticityGetCell(e, c, x, u, &state);
+    CellContinue(patches, state.nodes, state.X, recovered);
   }
   PetscCall(ElasticitySumNodes(sf, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)recovered));
   for (PetscInt v = 0; v < e->nnodes; ++v) {

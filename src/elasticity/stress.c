@@ -13,7 +13,7 @@ static PetscReal StressVonMises(const PetscReal s[6])
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components a node [length]
 
   Output Parameter:
 . stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free with `PetscFree()`
@@ -35,12 +35,11 @@ PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   PetscCall(PetscMalloc1(7 * e->ncells, stress));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const Body *body = &e->bodies[e->cellbody[c]];
-    PetscReal   X[3][8], U[3][8], *s = *stress + 7 * c;
+    PetscReal *s = *stress + 7 * c;
+    CellState  cell;
 
-    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
-    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
-    if (body->element->cauchy(&e->basis, &body->material, X, U, s)) s[6] = StressVonMises(s);
+    ElasticityGetCell(e, c, x, ul, &cell);
+    if (cell.body->element->cauchy(cell.body->basis, &cell.body->material, cell.X, cell.U, s)) s[6] = StressVonMises(s);
     else {
       for (int k = 0; k < 7; ++k) s[k] = PETSC_INFINITY;
     }

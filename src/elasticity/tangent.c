@@ -1,5 +1,6 @@
 /* The tangent matrix and its near null space */
 #include "elasticityimpl.h"
+#include <mesh.h>
 
 /* 1 on free rows, 0 on prescribed ones */
 static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
@@ -143,7 +144,7 @@ PetscErrorCode ElasticitySetNearNullSpace(Elasticity e, Mat A)
   MatNullSpace modes, restricted;
 
   PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(e->dm, &local));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &local));
   PetscCall(DMCreateGlobalVector(e->dm, &coordinates));
   PetscCall(DMLocalToGlobal(e->dm, local, INSERT_VALUES, coordinates));
   PetscCall(MatNullSpaceCreateRigidBody(coordinates, &modes));

@@ -56,30 +56,6 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
-/* Three displacement components a vertex, none constrained */
-static PetscErrorCode MeshSetSection(DM dm)
-{
-  PetscSection section;
-  PetscInt     pstart, pend, vstart, vend;
-
-  PetscFunctionBegin;
-  PetscCall(DMPlexGetChart(dm, &pstart, &pend));
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)dm), &section));
-  PetscCall(PetscSectionSetNumFields(section, 1));
-  PetscCall(PetscSectionSetFieldName(section, 0, "displacement"));
-  PetscCall(PetscSectionSetFieldComponents(section, 0, 3));
-  PetscCall(PetscSectionSetChart(section, pstart, pend));
-  for (PetscInt v = vstart; v < vend; ++v) {
-    PetscCall(PetscSectionSetDof(section, v, 3));
-    PetscCall(PetscSectionSetFieldDof(section, v, 0, 3));
-  }
-  PetscCall(PetscSectionSetUp(section));
-  PetscCall(DMSetLocalSection(dm, section));
-  PetscCall(PetscSectionDestroy(&section));
-  PetscFunctionReturn(0);
-}
-
 /*@
   MeshCreate - Creates the hexahedral mesh of all bodies: generated, distributed, refined, with the displacements laid out
 
@@ -147,16 +123,18 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   if (size > 1) {
     for (PetscInt64 n = ncells; before < refine && n < MESH_MIN_CELLS_PER_RANK * size; n *= 8) ++before;
     PetscCall(MeshRefine(dm, before));
-    PetscCall(MeshCurvesApply(&curves, before, *dm));
+    PetscCall(MeshCurvesApply(&curves, before, *dm, PETSC_FALSE));
     PetscCall(MeshCurvesRefine(before, *dm, &curves));
     PetscCall(MeshDistribute(dm, &curves));
   }
   PetscCall(MeshRefine(dm, refine - before));
-  PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(MeshCurvesApply(&curves, refine - before, *dm));
+  PetscCall(MeshSetSection(*dm, bodies));
+  PetscCall(MeshCreateNodes(*dm, nbodies, bodies));
+  PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(MeshCurvesApply(&curves, refine - before, *dm, PETSC_TRUE));
   PetscCall(MeshCurvesDestroy(&curves));
+  PetscCall(MeshUpdateVertices(*dm));
   PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(MeshSetSection(*dm));
   PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));
   PetscCall(DMViewFromOptions(*dm, NULL, "-dm_view"));
   PetscCall(PetscLogEventEnd(MESH_Create, 0, 0, 0, 0));

@@ -108,17 +108,11 @@ static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt *n, PetscReal (
 /* The curve of a part of a cell with these corners */
 static void CurveCut(const PetscScalar places[], const PetscReal corners[8][3], PetscScalar part[])
 {
+  PetscReal xi[27][3], place[3];
+
+  MeshPlacesSetStraight(corners, xi);
   for (PetscInt i = 0; i < 27; ++i) {
-    const PetscReal at[3] = {0.5 * (PetscReal)(i % 3), 0.5 * (PetscReal)(i / 3 % 3), 0.5 * (PetscReal)(i / 9)};
-    PetscReal       xi[3] = {0, 0, 0}, place[3];
-
-    for (PetscInt a = 0; a < 8; ++a) {
-      PetscReal weight = 1;
-
-      for (PetscInt d = 0; d < 3; ++d) weight *= a >> d & 1 ? at[d] : 1 - at[d];
-      for (PetscInt d = 0; d < 3; ++d) xi[d] += weight * corners[a][d];
-    }
-    CurveEvaluate(places, xi, place);
+    CurveEvaluate(places, xi[i], place);
     for (PetscInt d = 0; d < 3; ++d) part[3 * i + d] = place[d];
   }
 }
@@ -164,11 +158,10 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fine)
+PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fine, PetscBool nodes)
 {
   PetscInt           nchildren, cend, n;
-  PetscSection       section;
-  Vec                coordinates;
+  MeshPlaces         at;
   const PetscScalar *places;
   PetscScalar       *x;
   PetscReal(*corners)[8][3];
@@ -177,29 +170,29 @@ PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fin
   if (!curves->section) PetscFunctionReturn(0);
   PetscCall(CurveGetChildren(levels, &nchildren, &corners));
   PetscCall(DMPlexGetHeightStratum(fine, 0, NULL, &cend));
-  PetscCall(DMGetCoordinatesLocal(fine, &coordinates));
-  PetscCall(DMGetCoordinateSection(fine, &section));
+  PetscCall(MeshGetPlaces(fine, nodes, &at));
   PetscCall(VecGetArrayRead(curves->places, &places));
-  PetscCall(VecGetArray(coordinates, &x));
+  PetscCall(VecGetArray(at.x, &x));
   for (PetscInt c = 0; c < cend; ++c) {
-    PetscInt parent, offset, vertices[8];
+    PetscInt  parent, offset, points[MESH_MAX_NODES];
+    PetscReal xi[27][3], place[3];
 
     PetscCall(PetscSectionGetDof(curves->section, c / nchildren, &n));
     if (!n) continue;
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
-    PetscCall(MeshGetCellVertices(fine, c, vertices));
-    for (PetscInt a = 0; a < 8; ++a) {
-      PetscReal place[3];
-
-      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
-      CurveEvaluate(places + parent, corners[c % nchildren][a], place);
+    PetscCall(MeshGetCellPoints(fine, at.section, c, &n, points));
+    if (n == 27) MeshPlacesSetStraight((const PetscReal(*)[3])corners[c % nchildren], xi);
+    else PetscCall(PetscArraycpy(xi, corners[c % nchildren], 8));
+    for (PetscInt a = 0; a < n; ++a) {
+      PetscCall(PetscSectionGetOffset(at.section, points[a], &offset));
+      CurveEvaluate(places + parent, xi[a], place);
       for (PetscInt d = 0; d < 3; ++d) x[offset + d] = place[d];
     }
   }
-  PetscCall(VecRestoreArray(coordinates, &x));
+  PetscCall(VecRestoreArray(at.x, &x));
   PetscCall(VecRestoreArrayRead(curves->places, &places));
   PetscCall(PetscFree(corners));
   /* The global coordinates, if they were made, are those from before */
-  PetscCall(DMSetCoordinatesLocal(fine, coordinates));
+  if (!nodes) PetscCall(DMSetCoordinatesLocal(fine, at.x));
   PetscFunctionReturn(0);
 }

@@ -119,7 +119,7 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscCall(MeshCompleteFaceLabels(*dm, nbodies, bodies, meshes));
-  PetscCall(MeshMapVertices(*dm, nbodies, bodies, PETSC_FALSE));
+  PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_FALSE));
   PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_FALSE));
   PetscFunctionReturn(0);
 }

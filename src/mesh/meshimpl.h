@@ -200,11 +200,26 @@ typedef struct {
 PETSC_INTERN PetscErrorCode MeshCreateBodies(MPI_Comm, PetscInt nbodies, const SceneBody[], MeshBody[]);
 PETSC_INTERN PetscErrorCode MeshDestroyBodies(PetscInt nbodies, MeshBody[]);
 
-/* map.c: maps the vertices of bodies with curved refinement (or those without) from the shapes' parameters to space */
-PETSC_INTERN PetscErrorCode MeshMapVertices(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
+/*
+   nodes.c: the points that carry displacements. Their places begin straight between the vertices in a shape's parameters, and are mapped and
+   bent as the vertices are; MeshUpdateVertices() then gives the vertices' places back to DMPlex.
+*/
+typedef struct {
+  PetscSection section;
+  Vec          x; /* [length], or a shape's parameters */
+} MeshPlaces;
+PETSC_INTERN PetscErrorCode MeshSetSection(DM, const SceneBody[]);
+PETSC_INTERN PetscErrorCode MeshCreateNodes(DM, PetscInt nbodies, const SceneBody[]);
+PETSC_INTERN PetscErrorCode MeshGetPlaces(DM, PetscBool nodes, MeshPlaces *);
+PETSC_INTERN PetscErrorCode MeshGetCellPoints(DM, PetscSection, PetscInt cell, PetscInt *n, PetscInt points[MESH_MAX_NODES]);
+PETSC_INTERN void           MeshPlacesSetStraight(const PetscReal corners[8][3], PetscReal places[27][3]);
+PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 
-/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: also in bodies that are mapped after
-   refinement */
+/* map.c: from the shapes' parameters to space: the nodes of bodies with curved refinement, or at level 0 the vertices of those without */
+PETSC_INTERN PetscErrorCode MeshMapNodes(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
+
+/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: at one of its nodes, also in bodies that are mapped
+   after refinement */
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
 /* refine.c: so many uniform refinements of a mesh in place */
@@ -217,8 +232,8 @@ typedef struct {
 } MeshCurves;
 PETSC_INTERN PetscErrorCode MeshCurvesCreate(DM level0, PetscInt nbodies, const MeshBody[], MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDistribute(PetscSF, DM distributed, MeshCurves *);
-/* fine: the mesh that the curves belong to, refined. Moves its vertices onto them; replaces them by those of its cells */
-PETSC_INTERN PetscErrorCode MeshCurvesApply(const MeshCurves *, PetscInt levels, DM fine);
+/* fine: the mesh that the curves belong to, refined. Moves its vertices onto them, or all its nodes; replaces them by those of its cells */
+PETSC_INTERN PetscErrorCode MeshCurvesApply(const MeshCurves *, PetscInt levels, DM fine, PetscBool nodes);
 PETSC_INTERN PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
 

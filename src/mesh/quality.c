@@ -1,23 +1,32 @@
 /* Are the cells sound? */
 #include "meshimpl.h"
 
-/* Smallest of the Jacobian's determinants at the corners, in units of the longest edge cubed */
-static PetscReal CellQuality(PetscReal x[8][3])
+/* Derivatives along direction d at node a: between the two corners, or of the parabola through the three nodes there */
+static void QualitySlope(PetscInt n, PetscReal x[][3], PetscInt a, PetscInt d, PetscReal slope[3])
+{
+  static const PetscReal straight[2] = {-1, 1}, parabola[3][3] = {{-3, 4, -1}, {-1, 0, 1}, {1, -4, 3}};
+  static const PetscInt  steps[3] = {1, 3, 9};
+  const PetscInt         step = n == 8 ? 1 << d : steps[d], at = n == 8 ? a >> d & 1 : a / step % 3;
+
+  slope[0] = slope[1] = slope[2] = 0;
+  for (PetscInt k = 0; k < (n == 8 ? 2 : 3); ++k) {
+    const PetscReal weight = n == 8 ? straight[k] : parabola[at][k];
+
+    for (PetscInt i = 0; i < 3; ++i) slope[i] += weight * x[a + (k - at) * step][i];
+  }
+}
+
+/* Smallest of the Jacobian's determinants at the nodes, in units of the longest slope cubed */
+static PetscReal CellQuality(PetscInt n, PetscReal x[][3])
 {
   PetscReal smallest = PETSC_MAX_REAL, longest = 0;
 
-  for (PetscInt a = 0; a < 8; ++a) {
+  for (PetscInt a = 0; a < n; ++a) {
     PetscReal e[3][3], det;
 
     for (PetscInt k = 0; k < 3; ++k) {
-      const PetscInt low = a & ~(1 << k), high = a | 1 << k;
-      PetscReal      length = 0;
-
-      for (PetscInt d = 0; d < 3; ++d) {
-        e[k][d] = x[high][d] - x[low][d];
-        length += PetscSqr(e[k][d]);
-      }
-      longest = PetscMax(longest, PetscSqrtReal(length));
+      QualitySlope(n, x, a, k, e[k]);
+      longest = PetscMax(longest, PetscSqrtReal(PetscSqr(e[k][0]) + PetscSqr(e[k][1]) + PetscSqr(e[k][2])));
     }
     det      = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     smallest = PetscMin(smallest, det);
@@ -62,40 +71,38 @@ static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneB
 
 PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[], PetscBool mapped)
 {
-  Vec                coordinates;
-  PetscSection       section;
+  MeshPlaces         places;
   const PetscScalar *array;
   PetscInt           cstart, cend, *count;
   PetscReal(*place)[3];
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(MeshGetPlaces(dm, mapped, &places));
   PetscCall(PetscCalloc2(nbodies, &count, nbodies, &place));
   for (PetscInt i = 0; i < 3 * nbodies; ++i) place[i / 3][i % 3] = PETSC_MAX_REAL;
-  PetscCall(VecGetArrayRead(coordinates, &array));
+  PetscCall(VecGetArrayRead(places.x, &array));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt     b, vertices[8];
-    PetscReal    x[8][3], center[3] = {0, 0, 0};
+    PetscInt     b, n, nodes[MESH_MAX_NODES];
+    PetscReal    x[MESH_MAX_NODES][3], center[3] = {0, 0, 0};
     const Shape *shape;
 
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
     PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[b], &shape));
     if (!mapped && shape && shape->map && bodies[b].curved) continue;
-    PetscCall(MeshGetCellVertices(dm, c, vertices));
-    for (PetscInt a = 0; a < 8; ++a) {
+    PetscCall(MeshGetCellPoints(dm, places.section, c, &n, nodes));
+    for (PetscInt a = 0; a < n; ++a) {
       PetscInt offset;
 
-      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+      PetscCall(PetscSectionGetOffset(places.section, nodes[a], &offset));
       for (PetscInt d = 0; d < 3; ++d) x[a][d] = PetscRealPart(array[offset + d]);
     }
-    if (CellQuality(x) > 1e-12) continue;
-    for (PetscInt i = 0; i < 24; ++i) center[i % 3] += x[i / 3][i % 3] / 8;
+    if (CellQuality(n, x) > 1e-12) continue;
+    for (PetscInt i = 0; i < 3 * n; ++i) center[i % 3] += x[i / 3][i % 3] / (PetscReal)n;
     if (QualityIsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
     ++count[b];
   }
-  PetscCall(VecRestoreArrayRead(coordinates, &array));
+  PetscCall(VecRestoreArrayRead(places.x, &array));
   PetscCall(QualityRaise(PetscObjectComm((PetscObject)dm), nbodies, bodies, count, place));
   PetscCall(PetscFree2(count, place));
   PetscFunctionReturn(0);

@@ -108,26 +108,28 @@ PetscErrorCode MeshGetFaceVertices(DM dm, const char face[], IS *vertices)
 PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS *rows)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
-  IS              vertices;
+  IS              points;
   PetscSection    section;
-  const PetscInt *v;
-  PetscInt        n, nowned = 0, *owned;
+  const PetscInt *p;
+  PetscInt        n, start, end, nowned = 0, *owned;
 
   PetscFunctionBegin;
   PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE, "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
-  PetscCall(MeshGetFaceVertices(dm, face, &vertices));
+  PetscCall(DMPlexGetChart(dm, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, &points));
   PetscCall(DMGetGlobalSection(dm, &section));
-  PetscCall(ISGetLocalSize(vertices, &n));
-  PetscCall(ISGetIndices(vertices, &v));
+  PetscCall(ISGetLocalSize(points, &n));
+  PetscCall(ISGetIndices(points, &p));
   PetscCall(PetscMalloc1(n, &owned));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscInt offset;
+    PetscInt offset, ncomponents;
 
-    PetscCall(PetscSectionGetOffset(section, v[i], &offset));
-    if (offset >= 0) owned[nowned++] = offset + component;
+    PetscCall(PetscSectionGetDof(section, p[i], &ncomponents));
+    PetscCall(PetscSectionGetOffset(section, p[i], &offset));
+    if (ncomponents > 0 && offset >= 0) owned[nowned++] = offset + component;
   }
-  PetscCall(ISRestoreIndices(vertices, &v));
-  PetscCall(ISDestroy(&vertices));
+  PetscCall(ISRestoreIndices(points, &p));
+  PetscCall(ISDestroy(&points));
   PetscCall(ISCreateGeneral(comm, nowned, owned, PETSC_COPY_VALUES, rows));
   PetscCall(PetscFree(owned));
   PetscCall(ISSort(*rows));

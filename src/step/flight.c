@@ -1,12 +1,12 @@
 /* A body that nothing stops lets the energy fall without end: which one it is. */
 #include "stepimpl.h"
 
-/* largest[body]: displacement of any of its vertices, by components */
+/* largest[body]: displacement of any of its nodes, by components */
 static PetscErrorCode FlightMeasure(Simulation sim, Vec u, PetscReal largest[])
 {
   DMLabel            label;
   PetscSection       section;
-  PetscInt           cstart, cend, vertices[8], body, offset;
+  PetscInt           cstart, cend, n, nodes[MESH_MAX_NODES], body, offset;
   Vec                local;
   const PetscScalar *x;
 
@@ -20,9 +20,9 @@ static PetscErrorCode FlightMeasure(Simulation sim, Vec u, PetscReal largest[])
   PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscCall(DMLabelGetValue(label, c, &body));
-    PetscCall(MeshGetCellVertices(sim->dm, c, vertices));
-    for (PetscInt a = 0; a < 8; ++a) {
-      PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+    PetscCall(MeshGetCellNodes(sim->dm, c, &n, nodes));
+    for (PetscInt a = 0; a < n; ++a) {
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
       for (PetscInt i = 0; i < 3; ++i) largest[body] = PetscMax(largest[body], PetscAbsScalar(x[offset + i]));
     }
   }

@@ -1,0 +1,306 @@
+/*
+   Nodes: the points of the mesh that carry a displacement, with as many places. Those of a body of order 1 are its vertices; those of a
+   body of order 2 also its edges, facets and cells: 27 a hexahedron, in the order i + 3 j + 9 k where vertices have i + 2 j + 4 k.
+*/
+#include "meshimpl.h"
+
+#define MESH_PLACES "nodes" /* of the mesh: the nodes' places, where they are not its vertices alone */
+
+/* Three components at every vertex, and at every point of the cells of order 2; none constrained */
+PetscErrorCode MeshSetSection(DM dm, const SceneBody bodies[])
+{
+  PetscSection section;
+  PetscInt     pstart, pend, cstart, cend, vstart, vend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetChart(dm, &pstart, &pend));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)dm), &section));
+  PetscCall(PetscSectionSetNumFields(section, 1));
+  PetscCall(PetscSectionSetFieldName(section, 0, "displacement"));
+  PetscCall(PetscSectionSetFieldComponents(section, 0, 3));
+  PetscCall(PetscSectionSetChart(section, pstart, pend));
+  for (PetscInt v = vstart; v < vend; ++v) PetscCall(PetscSectionSetDof(section, v, 3));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt b, npoints, *closure = NULL;
+
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
+    if (bodies[b].order < 2) continue;
+    PetscCall(DMPlexGetTransitiveClosure(dm, c, PETSC_TRUE, &npoints, &closure));
+    for (PetscInt p = 0; p < npoints; ++p) PetscCall(PetscSectionSetDof(section, closure[2 * p], 3));
+    PetscCall(DMPlexRestoreTransitiveClosure(dm, c, PETSC_TRUE, &npoints, &closure));
+  }
+  for (PetscInt p = pstart; p < pend; ++p) {
+    PetscInt n;
+
+    PetscCall(PetscSectionGetDof(section, p, &n));
+    if (n) PetscCall(PetscSectionSetFieldDof(section, p, 0, n));
+  }
+  PetscCall(PetscSectionSetUp(section));
+  PetscCall(DMSetLocalSection(dm, section));
+  PetscCall(PetscSectionDestroy(&section));
+  PetscFunctionReturn(0);
+}
+
+/* Number of a vertex among n, or n */
+static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex)
+{
+  PetscInt a = 0;
+
+  while (a < n && vertices[a] != vertex) ++a;
+  return a;
+}
+
+/* Where an edge, facet or cell stands between the cell's vertices, i + 3 j + 9 k: amid its own ones */
+static PetscErrorCode NodesFindPlace(DM dm, const PetscInt vertices[8], PetscInt point, PetscInt *place)
+{
+  PetscInt npoints, n = 0, sum[3] = {0, 0, 0}, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetTransitiveClosure(dm, point, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints; ++p) {
+    const PetscInt a = NodesFind(8, vertices, closure[2 * p]);
+
+    if (a == 8) continue;
+    for (PetscInt d = 0; d < 3; ++d) sum[d] += 2 * (a >> d & 1);
+    ++n;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, point, PETSC_TRUE, &npoints, &closure));
+  *place = sum[0] / n + 3 * (sum[1] / n) + 9 * (sum[2] / n);
+  PetscFunctionReturn(0);
+}
+
+/* The points of a cell with values in a section: its vertices, or all */
+PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, PetscInt *n, PetscInt points[MESH_MAX_NODES])
+{
+  PetscInt vertices[8], first, last, within = 0, npoints, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSectionGetChart(section, &first, &last));
+  if (cell >= first && cell < last) PetscCall(PetscSectionGetDof(section, cell, &within));
+  *n = within ? 27 : 8;
+  if (!within) {
+    PetscCall(MeshGetCellVertices(dm, cell, points));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(MeshGetCellVertices(dm, cell, vertices));
+  PetscCall(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints; ++p) {
+    PetscInt place = 0;
+
+    PetscCall(NodesFindPlace(dm, vertices, closure[2 * p], &place));
+    points[place] = closure[2 * p];
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetCellNodes - Gets the points of a cell that carry a displacement, in tensor order
+
+  Not Collective
+
+  Input Parameters:
++ dm   - the mesh
+- cell - the cell, a local DMPlex point
+
+  Output Parameters:
++ n     - their number: 8, or 27 in a body of order 2
+- nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the reference cube; of
+          order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2
+
+  Level: developer
+
+.seealso: `MeshGetCellVertices()`, `MeshGetFacetNodes()`, `MeshGetNodeCoordinates()`
+@*/
+PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES])
+{
+  PetscSection section;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetCellPoints(dm, section, cell, n, nodes));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFacetNodes - Gets the points of a boundary facet that carry a displacement
+
+  Not Collective
+
+  Input Parameters:
++ dm    - the mesh
+- facet - the facet, a local DMPlex point with one cell
+
+  Output Parameters:
++ n     - their number: 4, or 9 in a body of order 2
+- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the body; of order 2 then the
+          edges, each between the vertex of its number and the next, and the facet
+
+  Level: developer
+
+.seealso: `MeshGetFacetVertices()`, `MeshGetCellNodes()`
+@*/
+PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES])
+{
+  PetscSection    section;
+  const PetscInt *edges, *ends;
+  PetscInt        within;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(PetscSectionGetDof(section, facet, &within));
+  PetscCall(MeshGetFacetVertices(dm, facet, nodes));
+  *n = within ? 9 : 4;
+  if (!within) PetscFunctionReturn(0);
+  PetscCall(DMPlexGetCone(dm, facet, &edges));
+  for (PetscInt e = 0; e < 4; ++e) {
+    PetscInt a, b;
+
+    PetscCall(DMPlexGetCone(dm, edges[e], &ends));
+    a                                     = NodesFind(4, nodes, ends[0]);
+    b                                     = NodesFind(4, nodes, ends[1]);
+    nodes[4 + ((a + 1) % 4 == b ? a : b)] = edges[e];
+  }
+  nodes[8] = facet;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetNodeCoordinates - Gets the reference coordinates of all nodes of this rank
+
+  Not Collective
+
+  Input Parameter:
+. dm - mesh from `MeshCreate()`
+
+  Output Parameter:
+. places - local vector laid out as the displacements are, 3 coordinates a node [length]; the mesh's own
+
+  Level: developer
+
+  Notes:
+  It is the vector of the vertices' coordinates where no body has order 2.
+
+.seealso: `MeshGetCellNodes()`, `DMGetCoordinatesLocal()`
+@*/
+PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscObjectQuery((PetscObject)dm, MESH_PLACES, (PetscObject *)places));
+  if (!*places) PetscCall(DMGetCoordinatesLocal(dm, places));
+  PetscFunctionReturn(0);
+}
+
+/* Of all nodes of a mesh that has them, or of its vertices */
+PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
+{
+  PetscFunctionBegin;
+  if (nodes) {
+    PetscCall(DMGetLocalSection(dm, &places->section));
+    PetscCall(MeshGetNodeCoordinates(dm, &places->x));
+  } else {
+    PetscCall(DMGetCoordinateSection(dm, &places->section));
+    PetscCall(DMGetCoordinatesLocal(dm, &places->x));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The 27 places of a cell whose edges are straight, from its corners: trilinear */
+void MeshPlacesSetStraight(const PetscReal corners[8][3], PetscReal places[27][3])
+{
+  for (PetscInt i = 0; i < 27; ++i) {
+    const PetscReal at[3] = {0.5 * (PetscReal)(i % 3), 0.5 * (PetscReal)(i / 3 % 3), 0.5 * (PetscReal)(i / 9)};
+
+    places[i][0] = places[i][1] = places[i][2] = 0;
+    for (PetscInt a = 0; a < 8; ++a) {
+      PetscReal weight = 1;
+
+      for (PetscInt d = 0; d < 3; ++d) weight *= a >> d & 1 ? at[d] : 1 - at[d];
+      for (PetscInt d = 0; d < 3; ++d) places[i][d] += weight * corners[a][d];
+    }
+  }
+}
+
+static PetscErrorCode NodesFillCells(DM dm, PetscScalar x[])
+{
+  PetscSection section;
+  PetscInt     cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  n, nodes[MESH_MAX_NODES], vertices[8];
+    PetscReal corners[8][3], places[27][3];
+
+    PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
+    PetscCall(MeshGetCellVertices(dm, c, vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, 8, vertices, corners));
+    if (n == 27) MeshPlacesSetStraight((const PetscReal(*)[3])corners, places);
+    for (PetscInt a = 0; a < n; ++a) {
+      const PetscReal *place = n == 27 ? places[a] : corners[a];
+      PetscInt         offset;
+
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
+      for (PetscInt d = 0; d < 3; ++d) x[offset + d] = place[d];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Places for the nodes of a mesh with a section, straight between the vertices; nothing where these are all */
+PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const SceneBody bodies[])
+{
+  PetscSection section;
+  Vec          places;
+  PetscScalar *x;
+  PetscInt     n;
+  PetscBool    any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || bodies[b].order > 1);
+  if (!any) PetscFunctionReturn(0);
+  /* A plain vector: one of the mesh would refer to the mesh that is to hold it */
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(PetscSectionGetStorageSize(section, &n));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &places));
+  PetscCall(VecSetBlockSize(places, 3));
+  PetscCall(VecGetArray(places, &x));
+  PetscCall(NodesFillCells(dm, x));
+  PetscCall(VecRestoreArray(places, &x));
+  PetscCall(PetscObjectCompose((PetscObject)dm, MESH_PLACES, (PetscObject)places));
+  PetscCall(VecDestroy(&places));
+  PetscFunctionReturn(0);
+}
+
+/* The vertices' coordinates from the nodes', after these have been moved */
+PetscErrorCode MeshUpdateVertices(DM dm)
+{
+  MeshPlaces         from, to;
+  const PetscScalar *x;
+  PetscScalar       *y;
+  PetscInt           vstart, vend;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetPlaces(dm, PETSC_TRUE, &from));
+  PetscCall(MeshGetPlaces(dm, PETSC_FALSE, &to));
+  if (from.x != to.x) {
+    PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+    PetscCall(VecGetArrayRead(from.x, &x));
+    PetscCall(VecGetArray(to.x, &y));
+    for (PetscInt v = vstart; v < vend; ++v) {
+      PetscInt i, j;
+
+      PetscCall(PetscSectionGetOffset(from.section, v, &i));
+      PetscCall(PetscSectionGetOffset(to.section, v, &j));
+      for (PetscInt d = 0; d < 3; ++d) y[j + d] = x[i + d];
+    }
+    PetscCall(VecRestoreArray(to.x, &y));
+    PetscCall(VecRestoreArrayRead(from.x, &x));
+  }
+  /* The global coordinates, if they were made, are those from before */
+  PetscCall(DMSetCoordinatesLocal(dm, to.x));
+  PetscFunctionReturn(0);
+}
