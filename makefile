@@ -2,11 +2,14 @@
 #
 # PETSc is found through PETSC_DIR (and PETSC_ARCH) if set, else through pkg-config alone.
 
-VERSION := 0.1.0
-PREFIX  ?= /usr/local
-DESTDIR ?=
+# petscamgf.h has the version; while it is 0.x, a plugin and the programs linked with it belong together up to its second number
+VERSION   := $(subst $(eval) ,.,$(shell sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$$/\1/p' include/petscamgf.h))
+SOVERSION := $(basename $(VERSION))
 
 include share/toolchain.mk
+
+.DEFAULT_GOAL := all
+include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
@@ -16,7 +19,7 @@ programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard a
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo check stress scene-stress install clean help dependencies FORCE
+.PHONY: all complex demo check stress scene-stress clean help dependencies FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -25,7 +28,7 @@ all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs)
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
 
-build/%.o: %.c makefile share/toolchain.mk
+build/%.o: %.c makefile share/toolchain.mk $(configuration)
 	@mkdir -p $(@D)
 	$(call say,CC,$<)
 	$(Q)$(COMPILE) $< -o $@
@@ -35,10 +38,12 @@ $(source_list): FORCE
 	@echo '$(plugin_objects) $(library_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects)' > $@
 
 # PETSc closes what it opened; nodelete keeps the registered types callable until the process ends
-$(PLUGIN): $(plugin_objects) $(source_list)
+$(PLUGIN): $(plugin_objects) $(source_list) $(configuration) include/petscamgf.h
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)$(CC) -shared -Wl,-soname,$(@F) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@
+	$(Q)rm -f $@*
+	$(Q)$(CC) -shared -Wl,-soname,$(@F).$(SOVERSION) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@.$(VERSION)
+	$(Q)ln -sf $(@F).$(VERSION) $@.$(SOVERSION) && ln -sf $(@F).$(SOVERSION) $@
 
 $(LIBRARY): $(library_objects) $(source_list)
 	@mkdir -p $(@D)
@@ -46,7 +51,7 @@ $(LIBRARY): $(library_objects) $(source_list)
 	$(call say,AR,$@)
 	$(Q)$(AR) rcs $@ $(library_objects)
 
-bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN)
+bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) -lmetis -lyaml -lm -o $@
@@ -76,16 +81,7 @@ scene-stress: dependencies
 	@mkdir -p build/stress
 	$(PYTHON) -B tests/stress/run.py --report build/stress/report.md $(STRESS)
 
-install: all
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig include/contact share/amgf/scenes share/amgf/options share/amgf/gmsh)
-	$(if $(programs),install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin)
-	install -m 755 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib
-	$(if $(PETSC_COMPLEX),,install -m 644 $(LIBRARY) $(DESTDIR)$(PREFIX)/lib)
-	install -m 644 include/petscamgf.h $(DESTDIR)$(PREFIX)/include
-	$(if $(PETSC_COMPLEX),,install -m 644 $(filter-out include/petscamgf.h,$(wildcard include/*.h)) $(DESTDIR)$(PREFIX)/include/contact)
-	$(foreach kind,scenes options gmsh,$(if $(wildcard share/$(kind)/*.*),install -m 644 $(wildcard share/$(kind)/*.*) $(DESTDIR)$(PREFIX)/share/amgf/$(kind);))
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' share/petscamgf.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/petscamgf.pc
-
+include share/install.mk
 include share/checks.mk
 include share/bench.mk
 
@@ -103,7 +99,7 @@ help:
 	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
-	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR'
+	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR; make uninstall takes it away again'
 	@echo 'make clean           removes build, bin and lib'
 	@echo
 	@echo 'PETSC_DIR, PETSC_ARCH  the PETSc to use (now: $(or $(PETSC_PREFIX),none found))'

@@ -10,6 +10,7 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
   -quiet               no line a Newton step and no table\n\
+  -version, -help      alone: the release, or this text and every option of PETSc; --help: this text\n\
   -traceback           PETSc's own error traceback instead of one sentence\n\
 Exit code:\n\
   0  every load step converged, to a true gap (or one linearization of it was asked for), and an accuracy asked for was reached\n\
@@ -114,6 +115,27 @@ static void AppLeave(const AppError *error)
   MPI_Finalize();
   fflush(NULL);
   _Exit(error->end);
+}
+
+/* contact --help, contact -version: a text, and no run */
+static PetscBool AppAsksForText(int argc, char **argv)
+{
+  return (PetscBool)(argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version")));
+}
+
+static PetscErrorCode AppSayText(const char word[])
+{
+  char version[256];
+
+  PetscFunctionBeginUser;
+  if (!strcmp(word, "--help")) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", help));
+  else {
+    PetscCall(PetscAMGFGetVersion(version, sizeof(version)));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "contact %d.%d.%d\n%s\n", PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR, PETSCAMGF_VERSION_SUBMINOR, version));
+    PetscCall(PetscGetVersion(version, sizeof(version)));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "running %s\n", version));
+  }
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
@@ -314,15 +336,17 @@ int main(int argc, char **argv)
 {
   RunEnd         end   = RUN_CONVERGED;
   AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
+  const char    *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* which PETSc would take for an option of its own */
   PetscErrorCode ierr;
 
   AppLimitHeap();
+  if (word) argc = 1;
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return RUN_REFUSED;
   signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
-  if (!ierr) ierr = AppRun(argc, argv, &error, &end);
+  if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &end);
   if (ierr) AppLeave(&error);
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {

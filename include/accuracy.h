@@ -5,7 +5,7 @@
 #ifndef ACCURACY_H
 #define ACCURACY_H
 
-#include <step.h>
+#include "step.h"
 
 PETSC_EXTERN PetscErrorCode AccuracySetFromOptions(MPI_Comm, Accuracy *);
 /* Tolerances for the next run, in place of those that are there */

@@ -8,8 +8,8 @@
 
 #include <petscdmplex.h>
 #include <petscmat.h>
-#include <material.h>
-#include <formulation.h>
+#include "material.h"
+#include "formulation.h"
 
 typedef struct _n_Elasticity *Elasticity;
 

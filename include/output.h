@@ -3,7 +3,7 @@
 #define OUTPUT_H
 
 #include <petscdmplex.h>
-#include <report.h>
+#include "report.h"
 
 typedef struct _n_Output *Output;
 

@@ -12,6 +12,14 @@
 #include <petscksp.h>
 #include <petsctao.h>
 
+/* The release of this header; PetscAMGFGetVersion() says which library runs */
+#define PETSCAMGF_VERSION_MAJOR    0
+#define PETSCAMGF_VERSION_MINOR    1
+#define PETSCAMGF_VERSION_SUBMINOR 0
+#define PETSCAMGF_VERSION_LT(major, minor, subminor) \
+  (PETSCAMGF_VERSION_MAJOR < (major) || (PETSCAMGF_VERSION_MAJOR == (major) && (PETSCAMGF_VERSION_MINOR < (minor) || (PETSCAMGF_VERSION_MINOR == (minor) && PETSCAMGF_VERSION_SUBMINOR < (subminor)))))
+#define PETSCAMGF_VERSION_GE(major, minor, subminor) (!PETSCAMGF_VERSION_LT(major, minor, subminor))
+
 #define PCAMGF      "amgf"
 #define TAOIPFILTER "ipfilter"
 
@@ -56,6 +64,7 @@ typedef struct {
 
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);
 PETSC_EXTERN PetscErrorCode PetscAMGFFinalizePackage(void);
+PETSC_EXTERN PetscErrorCode PetscAMGFGetVersion(char[], size_t);
 
 PETSC_EXTERN PetscErrorCode PCAMGFSetCycle(PC, PCAMGFCycle);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCycle(PC, PCAMGFCycle *);
@@ -63,6 +72,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFSetFilterIS(PC, IS);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterActive(PC, PetscBool);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterOptional(PC, PetscBool);
 PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);

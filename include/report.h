@@ -25,6 +25,12 @@ typedef struct {
   PetscReal   moment[3];   /* [force length] */
 } FaceReport;
 
+/* A load program at the end of a load step */
+typedef struct {
+  const char *name;
+  PetscReal   factor;
+} RampReport;
+
 /* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
 typedef struct {
   const char *name;
@@ -35,6 +41,7 @@ typedef struct {
 
 typedef struct {
   PetscInt             step;
+  PetscReal            time; /* load step k ends at time k */
   PetscReal            load;
   PetscInt             constraints;
   PetscInt             filter_dofs;
@@ -48,6 +55,7 @@ typedef struct {
   PetscInt             systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
   TaoIPFilterFallbacks linear;                    /* linear solves that took more than the Krylov method by itself */
   PetscReal            energy;                    /* elastic, from the elements [force length] */
+  PetscReal            work;                      /* of the dead loads and of the reactions on driven faces since the start, by the trapezoidal rule over all solves [force length] */
   PetscReal            potential;                 /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
   PetscReal            equilibrium;               /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
   PetscReal            kkt_error;                 /* scaled, dimensionless */
@@ -64,6 +72,8 @@ typedef struct {
   PetscReal           *body_errors;      /* parts of the bodies, whose squares sum to its square; NULL: none was made */
   PetscReal            contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
   PetscReal            reaction[3];      /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
+  PetscInt             nramps;           /* of the scene, the load itself first */
+  RampReport          *ramps;
   PetscInt             npairs;           /* of the scene, in its order; 0 before the first solve that converged */
   PairReport          *pairs;
   PetscInt             nfaces; /* with prescribed displacements, in the order in which the scene names them first */
@@ -72,6 +82,7 @@ typedef struct {
   BodyReport          *bodies;
   PetscReal            balance;    /* largest of the bodies' */
   PetscLogDouble       solve_time; /* optimizer alone, its linear solves included [s] */
+  PetscLogDouble       step_time;  /* all of the load step but what is written of it [s] */
   PetscBool            converged;
   const char          *reason;
 } StepReport;

@@ -6,8 +6,8 @@
 #define SCENE_H
 
 #include <petscdm.h>
-#include <material.h>
-#include <formulation.h>
+#include "material.h"
+#include "formulation.h"
 
 typedef enum {
   SHAPE_BOX,

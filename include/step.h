@@ -6,8 +6,8 @@
 #define STEP_H
 
 #include <petscdmplex.h>
-#include <scene.h>
-#include <report.h>
+#include "scene.h"
+#include "report.h"
 
 typedef struct _n_Simulation *Simulation;
 

@@ -57,8 +57,9 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff part, the condition number of `bfb` is at most
    2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1. `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
 
-   The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat` composed on the Pmat under "amgf_filter" before the
-   set-up; `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B.
+   The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat` composed on the Pmat under "amgf_filter", which
+   the next application takes up if it comes later than the set-up; `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner
+   is B; where none was named or detected that is said once, unless `PCAMGFSetFilterOptional()`.
 
    The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a row, no aggressive level, one sweep of
    l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its
@@ -79,7 +80,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  * - S. Petrides, T. Hartland, Tz. Kolev, C. S. Lee, M. Puso, J. Solberg, E. B. Chin, J. Wang, C. Petra, AMG with filtering: an efficient preconditioner for
    interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
-.seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
+.seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)

@@ -46,7 +46,10 @@ typedef struct {
   IS         rows; /* owned rows of A that enter R: sorted, unique; the filtered unknowns if P is NULL */
   Mat        P;
   AMGFStamp  stamp; /* of the Mat P was taken from */
-  PetscInt   nlocal, n;
+
+  PetscObjectId    composed_id; /* of what was composed on the operator when it was looked for; 0: nothing */
+  PetscObjectState composed_state;
+  PetscInt         nlocal, n;
 } AMGFSubspace;
 
 typedef struct {
@@ -55,6 +58,8 @@ typedef struct {
   KSP          filter;
   PetscBool    configured; /* inner solvers have read their options */
   PetscBool    active;     /* the subspace is looked for, set up and solved; else the AMG alone */
+  PetscBool    optional;   /* no subspace is no mistake, and not warned of */
+  PetscBool    warned;
   PCAMGFCounts counts;
 
   /* how the subspace is named */
@@ -91,6 +96,7 @@ PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
 /* subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
+PETSC_INTERN PetscErrorCode PCAMGFSubspaceIsStale_Private(PC, PetscBool *);
 /* rows.c */
 PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 /* galerkin.c */
@@ -122,6 +128,7 @@ PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
 /* library.c */
 PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
+/* version.c: a public function */
 /* register.c: the two public functions with which the plugin begins and ends */
 
 #endif

@@ -67,6 +67,13 @@ static PetscErrorCode PCAMGFSetFilterActive_AMGF(PC pc, PetscBool active)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PCAMGFSetFilterOptional_AMGF(PC pc, PetscBool optional)
+{
+  PetscFunctionBegin;
+  ((PC_AMGF *)pc->data)->optional = optional;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
 {
   PetscFunctionBegin;
@@ -114,6 +121,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterActive_C", PCAMGFSetFilterActive_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterOptional_C", PCAMGFSetFilterOptional_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetAMGLag_C", PCAMGFSetAMGLag_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGAge_C", PCAMGFGetAMGAge_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
@@ -125,7 +133,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
   static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetFilterActive_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
+                                      "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
@@ -293,6 +301,32 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveBool(pc, active, 2);
   PetscTryMethod(pc, "PCAMGFSetFilterActive_C", (PC, PetscBool), (pc, active));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetFilterOptional - says whether a set-up without a subspace is meant
+
+  Logically Collective
+
+  Input Parameters:
++ pc       - the preconditioner
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of it on the standard error stream;
+             `PETSC_TRUE`: it does not
+
+  Level: intermediate
+
+  Note:
+  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty is never warned of.
+
+.seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
+@*/
+PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveBool(pc, optional, 2);
+  PetscTryMethod(pc, "PCAMGFSetFilterOptional_C", (PC, PetscBool), (pc, optional));
   PetscFunctionReturn(0);
 }
 

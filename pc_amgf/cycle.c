@@ -156,8 +156,13 @@ static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
 
 PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 {
+  PetscBool stale;
+
   PetscFunctionBegin;
+  PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
+  if (stale) PetscCall(PCSetUp_AMGF(pc));
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
+  if (pc->failedreason) PetscCall(VecSetInf(z)); /* the KSP that owns it then asks why */
   PetscFunctionReturn(0);
 }
 

@@ -11,6 +11,20 @@ static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
   PetscFunctionReturn(0);
 }
 
+/* A filter that was forgotten, or finds nothing, costs iterations and no more: nothing else would tell */
+static PetscErrorCode SetUpWarn(PC pc)
+{
+  PC_AMGF         *amgf   = (PC_AMGF *)pc->data;
+  const AMGFSource source = amgf->sub.source;
+
+  PetscFunctionBegin;
+  if (amgf->sub.n || amgf->optional || amgf->warned || (source != AMGF_SOURCE_NONE && source != AMGF_SOURCE_DETECT)) PetscFunctionReturn(0);
+  amgf->warned = PETSC_TRUE;
+  if (source == AMGF_SOURCE_DETECT) PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR, "Warning: PCAMGF runs without a filter: no diagonal entry exceeds %g times the median, see -pc_amgf_detect\n", (double)amgf->detect));
+  else PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR, "Warning: PCAMGF runs without a filter, for none was named: compose an IS or a Mat on the matrix under \"%s\", or see -pc_amgf_filter_file, -pc_amgf_detect\n", PCAMGF_FILTER_KEY));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SetUpFilter(PC pc)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
@@ -32,6 +46,7 @@ static PetscErrorCode SetUpFilter(PC pc)
     PetscCall(SetUpCheckInner(pc, inner));
     amgf->counts.filter_setups++;
   } else {
+    PetscCall(SetUpWarn(pc));
     PetscCall(PCAMGFResetGalerkin_Private(amgf));
     PetscCall(KSPReset(amgf->filter));
   }

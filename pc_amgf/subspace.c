@@ -23,6 +23,39 @@ static PetscErrorCode SubspaceLoadFile(PC pc)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SubspaceGetComposed(PC pc, PetscObject *composed, PetscObjectId *id, PetscObjectState *state)
+{
+  PetscFunctionBegin;
+  *id    = 0;
+  *state = 0;
+  PetscCall(PetscObjectQuery((PetscObject)pc->pmat, PCAMGF_FILTER_KEY, composed));
+  if (*composed) {
+    PetscCall(PetscObjectGetId(*composed, id));
+    PetscCall(PetscObjectStateGet(*composed, state));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFSubspaceIsStale_Private - whether another object has been composed on the operator, or has changed, since the set-up, which PETSc does not repeat
+  while the operator itself stays
+*/
+PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
+{
+  PC_AMGF            *amgf = (PC_AMGF *)pc->data;
+  const AMGFSubspace *sub  = &amgf->sub;
+  PetscObject         composed;
+  PetscObjectId       id;
+  PetscObjectState    state;
+
+  PetscFunctionBegin;
+  *stale = PETSC_FALSE;
+  if (!amgf->active || amgf->set_is || amgf->set_P || pc->reusepreconditioner) PetscFunctionReturn(0);
+  PetscCall(SubspaceGetComposed(pc, &composed, &id, &state));
+  *stale = (PetscBool)(id != sub->composed_id || state != sub->composed_state);
+  PetscFunctionReturn(0);
+}
+
 /* The first source that is given wins. *is and *P are borrowed. */
 static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
 {
@@ -207,10 +240,11 @@ static PetscErrorCode SubspaceFromInterpolation(PC pc, Mat P, PetscBool *same)
 */
 PetscErrorCode PCAMGFUpdateSubspace_Private(PC pc, PetscBool *same)
 {
-  PC_AMGF   *amgf = (PC_AMGF *)pc->data;
-  AMGFSource source;
-  IS         is;
-  Mat        P;
+  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
+  AMGFSource  source;
+  PetscObject composed;
+  IS          is;
+  Mat         P;
 
   PetscFunctionBegin;
   *same = PETSC_FALSE;
@@ -219,5 +253,6 @@ PetscErrorCode PCAMGFUpdateSubspace_Private(PC pc, PetscBool *same)
   else if (P) PetscCall(SubspaceFromInterpolation(pc, P, same));
   else PetscCall(PCAMGFResetSubspace_Private(amgf));
   amgf->sub.source = source;
+  PetscCall(SubspaceGetComposed(pc, &composed, &amgf->sub.composed_id, &amgf->sub.composed_state));
   PetscFunctionReturn(0);
 }

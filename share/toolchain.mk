@@ -1,8 +1,15 @@
 # What the makefiles share: where PETSc, its compiler and its HDF5 are, and how a source file is compiled.
 # Where PETSc is not installed yet, its variables are empty and nothing fails.
 
+# PETSC_DIR means that PETSc and no other: where it has none, pkg-config would go on to the system's
 ifneq ($(PETSC_DIR),)
-  export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PKG_CONFIG_PATH)
+  override PETSC_DIR := $(abspath $(PETSC_DIR))
+  export PETSC_DIR PETSC_ARCH
+  petsc_pc := $(PETSC_DIR)$(if $(PETSC_ARCH),/$(PETSC_ARCH))/lib/pkgconfig/PETSc.pc
+  ifeq ($(wildcard $(petsc_pc))$(filter clean help,$(MAKECMDGOALS)),)
+    $(error PETSC_DIR=$(PETSC_DIR) PETSC_ARCH=$(PETSC_ARCH): there is no PETSc, for there is no $(petsc_pc))
+  endif
+  export PKG_CONFIG_PATH := $(patsubst %/,%,$(dir $(petsc_pc))):$(PKG_CONFIG_PATH)
 endif
 comma := ,
 # GNU make before 4.4 exports nothing to $(shell)
@@ -30,7 +37,8 @@ MARCH  ?=
 ifneq ($(MARCH),)
   override CFLAGS += -march=$(MARCH)
 endif
-COMPILE = $(CC) -std=c11 -Wall -Wextra -fPIC -MMD -MP -Iinclude -I$(<D) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(CPPFLAGS) $(CFLAGS) -c
+COMPILE_FLAGS = -std=c11 -Wall -Wextra -fPIC -MMD -MP -Iinclude $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(CPPFLAGS) $(CFLAGS)
+COMPILE = $(CC) -I$(<D) $(COMPILE_FLAGS) -c
 
 # Debian's Python packages serve Debian's Python only
 PYTHON := $(firstword $(wildcard /usr/bin/python3) python3)

@@ -15,6 +15,7 @@ static PetscErrorCode CreateKSP(Tao tao)
   PetscCall(KSPSetNormType(tao->ksp, KSP_NORM_UNPRECONDITIONED));
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,7 @@
 static char help[] = "PCAMGF: every way to name the subspace gives the same preconditioner; every bad one gives an error.\n\n";
 
 #include "amgf_problem.h"
+#include <petsc/private/petscimpl.h>
 
 typedef struct {
   Problem  problem;
@@ -144,6 +145,76 @@ static PetscErrorCode CheckPrecedence(Context *c)
   PetscCall(PetscOptionsClearValue(NULL, "-pc_amgf_detect"));
   PetscCall(PetscObjectCompose((PetscObject)c->A, PCAMGF_FILTER_KEY, NULL));
   PetscCall(ISDestroy(&one));
+  PetscFunctionReturn(0);
+}
+
+/* PETSc sets up only once for an operator that stays: what is composed later, or is no longer, is seen at the next application */
+static PetscErrorCode CheckComposedLater(Context *c)
+{
+  PC       pc;
+  Vec      z;
+  PetscInt n;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(c->z, &z));
+  PetscCall(NewPC(c, c->A, &pc));
+  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
+  PetscCall(PCSetUp(pc));
+  PetscCall(PetscObjectCompose((PetscObject)c->A, PCAMGF_FILTER_KEY, (PetscObject)c->is));
+  PetscCall(Compare(c, "composed after the set-up", &pc, 1e-11));
+  PetscCall(NewPC(c, c->A, &pc));
+  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
+  PetscCall(PCApply(pc, c->r, z));
+  PetscCall(PetscObjectCompose((PetscObject)c->A, PCAMGF_FILTER_KEY, NULL));
+  PetscCall(PCApply(pc, c->r, z));
+  PetscCall(PCAMGFGetFilterSize(pc, &n));
+  PetscCall(PetscPrintf(c->comm, "taken away after the set-up: %s\n", n == 0 ? "ok" : "no"));
+  PetscCall(PCDestroy(&pc));
+  PetscCall(VecDestroy(&z));
+  PetscFunctionReturn(0);
+}
+
+/* Lines of warning from two set-ups, printed by the first rank */
+static PetscErrorCode CountWarnings(Context *c, const char name[], PC pc)
+{
+  FILE *const stream = PETSC_STDERR;
+  int         lines  = 0, byte;
+
+  PetscFunctionBeginUser;
+  PETSC_STDERR = tmpfile();
+  PetscCall(PCSetFromOptions(pc));
+  for (PetscInt i = 0; i < 2; i++) {
+    PetscCall(PCSetUp(pc));
+    PetscCall(PetscObjectStateIncrease((PetscObject)c->A));
+  }
+  rewind(PETSC_STDERR);
+  while ((byte = fgetc(PETSC_STDERR)) != EOF) lines += (byte == '\n');
+  fclose(PETSC_STDERR);
+  PETSC_STDERR = stream;
+  PetscCall(PetscPrintf(c->comm, "warnings, %s: %d\n", name, lines));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckWarnings(Context *c)
+{
+  PC pc;
+  IS none;
+
+  PetscFunctionBeginUser;
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, 0, 0, 1, &none));
+  for (PetscInt i = 0; i < 5; i++) {
+    static const char *const names[] = {"no filter", "no filter, which is optional", "switched off", "an empty one named", "nothing detected"};
+
+    PetscCall(NewPC(c, c->A, &pc));
+    if (i == 1) PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
+    if (i == 2) PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
+    if (i == 3) PetscCall(PCAMGFSetFilterIS(pc, none));
+    if (i == 4) PetscCall(PetscOptionsSetValue(NULL, "-pc_amgf_detect", "1e30"));
+    PetscCall(CountWarnings(c, names[i], pc));
+    PetscCall(PCDestroy(&pc));
+  }
+  PetscCall(PetscOptionsClearValue(NULL, "-pc_amgf_detect"));
+  PetscCall(ISDestroy(&none));
   PetscFunctionReturn(0);
 }
 
@@ -339,6 +410,8 @@ int main(int argc, char **argv)
   PetscCall(SetByInterpolation(&c));
   PetscCall(SetByOptions(&c));
   PetscCall(CheckPrecedence(&c));
+  PetscCall(CheckComposedLater(&c));
+  PetscCall(CheckWarnings(&c));
   PetscCall(CheckFormats(&c));
   PetscCall(CheckExtremes(&c));
   PetscCall(CheckErrors(&c));

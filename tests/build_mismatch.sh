@@ -60,7 +60,7 @@ pretend "another release" '#include <petscversion.h>' '#undef PETSC_VERSION_MINO
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 for other in /usr/lib/petscdir/petsc-complex /usr/lib/petscdir/petsc64-real; do
   [ -d $other ] || continue
-  make -B PETSC_DIR=$other PETSC_ARCH= CFLAGS='-g -O0' lib/libpetscamgf.so > log 2>&1 || cat log
+  make PETSC_DIR=$other PETSC_ARCH= CFLAGS='-g -O0' lib/libpetscamgf.so > log 2>&1 || cat log
   try $other ./lib/libpetscamgf.so > verdict
   [ "$(grep -c refused verdict)" = 2 ] || cat verdict
 done

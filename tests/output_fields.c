@@ -133,10 +133,10 @@ static PetscErrorCode WriteSteps(DM dm, Output output, PetscBool full)
   for (PetscInt step = 1; step <= 2; ++step) {
     if (full && step == 2) PetscCall(FillDisk());
     report.step        = step;
-    report.load        = 0.5 * (PetscReal)step;
+    report.time        = 0.5 * (PetscReal)step;
     state.displacement = u;
     state.stress       = stress;
-    PetscCall(SetDisplacement(dm, report.load, u));
+    PetscCall(SetDisplacement(dm, report.time, u));
     PetscCall(OutputWrite(output, &state));
   }
   PetscCall(PetscFree2(stress, points));

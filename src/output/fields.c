@@ -252,7 +252,7 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
 {
   Output           output = ((FieldsState *)ctx)->output;
   const StepState *state  = ((FieldsState *)ctx)->state;
-  const PetscReal  time   = state->report->load;
+  const PetscReal  time   = state->report->time;
 
   PetscFunctionBegin;
   PetscCall(FieldsWriteDisplacement(output, state->displacement, viewer));

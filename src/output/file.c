@@ -1,9 +1,10 @@
 /* Files that appear whole or not at all */
-#define _POSIX_C_SOURCE 200809L /* lstat() */
+#define _POSIX_C_SOURCE 200809L /* lstat(), truncate() */
 #include "outputimpl.h"
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* The file that is written and then renamed: another one, but for links and devices, whose place no file may take */
 static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length, PetscBool *renamed)
@@ -106,6 +107,38 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscFunctionReturn(0);
 }
 
+/* The stream's text, and errno of what went wrong with it */
+static PetscErrorCode FileFill(FILE *stream, PetscErrorCode (*fill)(FILE *, const void *), const void *ctx, int *error)
+{
+  PetscFunctionBegin;
+  errno = 0;
+  PetscCall(fill(stream, ctx));
+  if (fflush(stream) || ferror(stream)) *error = errno ? errno : EIO;
+  if (fclose(stream) && !*error) *error = errno;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx)
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE      *stream = fopen(file, "a");
+    const long length = stream ? ftell(stream) : 0;
+
+    if (!stream) error = errno;
+    else {
+      PetscCall(FileFill(stream, fill, ctx, &error));
+      if (error && truncate(file, length)) error = errno;
+    }
+  }
+  PetscCall(FileRaise(comm, file, error));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx)
 {
   char        part[PETSC_MAX_PATH_LEN];
@@ -121,10 +154,7 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
 
     if (!stream) error = errno;
     else {
-      errno = 0;
-      PetscCall(fill(stream, ctx));
-      if (fflush(stream) || ferror(stream)) error = errno ? errno : EIO;
-      if (fclose(stream) && !error) error = errno;
+      PetscCall(FileFill(stream, fill, ctx, &error));
       if (error && renamed) (void)remove(part);
     }
   }

@@ -42,7 +42,7 @@ static PetscErrorCode OutputCount(Output output)
 
    Notes:
    Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell) and,
-   a load step, to <basename>_<step>.h5. Every file is written under another name and renamed when it is whole, and
+   a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends at time k. Every file is written under another name and renamed when it is whole, and
    the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
    first step is written, the files of later steps that an older run of the same name left are removed.
 
@@ -121,6 +121,8 @@ static PetscErrorCode OutputRemoveOlder(Output output)
 
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body.
 
+   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
+
 .seealso: `OutputCreate()`, `OutputDestroy()`
 @*/
 PetscErrorCode OutputWrite(Output output, const StepState *state)
@@ -133,9 +135,10 @@ PetscErrorCode OutputWrite(Output output, const StepState *state)
     PetscCall(PetscRealloc(output->maxsteps * sizeof(*output->steps), &output->steps));
   }
   output->steps[output->nsteps].step = state->report->step;
-  output->steps[output->nsteps].time = state->report->load;
+  output->steps[output->nsteps].time = state->report->time;
   output->nsteps++;
   PetscCall(OutputWriteXDMF(output));
+  PetscCall(OutputWriteHistory(output, state->report));
   if (output->nsteps == 1) PetscCall(OutputRemoveOlder(output));
   PetscFunctionReturn(0);
 }

@@ -16,6 +16,8 @@
 PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
 /* On the first rank fill() writes the stream; the others wait for the outcome */
 PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
+/* The same behind what the file holds; it stays as it was where there is no room for all of it */
+PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 
 /* A step that has been written */
 typedef struct {
@@ -47,6 +49,9 @@ PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
 
 /* xdmf.c */
 PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
+
+/* history.c: <base>.csv, one line a load step */
+PETSC_INTERN PetscErrorCode OutputWriteHistory(Output, const StepReport *);
 
 /* output.c, on top of these, has no more than what output.h offers */
 

@@ -53,6 +53,13 @@ static const ReportField face_fields[] = {
 };
 const ReportRecord SchemaFaces = {sizeof(FaceReport), PETSC_TRUE, face_fields};
 
+static const ReportField ramp_fields[] = {
+  FIELD(RampReport, name, FIELD_TEXT, ""),
+  FIELD(RampReport, factor, FIELD_REAL, ""),
+  END,
+};
+static const ReportRecord SchemaRamps = {sizeof(RampReport), PETSC_TRUE, ramp_fields};
+
 static const ReportField body_fields[] = {
   FIELD(BodyReport, name, FIELD_TEXT, ""),
   FIELD(BodyReport, contact, FIELD_VECTOR, "force"),
@@ -66,6 +73,7 @@ static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_f
 
 static const ReportField step_fields[] = {
   FIELD(StepReport, step, FIELD_INT, "", .columns = {COLUMN(TABLE_EVERY, "step", "", 5)}),
+  FIELD(StepReport, time, FIELD_REAL, ""),
   FIELD(StepReport, load, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "load", "factor", 8, .format = "%.4f")}),
   FIELD(StepReport, constraints, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "contact", "rows", 8)}),
   FIELD(StepReport, filter_dofs, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "filter", "dofs", 8)}),
@@ -82,6 +90,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, filtered_systems, FIELD_INT, ""),
   FIELD(StepReport, linear, FIELD_RECORD, "", .record = &SchemaFallbacks),
   FIELD(StepReport, energy, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
+  FIELD(StepReport, work, FIELD_REAL, "force length"),
   FIELD(StepReport, potential, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, equilibrium, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "equilibrium", "residual", 11)}),
   FIELD(StepReport, kkt_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "KKT", "error", 9)}),
@@ -99,11 +108,13 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, body_errors, FIELD_BODY_REALS, "", .columns = {COLUMN(TABLE_ERRORS, "", "", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT)}),
   FIELD(StepReport, contact_force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "contact force on the nonmortar side", "", -41, .blanks = 1)}),
   FIELD(StepReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "reaction on the driven faces", "", -41, .blanks = 1)}),
+  FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
   FIELD(StepReport, solve_time, FIELD_DOUBLE, "s"),
+  FIELD(StepReport, step_time, FIELD_DOUBLE, "s"),
   FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged", .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
   FIELD(StepReport, reason, FIELD_TEXT, ""),
   END,

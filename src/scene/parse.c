@@ -1,5 +1,6 @@
 /* Values of a scene file: text to numbers, lists and names. What does not parse is complained of and left as it was. */
 #include "sceneimpl.h"
+#include <errno.h>
 #include <stdlib.h>
 #include <ctype.h>
 
@@ -31,11 +32,13 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
 PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[], PetscInt *value)
 {
   char     *end;
-  long long number = strtoll(text, &end, 10);
+  long long number;
 
   PetscFunctionBegin;
+  errno  = 0;
+  number = strtoll(text, &end, 10);
   if (end == text || !SceneParseAtEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
-  else if (number > PETSC_MAX_INT || number < PETSC_MIN_INT) PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
+  else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT) PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);
 }

@@ -39,9 +39,12 @@ PetscErrorCode StepEventsRegister(void)
 /* The clock as the total, and each phase since PETSc's start, 0 where PETSc does not log; of this rank */
 PetscErrorCode StepEventsRead(RunTimes *times)
 {
+  PetscBool logs;
+
   PetscFunctionBegin;
   PetscCall(PetscMemzero(times, sizeof(*times)));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(phases); ++i) {
+  PetscCall(PetscLogIsActive(&logs));
+  for (size_t i = 0; logs && i < PETSC_STATIC_ARRAY_LENGTH(phases); ++i) {
     PetscLogEvent      event;
     PetscEventPerfInfo info;
 

@@ -14,6 +14,7 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
     PetscCall(KSPSetTolerances(sim->ksp, sim->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
     PetscCall(KSPGetPC(sim->ksp, &pc));
     PetscCall(PCSetType(pc, PCAMGF));
+    PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
     PetscCall(KSPSetFromOptions(sim->ksp));
     PetscCall(KSPGetTolerances(sim->ksp, &sim->tolerances.linear, NULL, NULL, NULL));
     PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));

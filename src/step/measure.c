@@ -113,6 +113,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));
   }
+  PetscCall(WorkAdd(p, u, force, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, report));
   PetscCall(ForcesMeasureBodies(sim, p->load, report));

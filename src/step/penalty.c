@@ -185,6 +185,7 @@ static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
   PetscCall(KSPSetTolerances(ksp, 1e-3, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(SNESSetFromOptions(*snes));
   PetscCall(StiffnessSetModes(penalty->p->sim, ksp, penalty->A));
   PetscFunctionReturn(0);

@@ -193,6 +193,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   for (PetscInt i = 0; i < s->report.nsteps; ++i) {
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
+    PetscCall(PetscFree(s->report.steps[i].ramps));
     PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
@@ -218,6 +219,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(VecDestroy(&s->mass));
   PetscCall(VecDestroy(&s->path.u));
   PetscCall(VecDestroy(&s->path.previous_u));
+  PetscCall(VecDestroy(&s->path.outside));
   PetscCall(DMDestroy(&s->dm));
   PetscCall(PetscFree(*sim));
   PetscFunctionReturn(0);

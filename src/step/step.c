@@ -1,6 +1,24 @@
 /* A load step: tried as a whole, and in smaller parts where that fails. */
 #include "stepimpl.h"
 #include <math.h>
+#include <petsctime.h>
+
+/* What is known of a load step before it is solved */
+static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepReport *report)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  report->step    = step + 1;
+  report->time    = (PetscReal)(step + 1);
+  report->gap_min = report->gap_true = report->error_estimate = NAN;
+  report->load                                                = scene->ramps[0].factor[step];
+  report->nramps                                              = scene->nramps;
+  PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
+  for (PetscInt r = 0; r < scene->nramps; ++r) report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
+  sim->report.nsteps = step + 1;
+  PetscFunctionReturn(0);
+}
 
 static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, StepState *state)
 {
@@ -62,12 +80,11 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   const PetscReal end       = (PetscReal)(step + 1);
   PetscReal       increment = end - sim->path.time;
   PetscBool       again     = PETSC_TRUE, stop;
+  PetscLogDouble  t0, t1;
 
   PetscFunctionBegin;
-  report->step    = step + 1;
-  report->gap_min = report->gap_true = report->error_estimate = NAN;
-  report->load                                                = sim->scene->ramps[0].factor[step];
-  sim->report.nsteps                                          = step + 1;
+  PetscCall(PetscTime(&t0));
+  PetscCall(SimulationBeginReport(sim, step, report));
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 
@@ -90,6 +107,8 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
                                                                                     : RUN_FAILED;
   } else if (report->gap_untrue) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
+  PetscCall(PetscTime(&t1));
+  report->step_time = t1 - t0;
   if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(StartWarnOfUnmet(sim));
   PetscFunctionReturn(0);
 }

@@ -97,6 +97,8 @@ typedef struct {
   PetscReal time, previous_time;
   Vec       u, previous_u;
   PetscReal largest_increment; /* of any component in any step so far [length] */
+  Vec       outside;           /* forces from outside at u; NULL at the start: none [force] */
+  PetscReal work;              /* of theirs [force length] */
 } LoadPath;
 
 /* What the files from here on work on */
@@ -228,6 +230,9 @@ PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, V
 
 /* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
+
+/* work.c */
+PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, StepReport *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);

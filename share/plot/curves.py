@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Draws columns of a table that contact -output BASE wrote: the history BASE.csv, or the points of a line, BASE_<line>.csv.
+
+    share/plot/curves.py BASE.csv PICTURE.png [COLUMN ...] [-x COLUMN] [--steps all|N,...]
+    share/plot/curves.py BASE.csv                            # says which columns there are
+
+A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'. Of a history, by default energy and work and each pair's normal force over time; of a
+line the displacement and von Mises stress along it, a curve each load step.
+"""
+import argparse
+import csv
+import fnmatch
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+HISTORY = [["energy", "work"], ["*.normal_force"]]
+LINE = [["displacement_?"], ["von_mises"]]
+
+
+def read(name):
+    """column: its values"""
+    with open(name, newline="", encoding="utf-8") as file:
+        heading, *rows = csv.reader(file)
+    return {column: np.array([float(row[i]) for row in rows]) for i, column in enumerate(heading)}
+
+
+def matching(table, patterns, name):
+    """Columns of each pattern in turn; one that has none is an error"""
+    found = []
+    for pattern in patterns:
+        columns = [column for column in table if fnmatch.fnmatchcase(column, pattern)]
+        if not columns:
+            sys.exit("curves.py: %s has no column %s; without columns curves.py says what there is" % (name, pattern))
+        found += columns
+    return found
+
+
+def chosen(table, steps):
+    """Rows of each load step of a line that is asked for, and its label"""
+    every = np.unique(table["step"])
+    wanted = every if steps == "all" else [float(step) for step in steps.split(",")] if steps else every[-1:]
+    return [(table["step"] == step, "step %g" % step) for step in wanted]
+
+
+def panels(table, args):
+    if args.columns:
+        return [matching(table, args.columns, args.table)]
+    groups = [[column for pattern in group for column in table if fnmatch.fnmatchcase(column, pattern)] for group in (LINE if "arc" in table else HISTORY)]
+    return [group for group in groups if group]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("table")
+    parser.add_argument("picture", nargs="?")
+    parser.add_argument("columns", nargs="*", metavar="COLUMN")
+    parser.add_argument("-x", help="what is drawn to the right: time by default, of a line its arc")
+    parser.add_argument("--steps", help="of a line: all, or their numbers; the last by default")
+    args = parser.parse_args()
+    table = read(args.table)
+    if not args.picture:
+        print("\n".join(table))
+        return
+    line = "arc" in table
+    along = args.x or ("arc" if line else "time")
+    matching(table, [along], args.table)
+    groups = panels(table, args)
+    figure, axes = plt.subplots(len(groups), squeeze=False, sharex=True, figsize=(8, 3.2 * len(groups) + 0.8))
+    for axis, group in zip(axes.ravel(), groups):
+        for column in group:
+            for rows, label in chosen(table, args.steps) if line else [(slice(None), "")]:
+                axis.plot(table[along][rows], table[column][rows], "." if line and len(table[along]) > 200 else ".-", label=(column + " " + label).strip())
+        axis.legend(fontsize="small")
+        axis.grid(alpha=0.3)
+    axes[-1, 0].set_xlabel(along)
+    figure.tight_layout()
+    figure.savefig(args.picture, dpi=110)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+/* The history of a run: a table of comma-separated values, a line a load step, a column for every number of its report. */
+#include "outputimpl.h"
+#include <math.h>
+#include <string.h>
+
+/* What a line is made of: the names of its columns, or the values of a step */
+typedef struct {
+  Output            output;
+  const StepReport *report;
+  FILE             *stream;
+  PetscBool         heading;
+  PetscBool         first; /* nothing stands in the line so far */
+} HistoryLine;
+
+/* A name with a comma or a quote, as Gmsh files may have it, stands in quotes */
+static void HistoryPutName(HistoryLine *line, const char owner[], const char name[], const char component[])
+{
+  const char *const pieces[] = {owner, owner[0] ? "." : "", name, component[0] ? "_" : "", component};
+  const PetscBool   quoted   = (PetscBool)(strpbrk(owner, ",\"\n") != NULL);
+
+  if (quoted) fputc('"', line->stream);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(pieces); ++i) {
+    for (const char *c = pieces[i]; *c; ++c) {
+      if (*c == '"') fputc('"', line->stream);
+      fputc(*c, line->stream);
+    }
+  }
+  if (quoted) fputc('"', line->stream);
+}
+
+static void HistoryPut(HistoryLine *line, const char owner[], const char name[], const char component[], double value)
+{
+  if (!line->first) fputc(',', line->stream);
+  line->first = PETSC_FALSE;
+  if (line->heading) HistoryPutName(line, owner, name, component);
+  else if (PetscIsNanReal((PetscReal)value)) fputs("nan", line->stream);
+  else fprintf(line->stream, "%.15g", value);
+}
+
+static double HistorySum(PetscInt n, const PetscInt values[])
+{
+  double sum = 0;
+
+  for (PetscInt i = 0; i < n; ++i) sum += (double)values[i];
+  return sum;
+}
+
+static void HistoryPutRecord(HistoryLine *, const ReportRecord *, const void *record, const char owner[]);
+
+/* owner: the pair, face, body, ... whose value it is; "" of the whole */
+static void HistoryPutField(HistoryLine *line, const ReportField *field, const void *record, const char owner[])
+{
+  const void *value = SchemaAt(field, record);
+
+  switch (field->type) {
+  case FIELD_INT:
+  case FIELD_REAL:
+  case FIELD_DOUBLE:
+  case FIELD_BOOL:
+    HistoryPut(line, owner, field->name, "", SchemaNumber(field, record));
+    break;
+  case FIELD_VECTOR:
+    for (int d = 0; d < 3; ++d) HistoryPut(line, owner, field->name, (const char *[]){"x", "y", "z"}[d], (double)((const PetscReal *)value)[d]);
+    break;
+  case FIELD_INTS:
+    HistoryPut(line, owner, field->name, "", HistorySum(SchemaCount(field, record), *(const PetscInt *const *)value));
+    break;
+  case FIELD_BODY_REALS:
+    for (PetscInt b = 0; b < line->output->nbodies; ++b) HistoryPut(line, line->output->bodynames[b], field->name, "", *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
+    break;
+  case FIELD_LIST:
+    for (PetscInt i = 0; i < SchemaCount(field, record); ++i) {
+      const char *item = *(const char *const *)value + (size_t)i * field->record->size;
+
+      HistoryPutRecord(line, field->record, item, SchemaText(field->record->fields, item));
+    }
+    break;
+  case FIELD_RECORD:
+    HistoryPutRecord(line, field->record, value, field->name);
+    break;
+  default: /* a text is no number */
+    break;
+  }
+}
+
+/* A list's records begin with their names */
+static void HistoryPutRecord(HistoryLine *line, const ReportRecord *type, const void *record, const char owner[])
+{
+  for (const ReportField *field = type->fields; field->name; ++field) HistoryPutField(line, field, record, owner);
+}
+
+static PetscErrorCode HistoryWriteLine(FILE *stream, const HistoryLine *ctx, PetscBool heading)
+{
+  HistoryLine line = *ctx;
+
+  PetscFunctionBegin;
+  line.stream  = stream;
+  line.heading = heading;
+  line.first   = PETSC_TRUE;
+  HistoryPutRecord(&line, &SchemaSteps, line.report, "");
+  fputc('\n', stream);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode HistoryAppend(FILE *stream, const void *ctx)
+{
+  PetscFunctionBegin;
+  PetscCall(HistoryWriteLine(stream, (const HistoryLine *)ctx, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode HistoryBegin(FILE *stream, const void *ctx)
+{
+  PetscFunctionBegin;
+  PetscCall(HistoryWriteLine(stream, (const HistoryLine *)ctx, PETSC_TRUE));
+  PetscCall(HistoryWriteLine(stream, (const HistoryLine *)ctx, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* The first step that an output gets begins a new file */
+PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
+{
+  const HistoryLine line = {.output = output, .report = report};
+  char              file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(file, sizeof(file), "%s.csv", output->base));
+  if (output->nsteps == 1) PetscCall(FileWriteText(output->comm, file, HistoryBegin, &line));
+  else PetscCall(FileAppendText(output->comm, file, HistoryAppend, &line));
+  PetscFunctionReturn(0);
+}
