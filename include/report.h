@@ -64,7 +64,7 @@ typedef struct {
   PetscReal            gap_true;         /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
   PetscReal            gap_change;       /* largest difference of the two where there is pressure, or penetration [length] */
   PetscBool            gap_untrue;       /* that is more than the tolerance: the limit on linearizations came first */
-  PetscInt             gap_damped;       /* linearizations short of a solution, because the solutions went in a circle */
+  PetscInt             gap_damped;       /* linearizations made short of where they would be, because the solutions got no truer */
   PetscReal            complementarity;  /* max s z [force/length] */
   PetscReal            algebraic_error;  /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
   PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */

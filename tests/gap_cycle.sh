@@ -9,7 +9,7 @@ run() {
   "$contact" ring.yaml -quiet -error_estimate 0 -summary "$name.json" "$@" 2> err
   echo "$name: exit code $?, $(sed -n 's/^contact: \([a-z]*\).*/\1/p' err | tr '\n' ' ')"
 }
-run smooth
+run smooth -contact_update_tol 1e-7 # the ring rolls easily: a gap off by 1e-6 of its push still leaves a force to the side
 run damped -contact_smooth false
 run short -contact_updates 6 -load_max_cuts 0 -contact_smooth false
 run single -contact_updates 1

@@ -13,6 +13,8 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
   as->dim = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
+  PetscCall(VecDuplicate(as->gap, &as->cover));
+  PetscCall(VecZeroEntries(as->cover));
   PetscFunctionReturn(0);
 }
 
@@ -40,6 +42,7 @@ PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[
   PetscFunctionBegin;
   for (PetscInt a = 0; a < 4; ++a) {
     PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
+    PetscCall(ContactEntriesAdd(&as->by_cover, row[a], 4, node, slopes->cover[a]));
     PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
     PetscCall(ContactEntriesAdd(&as->by_bend, row[a], 4, bend, slopes->normal[a]));
   }
@@ -50,11 +53,13 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
 {
   PetscFunctionBegin;
   PetscCall(ContactEntriesDestroy(&as->rigid));
+  PetscCall(ContactEntriesDestroy(&as->by_cover));
   PetscCall(ContactEntriesDestroy(&as->by_node));
   PetscCall(ContactEntriesDestroy(&as->by_bend));
   PetscCall(PetscFree(as->row));
   PetscCall(PetscFree(as->node));
   for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
+  PetscCall(VecDestroy(&as->cover));
   PetscCall(VecDestroy(&as->gap));
   PetscFunctionReturn(0);
 }
@@ -200,6 +205,36 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
+/*
+  From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does not close its gap. Where
+  the mean is zero, as under pressure, both are the same.
+*/
+static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
+{
+  PetscInt           n;
+  PetscScalar       *m;
+  const PetscScalar *cover;
+  Vec                mean;
+  Mat                by_cover;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(as->gap, &mean));
+  PetscCall(VecCopy(as->gap, mean));
+  PetscCall(VecGetLocalSize(mean, &n));
+  PetscCall(VecGetArray(mean, &m));
+  PetscCall(VecGetArrayRead(as->cover, &cover));
+  for (PetscInt i = 0; i < n; ++i) m[i] = PetscRealPart(cover[i]) > 0.0 ? m[i] / cover[i] : 0.0;
+  PetscCall(VecRestoreArrayRead(as->cover, &cover));
+  PetscCall(VecRestoreArray(mean, &m));
+  PetscCall(MatGetLocalSize(slopes, NULL, &n));
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->by_cover, &by_cover));
+  PetscCall(MatDiagonalScale(by_cover, mean, NULL));
+  PetscCall(MatAXPY(slopes, -1.0, by_cover, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&by_cover));
+  PetscCall(VecDestroy(&mean));
+  PetscFunctionReturn(0);
+}
+
 /* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with those that bend; the rows of other pairs are empty */
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
@@ -209,6 +244,7 @@ static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *ri
   PetscFunctionBegin;
   PetscCall(MatGetLocalSize(contact->bends.slopes, NULL, &n));
   PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->rigid, rigid));
+  PetscCall(SlopesHoldCover(contact, as, *rigid));
   PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->by_node, bending));
   PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, 3 * contact->bends.nlocal, &as->by_bend, &bend));
   PetscCall(MatMatMult(bend, contact->bends.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
@@ -356,6 +392,8 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscFunctionBegin;
   PetscCall(VecAssemblyBegin(as->gap));
   PetscCall(VecAssemblyEnd(as->gap));
+  PetscCall(VecAssemblyBegin(as->cover));
+  PetscCall(VecAssemblyEnd(as->cover));
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));

@@ -94,8 +94,9 @@ PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscRea
 typedef struct {
   PetscReal x[4][12], normal[4][12]; /* of int phi_A gap, for the four A: by a facet's vertices, and by the unit normals there */
   PetscReal rigid[4][12];            /* by its vertices, the patches keeping their shape and turning with their facets */
+  PetscReal cover[4][12];            /* of int phi_A, by its vertices */
 } ContactSlopes;
-PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12], const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], ContactSlopes *nonmortar, ContactSlopes *mortar);
+PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12], const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], PetscReal cover[4], ContactSlopes *nonmortar, ContactSlopes *mortar);
 
 /* closest.c: the point of a facet closest to another point */
 PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3]);
@@ -321,12 +322,13 @@ PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 /* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
   Vec          gap;        /* int phi_A gap [length^3] */
+  Vec          cover;      /* int phi_A over what smooth mortar pairs cover [length^2] */
   PetscInt     n, size;    /* entries in use, and space for them */
   PetscInt    *row, *node; /* global row, global number of the vertex */
   PetscInt     dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
   PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
 
-  ContactEntries rigid, by_node, by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */
+  ContactEntries rigid, by_cover, by_node, by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */
 } ContactAssembly;
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3]);

@@ -78,8 +78,9 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as in a mirror where a face ends on a
   plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then measured along the normal of each nonmortar facet, that of a
   vertex along the normal of the mortar surface. lin->derivative is the gap's derivative to rounding, the normals' turning with u included;
-  it reaches two facets far. J is the derivative with patches that keep their shape and turn with their facets: its forces are spread
-  as those of facets are, and balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
+  it reaches two facets far. J is the derivative with patches that keep their shape and turn with their facets, of the mean gap of a row times
+  the area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and they balance on both
+  bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite is an
   error.

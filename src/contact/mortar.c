@@ -32,6 +32,7 @@ typedef struct {
   PetscInt         noverlaps;
   PetscReal        gap[4], D[4][4];
   ContactPatch     patch; /* of smooth pairs */
+  PetscReal        cover[4];
   ContactSlopes    slopes;
 } MortarFacet;
 
@@ -39,12 +40,14 @@ typedef struct {
 static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap, const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
   const PetscReal *x = &mortar->x[12 * k];
+  PetscReal        cover[4];
   ContactPatch     patch;
   ContactSlopes    slopes;
 
   PetscFunctionBegin;
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
-  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, &facet->slopes, &slopes);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, &facet->slopes, &slopes);
+  for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
   PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->bend[4 * k], &slopes));
   PetscFunctionReturn(0);
 }
@@ -79,14 +82,16 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
     if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap)) PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
   }
   if (facet.noverlaps) {
-    PetscScalar gap[4];
+    PetscScalar gap[4], cover[4];
 
     for (PetscInt a = 0; a < 4; ++a) {
-      gap[a] = facet.gap[a];
+      gap[a]   = facet.gap[a];
+      cover[a] = facet.cover[a];
       PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
     }
     if (smooth) PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
     PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
+    PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
   }
   *noverlaps += facet.noverlaps;
   PetscFunctionReturn(0);

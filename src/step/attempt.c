@@ -184,18 +184,19 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* From u_linearized, whose gap u was found with, to where the gap is linearized next: at u, as at_u is, or short of it */
-static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapDamping *damping, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
+/* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
+static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants *secants, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
-  PetscBool  damped;
+  PetscBool  damped, at_solution;
 
   PetscFunctionBegin;
-  PetscCall(GapDampingAdvance(damping, report->gap_change, u, u_linearized, &damped));
+  PetscCall(GapSecantsAdvance(secants, report->gap_change, u, u_linearized, &damped));
   if (damped) PetscCall(AttemptSayDamped(sim, report));
   report->gap_damped += damped;
+  PetscCall(VecEqual(u, u_linearized, &at_solution));
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
-  if (damped) {
+  if (!at_solution) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
   }
@@ -232,7 +233,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, Vec u_linearized, Vec u, StepR
 static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
 {
   Simulation sim          = p->sim;
-  GapDamping damping      = {.factor = 1.0};
+  GapSecants secants      = {0};
   Vec        u_linearized = sim->path.u;
   PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE;
 
@@ -246,10 +247,10 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
       PetscCall(VecDuplicate(u, &u_linearized));
       PetscCall(VecCopy(sim->path.u, u_linearized));
     }
-    PetscCall(AttemptNextLinearization(p, &damping, u, u_linearized, report, at_u));
+    PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
-  PetscCall(GapDampingDestroy(&damping));
+  PetscCall(GapSecantsDestroy(&secants));
   report->gap_untrue = (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
   if (report->gap_untrue) PetscCall(AttemptSayUntrue(sim, slid, report));
   PetscFunctionReturn(0);

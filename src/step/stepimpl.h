@@ -207,16 +207,18 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 /* anticipate.c */
 PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
 
-/* damping.c: of the updates of the gap in one solve, where they go in a circle; begins as {.factor = 1.0} */
+/* secants.c: where the gap is linearized next, within one solve; begins as all zeros */
+#define GAP_SECANTS 2
 typedef struct {
-  PetscInt  n, stalls; /* solutions; the last ones without progress */
-  PetscReal least;     /* change of the gap so far [length] */
-  PetscReal factor;    /* of the way from a linearization to its solution that the next one goes */
-  Vec       way;       /* the last one that was damped [length] */
-} GapDamping;
+  PetscInt  n, stalls;              /* solutions; the last ones without progress */
+  PetscReal least;                  /* change of the gap so far [length] */
+  Vec       u, way;                 /* the last solution, and the way to it from where the gap was linearized [length] */
+  Vec       solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
+  Vec       ways[GAP_SECANTS];      /* the same of the ways [length] */
+} GapSecants;
 
-PETSC_INTERN PetscErrorCode GapDampingAdvance(GapDamping *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
-PETSC_INTERN PetscErrorCode GapDampingDestroy(GapDamping *);
+PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
