@@ -1,6 +1,6 @@
 /*
    The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether the matrix is
-   positive definite. MUMPS's analysis estimates the memory before anything large is allocated.
+   positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates the memory before anything large is allocated.
 */
 #include "ipfilterimpl.h"
 #include "../pc_amgf/mumps.h"
@@ -14,30 +14,39 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* A as MUMPS takes a symmetric matrix, AIJ or SBAIJ; NULL where PETSc has no MUMPS for it */
-static PetscErrorCode DirectTakeMatrix(Mat A, Mat *taken)
+/* The present matrix as MUMPS takes a symmetric one, AIJ or SBAIJ: direct.A, NULL where PETSc has no MUMPS for it. The factor, whose analysis serves as long as
+   the pattern stays, goes where it is another one. */
+static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 {
-  PetscBool baij, mumps;
-  MatType   type;
+  PetscBool        baij, mumps;
+  MatType          type;
+  PetscObjectState state;
 
   PetscFunctionBegin;
-  *taken = NULL;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
-  if (baij) PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, taken));
-  else {
-    PetscCall(PetscObjectReference((PetscObject)A));
-    *taken = A;
+  if (!baij || !direct->converted) {
+    if (!baij) PetscCall(PetscObjectReference((PetscObject)A));
+    PetscCall(MatDestroy(&direct->A));
+    direct->A = baij ? NULL : A;
   }
-  PetscCall(MatGetType(*taken, &type));
+  if (baij) PetscCall(IPMatrixConvert(A, &direct->A));
+  direct->converted = baij;
+  PetscCall(MatGetType(direct->A, &type));
   PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_CHOLESKY, &mumps));
-  if (!mumps) PetscCall(MatDestroy(taken));
-  else PetscCall(MatSetOption(*taken, MAT_SYMMETRIC, PETSC_TRUE));
+  if (!mumps) {
+    PetscCall(IPDirectDestroy(direct));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(MatSetOption(direct->A, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatGetNonzeroState(direct->A, &state));
+  if (direct->pattern_id != ((PetscObject)direct->A)->id || direct->pattern_state != state) PetscCall(MatDestroy(&direct->F));
+  direct->pattern_id    = ((PetscObject)direct->A)->id;
+  direct->pattern_state = state;
   PetscFunctionReturn(0);
 }
 
-/* Analysis, with the given percentage of memory beyond its estimate; *memory: what the factors will take, in 1e6 bytes over all ranks,
-   negative where the analysis failed */
-static PetscErrorCode DirectAnalyse(Tao tao, PetscInt relaxation, PetscReal *memory)
+/* Analysis, and what the factors will take by it; no factor where it failed */
+static PetscErrorCode DirectAnalyse(Tao tao)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
   IPDirect      *direct = &ip->direct;
@@ -48,20 +57,21 @@ static PetscErrorCode DirectAnalyse(Tao tao, PetscInt relaxation, PetscReal *mem
   PetscInt       estimate;
 
   PetscFunctionBegin;
-  PetscCall(MatDestroy(&direct->F));
   PetscCall(MatGetFactor(direct->A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &direct->F));
   PetscCall(TaoGetOptionsPrefix(tao, &prefix));
   PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
   PetscCall(MatSetOptionsPrefix(direct->F, own));
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* nothing of the analysis is to depend on values, which change: */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scaled by the diagonal of the matrix that is factored */
   PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 14, relaxation));
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
   PetscCall(MatFactorGetError(direct->F, &error));
-  *memory = -1.0;
-  if (error != MAT_FACTOR_NOERROR) PetscFunctionReturn(0);
-  PetscCall(AMGFMumpsGetInfog(direct->F, 17, &estimate));
-  *memory = (PetscReal)estimate;
+  if (error == MAT_FACTOR_NOERROR) {
+    PetscCall(AMGFMumpsGetInfog(direct->F, 17, &estimate));
+    direct->memory = (PetscReal)estimate;
+  } else PetscCall(MatDestroy(&direct->F));
   PetscFunctionReturn(0);
 }
 
@@ -76,53 +86,73 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
   PetscFunctionReturn(0);
 }
 
-/* Factors the present matrix unless it is; *factored is false where it cannot be, for which the record then has a reason */
-static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
+/* Whether factors of that many 1e6 bytes are allowed, for which the record else has a reason */
+static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
+{
+  PetscFunctionBegin;
+  *allows = (PetscBool)(memory <= ip->opt.direct_memory);
+  if (!*allows) PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
+  PetscFunctionReturn(0);
+}
+
+/* The factors of the matrix that was taken; more work space each time that MUMPS finds its own estimate too small, with which the next matrix begins.
+   A factorization that failed is not to be reused. */
+static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
   IPDirect      *direct = &ip->direct;
   const PetscInt first = 20, limit = 320; /* per cent of work space beyond the estimate */
-  PetscReal      memory = 0.0;
-  MatFactorError error  = MAT_FACTOR_OUTMEMORY;
   MatFactorInfo  info;
+  PetscBool      again, allows;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  if (!direct->relaxation) direct->relaxation = first;
+  do {
+    *error = MAT_FACTOR_OTHER;
+    PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
+    if (!direct->F) PetscCall(DirectAnalyse(tao));
+    if (!direct->F) break;
+    PetscCall(DirectAllows(ip, direct->memory, &allows));
+    if (!allows) break;
+    PetscCall(MatCholeskyFactorNumeric(direct->F, direct->A, &info));
+    PetscCall(MatFactorGetError(direct->F, error));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
+    PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)direct->memory, (int)*error));
+    again = (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && direct->relaxation < limit);
+    if (again) direct->relaxation *= 2;
+    if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&direct->F));
+  } while (again);
+  PetscFunctionReturn(0);
+}
+
+/* Factors the present matrix; *factored is false where it cannot be, for which the record then has a reason */
+static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
+{
+  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct = &ip->direct;
+  PetscReal      least  = 0.0;
+  MatFactorError error  = MAT_FACTOR_OTHER;
+  PetscBool      allows;
 
   PetscFunctionBegin;
   *factored = *singular = PETSC_FALSE;
-  PetscCall(IPDirectDestroy(direct));
-  PetscCall(MatFactorInfoInitialize(&info));
   if (ip->hess.products) {
     PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor", sizeof(ip->lin.why)));
     PetscFunctionReturn(0);
   }
-  PetscCall(DirectLeastMemory(ip->cond.A, &memory));
-  if (memory <= ip->opt.direct_memory) PetscCall(DirectTakeMatrix(ip->cond.A, &direct->A));
-  if (memory <= ip->opt.direct_memory && !direct->A) {
-    PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
-    PetscFunctionReturn(0);
-  }
-  /* more work space each time that MUMPS finds its own estimate too small; the next matrix begins with what this one came to */
-  if (!direct->relaxation) direct->relaxation = first;
-  for (PetscBool again = PETSC_FALSE; error == MAT_FACTOR_OUTMEMORY && (!again || direct->relaxation < limit); again = PETSC_TRUE) {
-    if (again) direct->relaxation *= 2;
-    if (memory <= ip->opt.direct_memory) PetscCall(DirectAnalyse(tao, direct->relaxation, &memory));
-    if (memory > ip->opt.direct_memory) {
-      PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
-      break;
-    }
-    error = MAT_FACTOR_OTHER;
-    if (memory < 0.0) break;
-    PetscCall(MatCholeskyFactorNumeric(direct->F, direct->A, &info));
-    PetscCall(MatFactorGetError(direct->F, &error));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
-    PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)memory, (int)error));
-  }
+  PetscCall(DirectLeastMemory(ip->cond.A, &least));
+  PetscCall(DirectAllows(ip, least, &allows));
+  if (!allows) PetscFunctionReturn(0);
+  PetscCall(DirectTakeMatrix(ip->cond.A, direct));
+  if (direct->A) PetscCall(DirectFactorWithin(tao, &error));
+  else PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
-  if (*factored) direct->system = ip->rec.nsystems;
-  else {
-    PetscCall(IPDirectDestroy(direct));
-    if (memory <= ip->opt.direct_memory) PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
-  }
+  if (*factored) {
+    direct->system = ip->rec.nsystems;
+    ip->lin.why[0] = '\0';
+  } else PetscCall(IPDirectDestroy(direct));
   PetscFunctionReturn(0);
 }
 

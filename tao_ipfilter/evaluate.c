@@ -45,8 +45,8 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   PetscCall(IPFixedZero(tao, tao->gradient));
   if (ip->me > ip->sides.nall) PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
   if (ip->mi) PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
-  if (ip->me) PetscCall(IPJacobianEquality(tao));
   if (ip->mi) PetscCall(IPJacobianInequality(tao));
+  if (ip->me) PetscCall(IPJacobianEquality(tao));
   PetscFunctionReturn(0);
 }
 

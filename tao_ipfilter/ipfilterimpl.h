@@ -19,7 +19,7 @@
      linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
      space    basis, compliance, activeset, reduced, kept, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
-     driver   reason, convergence, monitor, setup, solve
+     driver   reason, degenerate, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
 */
 #ifndef IPFILTERIMPL_H
@@ -304,10 +304,14 @@ typedef struct {
 
 /* The condensed matrix factored by MUMPS, where the Krylov method fails */
 typedef struct {
-  Mat      A, F;       /* the matrix as MUMPS takes it, and its factors */
-  PetscInt system;     /* which condensed matrix that was, by rec.nsystems */
-  PetscInt relaxation; /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
-  PetscInt negative;   /* its negative pivots */
+  Mat              A, F;          /* the matrix as MUMPS takes it, and its factors */
+  PetscBool        converted;     /* A is a copy */
+  PetscObjectId    pattern_id;    /* which matrix it analysed, */
+  PetscObjectState pattern_state; /* with which pattern, */
+  PetscReal        memory;        /* and what the factors take by that, in 1e6 bytes over all ranks */
+  PetscInt         system;        /* which condensed matrix was factored, by rec.nsystems */
+  PetscInt         relaxation;    /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
+  PetscInt         negative;      /* its negative pivots */
 } IPDirect;
 
 /* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
@@ -650,6 +654,7 @@ PETSC_INTERN PetscErrorCode IPWorthOfResiduals(Tao);
 PETSC_INTERN PetscErrorCode IPWorthOfRelaxation(Tao, PetscReal *);
 PETSC_INTERN PetscBool      IPWorthWithin(const TAO_IPFILTER *, PetscReal gap);
 PETSC_INTERN PetscReal      IPWorthForceUnit(const TAO_IPFILTER *);
+PETSC_INTERN PetscErrorCode IPWorthForceUnitAfter(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscReal      IPWorthLeastMu(const TAO_IPFILTER *);
 
 /* kkt.c */
@@ -824,6 +829,10 @@ PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
 
 /* reason.c */
 PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+
+/* degenerate.c */
+PETSC_INTERN PetscErrorCode IPDegenerateCancellation(Tao, PetscReal *times);
+PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
 
 /* convergence.c */
 PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);

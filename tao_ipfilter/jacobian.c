@@ -32,13 +32,14 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian of the caller's as AIJ: itself, or converted */
+/* A Jacobian of the caller's as AIJ: itself, or converted; converted may be NULL for one that is AIJ */
 static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
 {
   PetscBool aij;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  if (aij && converted) PetscCall(MatDestroy(converted));
   if (!aij) PetscCall(IPMatrixConvert(user, converted));
   *J = aij ? user : *converted;
   PetscFunctionReturn(0);
@@ -123,24 +124,23 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
   PetscFunctionReturn(0);
 }
 
-/* The same where rows have equal bounds, kept as converted matrices are */
+/* The same where rows have equal bounds, kept as converted matrices are. The inequality Jacobian has been taken over, and converted if need be. */
 static PetscErrorCode JacobianTakeStack(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   IPJacobian   *jac = &ip->jac;
-  Mat           own = NULL, all, fresh, converted[2] = {NULL, NULL};
+  Mat           own = NULL, fresh, converted = NULL;
 
   PetscFunctionBegin;
-  if (ip->me > ip->sides.nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted[0], &own));
-  PetscCall(JacobianAsAIJ(tao->jacobian_inequality, &converted[1], &all));
-  PetscCall(JacobianStack(tao, own, all, &fresh));
+  if (ip->me > ip->sides.nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted, &own));
+  PetscCall(JacobianStack(tao, own, jac->converted[0] ? jac->converted[0] : tao->jacobian_inequality, &fresh));
   PetscCall(IPMatrixKeep(&fresh, &jac->converted[1]));
-  for (PetscInt i = 0; i < 2; i++) PetscCall(MatDestroy(&converted[i]));
+  PetscCall(MatDestroy(&converted));
   PetscCall(JacobianTake(tao, jac->converted[1], ip->rows.equality, NULL, &jac->equality, &jac->equality_stamp));
   PetscFunctionReturn(0);
 }
 
-/* Takes over the equality Jacobian at tao->solution */
+/* Takes over the equality Jacobian at tao->solution, after that of the inequalities */
 PetscErrorCode IPJacobianEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
