@@ -246,27 +246,52 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of the right-hand side, or of what
-   convergence asks for */
+/* residual = rhs - K sol, and its norm; *needless: it is far below what convergence asks of forces and of constraints, or, while that is far off,
+   as far below the present KKT error and next to nothing of the right-hand side */
+static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug      = &ip->aug;
+  const PetscReal fraction = 0.01, precise = 1e-8;
+  PetscReal       forces, constraints, rhs, asked = fraction * ip->tol;
+  Vec             top, bottom;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(aug->K, aug->sol, aug->residual));
+  PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
+  PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
+  PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
+  if (ip->lin.norm <= precise * rhs && IPBothErrors(ip) <= 1.0) asked = PetscMax(asked, PetscSqr(fraction) * IPBothErrors(ip));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &top));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &bottom));
+  PetscCall(AugmentedJoin(aug->residual, top, bottom, PETSC_TRUE));
+  PetscCall(VecNorm(top, NORM_2, &forces));
+  PetscCall(VecNorm(bottom, NORM_INFINITY, &constraints));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &bottom));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &top));
+  *needless = (PetscBool)(forces <= asked * IPWorthForceUnit(ip) && constraints <= asked * ip->scale.equality);
+  PetscFunctionReturn(0);
+}
+
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of the right-hand side, or needless */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   IPAugmented    *aug   = &ip->aug;
   const PetscInt  limit = 3;
-  const PetscReal exact = 1e-12, needless = 0.01 * ip->tol * PetscMin(ip->scale.dual, ip->scale.equality);
-  PetscReal       rhs, before             = PETSC_INFINITY;
+  const PetscReal exact = 1e-12;
+  PetscReal       rhs, before = PETSC_INFINITY;
+  PetscBool       needless;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
   for (PetscInt k = 0; k <= limit; k++) {
-    PetscCall(MatMult(aug->K, aug->sol, aug->residual));
-    PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
-    PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
+    PetscCall(AugmentedMeasure(tao, &needless));
     if (!(ip->lin.norm <= before)) {
       PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
       ip->lin.norm = before;
     }
-    if (!(ip->lin.norm > PetscMax(exact * rhs, needless)) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
+    if (needless || !(ip->lin.norm > exact * rhs) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
     before = ip->lin.norm;
     PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
     PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));

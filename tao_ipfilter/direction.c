@@ -159,9 +159,9 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
    continued to what convergence asks for. matrix tells that A is new. */
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal last = ip->opt.forcing_last * ip->tol * IPWorthForceUnit(ip);
-  PetscReal       norm;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal factor = ip->opt.forcing_last * ip->tol;
+  PetscReal       norm, last = factor * IPWorthForceUnit(ip);
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;
 
@@ -170,7 +170,11 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscCall(IPCondenseRHS(tao, rc, rhs));
   PetscCall(VecNorm(rhs, NORM_2, &norm));
   PetscCall(DirectionSolveUnknowns(tao, rhs, ce, matrix, ForcingTarget(ip, last, norm), usable));
-  if (*usable) PetscCall(IPBackSubstitute(tao, rc));
+  if (*usable) {
+    PetscCall(IPBackSubstitute(tao, rc));
+    PetscCall(IPWorthForceUnitAfter(tao, ip->dir.x, &last));
+    last *= factor;
+  }
   if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {
     PetscCall(DirectionSolveUnknowns(tao, rhs, ce, PETSC_FALSE, last, usable));

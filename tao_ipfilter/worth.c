@@ -199,6 +199,22 @@ PetscReal IPWorthForceUnit(const TAO_IPFILTER *ip)
   return ip->kkt.work_dual > 0.0 ? PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual) : ip->scale.dual;
 }
 
+/* The same at the end of the step dx, where the objective is what a quadratic one would be: at a start of zero its terms say nothing */
+PetscErrorCode IPWorthForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   slope;
+  PetscReal     energy;
+
+  PetscFunctionBegin;
+  *unit = IPWorthForceUnit(ip);
+  if (!(ip->kkt.work_dual > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  PetscCall(VecDot(tao->gradient, dx, &slope));
+  energy = PetscAbsReal(ip->at.f + 0.5 * PetscRealPart(slope));
+  if (energy > ip->scale.energy) *unit = PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual * energy / ip->scale.energy);
+  PetscFunctionReturn(0);
+}
+
 /* mu below which the method need not go: each of its products is within a tenth of the tolerance, and all together are within half of it */
 PetscReal IPWorthLeastMu(const TAO_IPFILTER *ip)
 {
