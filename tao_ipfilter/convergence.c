@@ -24,73 +24,6 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
-static PetscErrorCode AddAbsoluteForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
-{
-  const PetscScalar *z;
-  PetscInt           rstart, rend;
-  Vec                force;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, space, &force));
-  PetscCall(VecCopy(multiplier, force));
-  if (weights) PetscCall(VecPointwiseMult(force, force, weights));
-  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
-  PetscCall(VecGetArrayRead(force, &z));
-  for (PetscInt i = rstart; i < rend; i++) {
-    const PetscScalar *v;
-    const PetscInt    *column;
-    PetscInt           n;
-
-    PetscCall(MatGetRow(J, i, &n, &column, &v));
-    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
-    PetscCall(MatRestoreRow(J, i, &n, &column, &v));
-  }
-  PetscCall(VecRestoreArrayRead(force, &z));
-  PetscCall(IPRestoreWork(tao, space, &force));
-  PetscCall(VecAssemblyBegin(r));
-  PetscCall(VecAssemblyEnd(r));
-  PetscFunctionReturn(0);
-}
-
-/* Largest force of all the constraints at an unknown, as if none cancelled another */
-static PetscErrorCode AbsoluteForce(Tao tao, PetscReal *largest)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           sum, force;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sum));
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
-  PetscCall(VecSet(sum, 0.0));
-  if (ip->mi) PetscCall(AddAbsoluteForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
-  if (ip->me) PetscCall(AddAbsoluteForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    if (!ip->pair[b].n) continue;
-    PetscCall(VecPointwiseMult(force, ip->pair[b].w, ip->pair[b].z));
-    PetscCall(VecAXPY(sum, 1.0, force));
-  }
-  PetscCall(VecNorm(sum, NORM_INFINITY, largest));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sum));
-  PetscFunctionReturn(0);
-}
-
-/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they cancel one
-   another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
-static PetscErrorCode Cancellation(Tao tao, PetscReal *times)
-{
-  const PetscReal vanishing = 1e-3; /* of the first gradient */
-  PetscReal       force, gradient;
-
-  PetscFunctionBegin;
-  PetscCall(AbsoluteForce(tao, &force));
-  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  gradient = PetscMax(gradient, vanishing * ((TAO_IPFILTER *)tao->data)->first.gradient);
-  *times   = gradient > 0.0 ? force / gradient : 0.0;
-  PetscFunctionReturn(0);
-}
-
 /* Whether the constraints are violated beside their first values, which do not grow with x */
 static PetscBool Violated(const TAO_IPFILTER *ip)
 {
@@ -147,7 +80,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   char            relaxed[64] = "";
 
   PetscFunctionBegin;
-  PetscCall(Cancellation(tao, &times));
+  PetscCall(IPDegenerateCancellation(tao, &times));
   PetscCall(IPWorthOfRelaxation(tao, &work));
   if (ip->relax.by > 0.0) PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
   if (times > limit) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not exist", (double)ip->kkt.error, relaxed, (double)times));
@@ -222,7 +155,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = &ip->kkt;
-  PetscBool     own, stationary = PETSC_FALSE;
+  PetscBool     own, stationary = PETSC_FALSE, fritz_john;
 
   PetscFunctionBegin;
   (void)ctx;
@@ -230,10 +163,13 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
   PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG, "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
+  PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessDegenerate(tao));
+  } else if (fritz_john && IPConstraintsMet(tao)) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow all they could balance: bounded ones may not exist", (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->at.f, (double)tao->fmin));
   } else if (Unbounded(ip)) {

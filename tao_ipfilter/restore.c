@@ -128,12 +128,13 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not */
+/* Backtracks until psi falls, inside the bounds, and puts more of the metric into the next step's model the worse this one was; *psi is its value there,
+   *alpha 0 where it does not */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo   = 1e-4;
-  const PetscInt  halvings = 12;
+  const PetscInt  halvings = 12, max_halvings_of_a_fair_model = 1;
 
   PetscFunctionBegin;
   *alpha = 1.0;
@@ -149,6 +150,7 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
     PetscCall(RestoreViolation(tao, &ip->trial, &trial));
     if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
     *psi = trial;
+    if (k > max_halvings_of_a_fair_model) ip->restore.zeta *= 10.0;
     PetscFunctionReturn(0);
   }
   *alpha = 0.0;
@@ -250,8 +252,8 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the entries of a gradient whose descent a bound close by stops */
-static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal close)
+/* Zeroes the entries of psi's gradient whose descent a bound stops so soon that psi changes by no more than the given limit */
+static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal max_change)
 {
   const PetscScalar *t;
   PetscScalar       *g;
@@ -263,7 +265,7 @@ static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal cl
   PetscCall(VecGetArrayRead(p->t, &t));
   PetscCall(VecGetArray(gradient, &g));
   for (PetscInt i = 0; i < n; i++)
-    if (PetscRealPart(t[i]) <= close && p->sign * PetscRealPart(g[i]) > 0.0) g[i] = 0.0;
+    if (p->sign * PetscRealPart(g[i]) > 0.0 && PetscRealPart(t[i]) * PetscAbsScalar(g[i]) <= max_change) g[i] = 0.0;
   PetscCall(VecRestoreArray(gradient, &g));
   PetscCall(VecRestoreArrayRead(p->t, &t));
   PetscFunctionReturn(0);
@@ -273,17 +275,15 @@ static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal cl
    stationary */
 static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal close = 1e-4;
-  PetscReal       x;
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 1e-4;
   Vec             gradient;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
   PetscCall(RestoreGradient(tao, gradient));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-  PetscCall(RestoreProject(gradient, &ip->pair[IP_LOWER], close * x));
-  PetscCall(RestoreProject(gradient, &ip->pair[IP_UPPER], close * x));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_LOWER], fraction * psi));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_UPPER], fraction * psi));
   PetscCall(IPFixedZero(tao, gradient));
   PetscCall(VecNorm(gradient, NORM_2, relative));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));

@@ -60,6 +60,7 @@ static PetscErrorCode DualScale(Tao tao)
   const PetscBool limited  = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
   const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
   PetscReal       norm, terms, stiffness;
+  const PetscReal least = PetscSqr(PETSC_MACHINE_EPSILON); /* of the first gradient: smaller ones are no gain, be it that the unknowns run off */
   const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
 
   PetscFunctionBegin;
@@ -68,7 +69,7 @@ static PetscErrorCode DualScale(Tao tao)
   PetscCall(VecNorm(ip->stiff.hdiag, NORM_2, &stiffness));
   ip->scale.dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
   if (limited) ip->scale.dual = PetscMax(ip->scale.dual, norm);
-  ip->scale.dual = PetscMax(ip->scale.dual, rounding * terms / ip->tol);
+  ip->scale.dual = PetscMax(ip->scale.dual, PetscMax(rounding * terms, least * ip->first.gradient) / ip->tol);
   PetscFunctionReturn(0);
 }
 

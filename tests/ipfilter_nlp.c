@@ -95,6 +95,7 @@ static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Out
   o->error = ObjectiveError(p, o->f);
   if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
   else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
+  else if (p->end == NLP_REACHED) o->good = (PetscBool)(o->reason > 0 && DegenerateIsGood(o->reason, o->sentence, o->error, o->violation));
   else if (p->end == NLP_INFEASIBLE) o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "infeasible"));
   else o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "unbounded"));
   if (o->reason < 0 && o->violation > (1.0 + PETSC_SMALL) * first) o->good = PETSC_FALSE;
@@ -121,7 +122,7 @@ static PetscErrorCode GetLimits(const NLP *p, PetscInt mode, Counts *most)
 /* mode: whose counts are held, or negative */
 static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *o)
 {
-  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded"};
+  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded", "reached"};
   Counts                   most;
   PetscBool                relaxed = PETSC_FALSE;
 

@@ -6,7 +6,8 @@ typedef enum {
   NLP_SOLVED,
   NLP_DEGENERATE, /* no multipliers exist: a failure is admitted, a wrong result is not */
   NLP_INFEASIBLE,
-  NLP_UNBOUNDED
+  NLP_UNBOUNDED,
+  NLP_REACHED /* no multipliers exist, and the optimum is to be found in spite of that */
 } NLPEnd;
 
 /* Formulas in x1, x2, ...; several constraints are separated by semicolons. Bounds: one "lower:upper" a variable, either may be missing.
@@ -21,6 +22,10 @@ typedef struct {
 #define ROSENBROCK "100*(x2-x1^2)^2+(1-x1)^2"
 #define HS35       "9-8*x1-6*x2-4*x3+2*x1^2+2*x2^2+x3^2+2*x1*x2+2*x1*x3"
 #define HS71       "x1*x4*(x1+x2+x3)+x3"
+
+#define HS84A "-145421.402*x1+2931.1506*x1*x2-40.427932*x1*x3+5106.192*x1*x4+15711.36*x1*x5"
+#define HS84B "-155011.1084*x1+4360.53352*x1*x2+12.9492344*x1*x3+10236.884*x1*x4+13176.786*x1*x5"
+#define HS84C "-326669.5104*x1+7390.68412*x1*x2-27.8986976*x1*x3+16643.076*x1*x4+30988.146*x1*x5"
 
 #define TWICE         "x1^2-x2^2+(x2-1)^4+x3^2"
 #define TWICE_OPTIMUM -2.548914701202683
@@ -149,6 +154,24 @@ static const NLP problems[] = {
   {"line by two inequalities", "x1^2+x2^2", "x1+x2-1; 1-x1-x2", "", "", "2 0", 0.5, NLP_SOLVED, NULL},
   /* complementarity without an interior: a slack vanishes before mu does, and hypre meets a pivot of zero */
   {"jr2", "(x2-1)^2+x1^2", "x2; x2-x1; -(x2)*(x2-x1)", "", "", "0 0", 0.5, NLP_DEGENERATE, NULL},
+  /* linear programs but for products of two unknowns, whose first steps do not lead to the interior */
+  {"HS83", "5.3578547*x3^2+0.8356891*x1*x5+37.293239*x1-40792.141",
+   "85.334407+0.0056858*x2*x5+0.0006262*x1*x4-0.0022053*x3*x5; 92-85.334407-0.0056858*x2*x5-0.0006262*x1*x4+0.0022053*x3*x5;"
+   "80.51249+0.0071317*x2*x5+0.0029955*x1*x2+0.0021813*x3^2-90; 110-80.51249-0.0071317*x2*x5-0.0029955*x1*x2-0.0021813*x3^2;"
+   "9.300961+0.0047026*x3*x5+0.0012547*x1*x3+0.0019085*x3*x4-20; 25-9.300961-0.0047026*x3*x5-0.0012547*x1*x3-0.0019085*x3*x4",
+   "", "78:102 33:45 27:45 27:45 27:45", "78 33 27 27 27", -30665.53867, NLP_SOLVED, NULL},
+  {"HS84", "24345+8720288.849*x1-150512.5253*x1*x2+156.6950325*x1*x3-476470.3222*x1*x4-729482.8271*x1*x5",
+   HS84A "; 294000-(" HS84A ");" HS84B "; 294000-(" HS84B ");" HS84C "; 277200-(" HS84C ")", "", "0:1000 1.2:2.4 20:60 9:9.3 6.5:7", "2.52 2 37.5 9.25 6.8", -5280335.1, NLP_SOLVED, NULL},
+  /* complementarity (MacMPEC, Leyffer): a >= 0, b >= 0, a b <= 0 has no interior */
+  {"bard1", "(x1-5)^2+(2*x2+1)^2",
+   "3*x1-x2-3; x3; -(3*x1-x2-3)*x3; -x1+0.5*x2+4; x4; -(-x1+0.5*x2+4)*x4; -x1-x2+7; x5; -(-x1-x2+7)*x5", "2*(x2-1)-1.5*x1+x3-0.5*x4+x5", "0: 0: : : :", "0 0 0 0 0", 17.0, NLP_REACHED, NULL},
+  {"jr1", "(x1-1)^2+x2^2", "x2; x2-x1; -(x2)*(x2-x1)", "", "", "0 0", 0.5, NLP_REACHED, NULL},
+  {"ralph1", "2*x1-x2", "x2; x2-x1; -(x2)*(x2-x1)", "", "0: :", "1 0", 0.0, NLP_REACHED, NULL},
+  /* the gradient of the constraint vanishes where it is met */
+  {"x^2=0", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL},
+  {"x^2=0 and y", "(x1-1)^2+(x2-2)^2", "", "x1^2", "", "1 1", 1.0, NLP_REACHED, NULL},
+  /* the least value is attained nowhere */
+  {"runs off", "exp(-2*x1)", "", "", "", "0", 0.0, NLP_SOLVED, NULL},
 
   {"apart", "x1^2", "x1-1; -x1", "", "", "0.5", 0.0, NLP_INFEASIBLE, NULL},
   {"nowhere", "x1", "-x1^2-1", "", "", "3", 0.0, NLP_INFEASIBLE, NULL},
@@ -156,6 +179,10 @@ static const NLP problems[] = {
   /* multipliers of equality constraints that cannot be met outgrow everything */
   {"square of -1", "x1", "", "x1^2+1", "", "2", 0.0, NLP_INFEASIBLE, NULL},
   {"bounded out", "x1", "", "x1+x2-3", "0:1 0:1", "0.5 0.5", 0.0, NLP_INFEASIBLE, NULL},
+  /* the violation is least where a bound stops it */
+  {"stopped", "x1", "0.25-exp(2*x1)", "", "0:", "1.5", 0.0, NLP_INFEASIBLE, NULL},
+  /* and here far from zero, where the curvature of the constraints counts as much as their gradients */
+  {"symmetric functions", "0", "", "x1+x2+x3-0.1; x1*x2+x2*x3+x3*x1; x1*x2*x3-2", "", "1 0.5 -1", 0.0, NLP_INFEASIBLE, NULL},
   {"line", "-x1", "", "", "0:", "1", 0.0, NLP_UNBOUNDED, NULL},
   {"cubic", "x1^3", "", "", "", "-1", 0.0, NLP_UNBOUNDED, NULL},
   {"ray", "-x1-x2", "x1-x2^2+4", "", "", "1 1", 0.0, NLP_UNBOUNDED, NULL},
