@@ -2,15 +2,15 @@
    IPOPT beside TAOIPFILTER on distributed control: the problem of tests/ipfilter_control.c, with IPOPT's defaults.
    Arguments: points in each direction, alpha, and if need be the bound of the state. A program of its own, as nlp_ipopt.c.
 */
-#include <IpStdCInterface.h>
+#include "ipopt_run.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 typedef struct {
-  int    n, iterations;
-  double h, alpha;
+  RunRecord record;
+  int       n;
+  double    h, alpha;
 } Grid;
 
 static const double source = 3.0;
@@ -135,21 +135,6 @@ static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Numb
   return TRUE;
 }
 
-static Bool Count(Index mode, Index iteration, Number f, Number inf_pr, Number inf_du, Number mu, Number d_norm, Number regularization, Number alpha_du, Number alpha_pr, Index trials, UserDataPtr user)
-{
-  (void)mode, (void)f, (void)inf_pr, (void)inf_du, (void)mu, (void)d_norm, (void)regularization, (void)alpha_du, (void)alpha_pr, (void)trials;
-  ((Grid *)user)->iterations = iteration;
-  return TRUE;
-}
-
-static double Seconds(void)
-{
-  struct timespec now;
-
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 int main(int argc, char **argv)
 {
   Grid                         g         = {.n = argc > 1 ? atoi(argv[1]) : 32, .alpha = argc > 2 ? atof(argv[2]) : 1e-4};
@@ -164,13 +149,12 @@ int main(int argc, char **argv)
     lower[k] = -2e19;
     upper[k] = k % 2 ? 2e19 : state_max;
   }
-  begin   = Seconds();
+  begin   = RunSeconds(CLOCK_PROCESS_CPUTIME_ID);
   problem = CreateIpoptProblem(2 * points, lower, upper, points, zero, zero, nonzeros, 2 * points, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
+  RunPrepare(problem);
   AddIpoptIntOption(problem, "print_level", argc > 4 ? atoi(argv[4]) : 0);
-  AddIpoptStrOption(problem, "sb", "yes");
-  SetIntermediateCallback(problem, Count);
   status = IpoptSolve(problem, x, NULL, &f, NULL, NULL, NULL, &g);
-  printf("%d x %d: objective %.10e, %d steps, %.2f s of CPU; IPOPT's status %d\n", g.n, g.n, f, g.iterations, Seconds() - begin, (int)status);
+  printf("%d x %d: objective %.10e, %d steps, %.2f s of CPU; IPOPT's status %d\n", g.n, g.n, f, g.record.iterations, RunSeconds(CLOCK_PROCESS_CPUTIME_ID) - begin, (int)status);
   FreeIpoptProblem(problem);
   free(x), free(lower), free(upper), free(zero);
   return status == Solve_Succeeded ? 0 : 1;

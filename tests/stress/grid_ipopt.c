@@ -3,18 +3,18 @@
    One line, as `ipfilter_grid -report`. A program of its own, without PETSc: IPOPT brings another MUMPS, and another MPI, than PETSc.
 */
 #include "../ipfilter_grid.h"
-#include <IpStdCInterface.h>
+#include "ipopt_run.h"
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #define STENCIL 4 /* lower triangle of a row: south-east, south, west, diagonal */
 
 typedef struct {
-  int     problem, n, iterations;
-  double *v;    /* five entries of K an unknown */
-  double *load; /* b */
-  double  constant;
+  RunRecord record;
+  int       problem, n;
+  double   *v;    /* five entries of K an unknown */
+  double   *load; /* b */
+  double    constant;
 } Grid;
 
 static int Column(int k, int i)
@@ -169,30 +169,6 @@ static Bool Hessian(Index N, Number *u, Bool fresh, Number factor, Index m, Numb
   return TRUE;
 }
 
-static Bool Count(Index mode, Index iteration, Number f, Number inf_pr, Number inf_du, Number mu, Number d_norm, Number regularization, Number alpha_du, Number alpha_pr, Index trials, UserDataPtr user)
-{
-  (void)mode;
-  (void)f;
-  (void)inf_pr;
-  (void)inf_du;
-  (void)mu;
-  (void)d_norm;
-  (void)regularization;
-  (void)alpha_du;
-  (void)alpha_pr;
-  (void)trials;
-  ((Grid *)user)->iterations = iteration;
-  return TRUE;
-}
-
-static double Seconds(clockid_t clock)
-{
-  struct timespec now;
-
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void Fill(Grid *grid, double *lower, double *upper)
 {
   for (int j = 0, k = 0; j < grid->n; j++)
@@ -217,16 +193,14 @@ int main(int argc, char **argv)
   grid.load = calloc(N, sizeof(*grid.load));
   Fill(&grid, lower, upper);
   problem = CreateIpoptProblem((Index)N, lower, upper, 0, &none, &none, 0, (Index)(STENCIL * N), 0, Objective, Constraints, Gradient, Jacobian, Hessian);
-  AddIpoptIntOption(problem, "print_level", 0);
-  AddIpoptStrOption(problem, "sb", "yes");
-  SetIntermediateCallback(problem, Count);
-  wall   = Seconds(CLOCK_MONOTONIC);
-  cpu    = Seconds(CLOCK_PROCESS_CPUTIME_ID);
+  RunPrepare(problem);
+  wall   = RunSeconds(CLOCK_MONOTONIC);
+  cpu    = RunSeconds(CLOCK_PROCESS_CPUTIME_ID);
   status = IpoptSolve(problem, u, NULL, &f, NULL, NULL, NULL, &grid);
-  wall   = Seconds(CLOCK_MONOTONIC) - wall;
-  cpu    = Seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+  wall   = RunSeconds(CLOCK_MONOTONIC) - wall;
+  cpu    = RunSeconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
   for (size_t k = 0; k < N; k++) violation = fmax(violation, fmax(lower[k] - u[k], u[k] - upper[k]));
-  printf("%s|%s|%.15e|%.1e|%d|0|%.2f|%.2f\n", grid_names[grid.problem], status == Solve_Succeeded ? "CONVERGED" : "DIVERGED", f, violation, grid.iterations, wall, cpu);
+  printf("%s|%s|%.15e|%.1e|%d|0|%.2f|%.2f\n", grid_names[grid.problem], status == Solve_Succeeded ? "CONVERGED" : "DIVERGED", f, violation, grid.record.iterations, wall, cpu);
   FreeIpoptProblem(problem);
   return 0;
 }

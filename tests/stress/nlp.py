@@ -1,14 +1,17 @@
 """TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and nlp_profile.png.
 
-The problems are those of tests/ipfilter_nlp.h and of nlp_problems.py; `make stress STRESS=nlp` builds the programs and runs this.
+The problems are those of tests/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of nlp_kinds.py; `make stress STRESS=nlp` builds
+the programs and runs this.
 """
 import argparse
+import itertools
 import os
 import select
 import subprocess
 import time
 
-from nlp_problems import DEGENERATE, INFEASIBLE, PROBLEMS, SOLVED, UNBOUNDED, Problem
+from nlp_kinds import KINDS
+from nlp_problems import DEGENERATE, INFEASIBLE, PROBLEMS, REACHED, SOLVED, UNBOUNDED, Problem
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FAR = 1e-5  # relative error of the objective: more is wrong
@@ -49,7 +52,7 @@ def shipped(folder):
     """The problems of tests/ipfilter_nlp.h"""
     lines = subprocess.run([os.path.join(folder, "tao")], capture_output=True, text=True, check=True).stdout.split("\n")
     for name, optimum, end, others, objective, inequalities, equalities, bounds, start in zip(*[iter(lines)] * 9):
-        yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds, others=map(float, others.split()), end=int(end))
+        yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds, others=map(float, others.split()), end=DEGENERATE if int(end) == REACHED else int(end))
 
 
 def write(path, problems):
@@ -85,7 +88,7 @@ def run(solver, problems, folder, limit):
     while len(results) < len(problems):
         with open(os.path.join(folder, "said"), "w+") as said, subprocess.Popen(solver.command(path, len(results)), stdout=subprocess.PIPE, stderr=said) as process:
             for line in lines_until(process, limit):
-                name, *fields = line.split("|")
+                name, *fields = line.split("|", 7)  # the sentence may hold some, too
                 if len(fields) == 7 and name == problems[len(results)].name:
                     results.append(Result(*fields))
             process.wait()
@@ -131,11 +134,13 @@ def table(problems, results, names):
         yield f"| {p.name} | {optimum} " + "".join(cell(results[name].get(p.name)) for name in names) + "|"
 
 
-def counts(results):
+def counts(problems, results):
     """A row a solver"""
+    names = {p.name for p in problems}
     yield f"| solver | problems | right | wrong | failed | right to {LOOSE:g} | iterations | points | seconds |"
     yield "|" + " --- |" * 9
-    for name, found in results.items():
+    for name, all_found in results.items():
+        found = {problem: r for problem, r in all_found.items() if problem in names}
         good = [r for r in found.values() if r.verdict == "right"]
         yield (f"| {name} | {len(found)} | {len(good)} | {sum(r.verdict == 'wrong' for r in found.values())} | {sum(r.verdict == 'failed' for r in found.values())} "
                f"| {sum(r.error < LOOSE and not r.violation > LOOSE for r in good)} | {sum(r.iterations for r in good)} | {sum(r.points for r in good)} | {sum(r.seconds for r in good):.1f} |")
@@ -186,7 +191,8 @@ HEADER = """# Nonlinear programs: TAOIPFILTER beside IPOPT and other solvers of 
 right: said to have converged (or to be acceptable), the objective within %g of an optimum or of a local minimum from the literature, relative, and
 constraints violated by less than %g, relative to the rows of the Jacobian; or said to be infeasible or unbounded where it is. wrong: said to have converged, and
 it is not so, or said to be infeasible where it is unbounded. failed: the solver says that it has. Points: at which the objective or its gradient was asked for. Sums are
-over the problems that a solver has right.
+over the problems that a solver has right. The second set was written when the solver had been developed with the first; before anything was changed for it,
+TAOIPFILTER had 57 of its 63 problems right and none wrong, IPOPT 55 and 5.
 """
 
 
@@ -200,21 +206,24 @@ def parse():
 
 def main():
     args = parse()
-    problems, results = [*shipped(args.folder), *PROBLEMS], {}
+    sets = {"The first set": [*shipped(args.folder), *PROBLEMS], "The second set, of other kinds": KINDS}
+    problems, results = list(itertools.chain(*sets.values())), {}
     for solver in solvers(args.folder):
         results[solver.name] = run(solver, [p for p in problems if solver.applies(p)], args.folder, args.limit)
         for p in problems:
             if p.name in results[solver.name]:
                 results[solver.name][p.name].verdict = judge(p, results[solver.name][p.name])
     ours, none, ipopt = list(results)[:3]
-    lines = [HEADER % (args.limit, FAR, FAR_VIOLATION), *counts(results), "", *common(problems, results, (ours, ipopt))]
+    lines = [HEADER % (args.limit, FAR, FAR_VIOLATION)]
+    for title, members in sets.items():
+        lines += [f"## {title}", "", *counts(members, results), "", *common(members, results, (ours, ipopt)), ""]
     for left, right in ((ours, ipopt), (ipopt, ours)):
-        lines += ["", f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right)]
-    lines += ["", "## All", "", *table(problems, results, (ours, none, ipopt))]
+        lines += [f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right), ""]
+    lines += ["## All", "", *table(problems, results, (ours, none, ipopt))]
     with open(os.path.join(args.out, "nlp.md"), "w") as out:
         out.write("\n".join(lines) + "\n")
     profile(problems, results, os.path.join(args.out, "nlp_profile.png"))
-    print("\n".join(counts(results)))
+    print("\n".join(line for members in sets.values() for line in counts(members, results)))
 
 
 if __name__ == "__main__":

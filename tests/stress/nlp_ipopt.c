@@ -5,14 +5,14 @@
 */
 #include "nlp_read.h"
 #include "../ipfilter_expression.h"
-#include <IpStdCInterface.h>
-#include <time.h>
+#include "ipopt_run.h"
 
 typedef struct {
+  RunRecord   record;
   const NLP  *p;
   int         n, mi, m;
   const char *c[FORMULAS_MAX];      /* inequalities, then equalities */
-  int         iterations, npoints;  /* npoints: at which the objective or its gradient was asked for */
+  int         npoints;              /* at which the objective or its gradient was asked for */
   double      last[EXPRESSION_MAX]; /* of them */
 } Context;
 
@@ -147,22 +147,6 @@ static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Numb
   return TRUE;
 }
 
-static Bool Count(Index mode, Index iteration, Number f, Number inf_pr, Number inf_du, Number mu, Number d_norm, Number regularization, Number alpha_du, Number alpha_pr, Index trials, UserDataPtr user)
-{
-  (void)mode;
-  (void)f;
-  (void)inf_pr;
-  (void)inf_du;
-  (void)mu;
-  (void)d_norm;
-  (void)regularization;
-  (void)alpha_du;
-  (void)alpha_pr;
-  (void)trials;
-  ((Context *)user)->iterations = iteration;
-  return TRUE;
-}
-
 /* How it ended, in the words of nlp.py */
 static const char *Ending(enum ApplicationReturnStatus status)
 {
@@ -223,21 +207,13 @@ static double Violation(const Context *ctx, const double x[], const double lower
   return violation;
 }
 
-static double Seconds(void)
-{
-  struct timespec now;
-
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* f: at x */
 static void Report(Context *ctx, enum ApplicationReturnStatus status, const double x[], const double lower[], const double upper[], double seconds)
 {
   Jet f;
 
   ExpressionEvaluate(ctx->p->objective, x, NULL, &f);
-  printf("%s|%s|%.12e|%.1e|%d|%d|%.5f|%s\n", ctx->p->name, Ending(status), f.v, Violation(ctx, x, lower, upper), ctx->iterations, ctx->npoints, seconds, Name(status));
+  printf("%s|%s|%.12e|%.1e|%d|%d|%.5f|%s\n", ctx->p->name, Ending(status), f.v, Violation(ctx, x, lower, upper), ctx->record.iterations, ctx->npoints, seconds, Name(status));
   fflush(stdout);
 }
 
@@ -251,13 +227,11 @@ static IpoptProblem CreateProblem(Context *ctx, double lower[], double upper[], 
     most[i]  = i < ctx->mi ? 2e19 : 0.0;
   }
   problem = CreateIpoptProblem(ctx->n, lower, upper, ctx->m, least, most, ctx->m * ctx->n, ctx->n * (ctx->n + 1) / 2, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
-  AddIpoptIntOption(problem, "print_level", 0);
-  AddIpoptStrOption(problem, "sb", "yes");
+  RunPrepare(problem);
   if (tolerance > 0.0) {
     AddIpoptNumOption(problem, "tol", tolerance);
     AddIpoptNumOption(problem, "bound_relax_factor", 0.0);
   }
-  SetIntermediateCallback(problem, Count);
   return problem;
 }
 
@@ -275,9 +249,9 @@ static void Solve(const NLP *p, double tolerance)
   Read(p->start, ctx.n, x, NULL);
   Read(p->bounds, ctx.n, lower, upper);
   problem = CreateProblem(&ctx, lower, upper, tolerance);
-  begin   = Seconds();
+  begin   = RunSeconds(CLOCK_MONOTONIC);
   status  = IpoptSolve(problem, x, NULL, &f, NULL, NULL, NULL, &ctx);
-  Report(&ctx, status, x, lower, upper, Seconds() - begin);
+  Report(&ctx, status, x, lower, upper, RunSeconds(CLOCK_MONOTONIC) - begin);
   FreeIpoptProblem(problem);
 }
 
