@@ -23,7 +23,7 @@ installed = $(call put,755,$(programs),bin) $(call put,755,$(PLUGIN).$(VERSION),
             'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' 'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
             $(call put,644,$(package_files),lib/pkgconfig) $(call put,644,include/petscamgf.h,include) \
             $(if $(PETSC_COMPLEX),,$(call put,644,$(LIBRARY),lib) $(call put,644,$(filter-out include/petscamgf.h,$(wildcard include/*.h)),include/contact)) \
-            $(foreach kind,scenes options gmsh,$(call put,644,$(wildcard share/$(kind)/*.*),share/amgf/$(kind))) \
+            $(foreach kind,scenes options gmsh examples,$(call put,644,$(wildcard share/$(kind)/*.* share/$(kind)/makefile),share/amgf/$(kind))) \
             $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf)
 
 .PHONY: install uninstall
