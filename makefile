@@ -81,6 +81,7 @@ scene-stress: dependencies
 	@mkdir -p build/stress
 	$(PYTHON) -B tests/stress/run.py --report build/stress/report.md $(STRESS)
 
+include share/doc.mk
 include share/install.mk
 include share/checks.mk
 include share/bench.mk
@@ -99,6 +100,7 @@ help:
 	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
 	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; fuzz: FUZZ_TIME=600 [s] a target'
+	@echo 'make doc             guides and manual pages in build/doc; needs pandoc'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR; make uninstall takes it away again'
 	@echo 'make clean           removes build, bin and lib'
 	@echo

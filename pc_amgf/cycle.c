@@ -162,7 +162,7 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
   PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
   if (stale) PetscCall(PCSetUp_AMGF(pc));
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
-  if (pc->failedreason) PetscCall(VecSetInf(z)); /* the KSP that owns it then asks why */
+  PetscCall(VecFlag(z, pc->failedreason)); /* the KSP that owns it then asks why */
   PetscFunctionReturn(0);
 }
 

@@ -22,6 +22,11 @@ typedef PetscOptionItems AMGFOptionItems;
   #define MPI_PETSCBOOL MPI_C_BOOL
 #endif
 
+/* A vector that tells the solver which asked for it of a failure */
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define VecFlag(vector, failed) ((failed) ? VecSetInf(vector) : (PetscErrorCode)0)
+#endif
+
 /* What a shell matrix's operation is passed as */
 #if PETSC_VERSION_LT(3, 24, 0)
 typedef void AMGFOperation(void);

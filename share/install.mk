@@ -1,4 +1,4 @@
-# make install, make uninstall: what goes where below DESTDIR and PREFIX.
+# What make install puts where below DESTDIR and PREFIX, and make uninstall takes away.
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
@@ -8,28 +8,33 @@ petsc_release := $(subst ., ,$(petsc_version))
 petsc_minor   := $(word 2,$(petsc_release))
 petsc_scalars := $(if $(PETSC_COMPLEX),complex,real)
 petsc_indices := $(if $(shell grep -hs 'define PETSC_USE_64BIT_INDICES' $(petsc_headers) /dev/null),64,32)
-package_files := build/pkgconfig/petscamgf.pc $(if $(PETSC_COMPLEX),,build/pkgconfig/contact.pc)
+package_files := petscamgf.pc $(if $(PETSC_COMPLEX),,contact.pc)
 
-build/pkgconfig/%.pc: share/%.pc.in FORCE
-	@mkdir -p $(@D)
-	@sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@PETSC_VERSION@|$(petsc_version)|' -e 's|@PETSC_PREFIX@|$(PETSC_PREFIX)|' \
-	  -e 's|@PETSC_RELEASE@|$(word 1,$(petsc_release)).$(petsc_minor)|' -e 's|@PETSC_NEXT@|$(word 1,$(petsc_release)).$(shell expr 0$(petsc_minor) + 1)|' \
-	  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@PETSC_INDICES@|$(petsc_indices)|' $< > $@
+# What a pkg-config file says of this PREFIX and this PETSc
+fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@PETSC_VERSION@|$(petsc_version)|' -e 's|@PETSC_PREFIX@|$(PETSC_PREFIX)|' \
+  -e 's|@PETSC_RELEASE@|$(word 1,$(petsc_release)).$(petsc_minor)|' -e 's|@PETSC_NEXT@|$(word 1,$(petsc_release)).$(shell expr 0$(petsc_minor) + 1)|' \
+  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@PETSC_INDICES@|$(petsc_indices)|'
 
 # $(call put,MODE,FILES,FOLDER): lines of install.sh
 put = $(foreach file,$(2),'$(1) $(file) $(3)/$(notdir $(file))')
 
 installed = $(call put,755,$(programs),bin) $(call put,755,$(PLUGIN).$(VERSION),lib) \
             'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' 'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
-            $(call put,644,$(package_files),lib/pkgconfig) $(call put,644,include/petscamgf.h,include) \
+            $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') $(call put,644,include/petscamgf.h,include) \
             $(if $(PETSC_COMPLEX),,$(call put,644,$(LIBRARY),lib) $(call put,644,$(filter-out include/petscamgf.h,$(wildcard include/*.h)),include/contact)) \
             $(foreach kind,scenes options gmsh examples,$(call put,644,$(wildcard share/$(kind)/*.* share/$(kind)/makefile),share/amgf/$(kind))) \
-            $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf)
+            $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
+            $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 
-.PHONY: install uninstall
+.PHONY: install install-files uninstall
 
-install: all $(package_files)
-	@printf '%s\n' $(installed) | ./share/install.sh '$(DESTDIR)$(PREFIX)'
+# The manual pages are there only when a second make looks for them
+install: all man
+	@$(MAKE) --no-print-directory install-files
+
+install-files:
+	@folder=$$(mktemp -d) && $(foreach file,$(package_files),$(fill_in) share/$(file).in > $$folder/$(file) &&) \
+	  printf '%s\n' $(installed) | sed "s|@FOLDER@|$$folder|" | ./share/install.sh '$(DESTDIR)$(PREFIX)'; code=$$?; rm -rf "$$folder"; exit $$code
 
 uninstall:
 	./share/uninstall.sh '$(DESTDIR)$(PREFIX)'

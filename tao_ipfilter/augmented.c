@@ -51,6 +51,27 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* On any rank */
+static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  *misses = PETSC_FALSE;
+  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend && !*misses; i++) {
+    PetscInt        n, k = 0;
+    const PetscInt *cols;
+
+    PetscCall(MatGetRow(A, i, &n, &cols, NULL));
+    while (k < n && cols[k] != i) k++;
+    *misses = (PetscBool)(k == n);
+    PetscCall(MatRestoreRow(A, i, &n, &cols, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, misses, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)A)));
+  PetscFunctionReturn(0);
+}
+
 /* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper triangle */
 static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 {
@@ -59,8 +80,7 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 
   PetscFunctionBegin;
   PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, block));
-  PetscCall(MatMissingDiagonal(*block, &missing, NULL));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)A)));
+  PetscCall(AugmentedMissesDiagonal(*block, &missing));
   if (!missing) PetscFunctionReturn(0);
   PetscCall(MatSetOption(*block, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(MatGetOwnershipRange(*block, &rstart, &rend));

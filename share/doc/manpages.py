@@ -1,0 +1,73 @@
+"""Manual pages for man(1), made of those in the sources and of the help text of contact: python3 manpages.py TOP FOLDER VERSION"""
+import glob
+import os
+import re
+import sys
+
+TOP, FOLDER, VERSION = sys.argv[1:]
+
+
+def escape(text):
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    text = re.sub(r"`([^`]*)`", r"\\fB\1\\fR", text)
+    return "\\&" + text if text[:1] in (".", "'") else text
+
+
+def page(name, section, description, body):
+    os.makedirs(os.path.join(FOLDER, f"man{section}"), exist_ok=True)
+    with open(os.path.join(FOLDER, f"man{section}", f"{name}.{section}"), "w") as file:
+        file.write(f'.TH {name} {section} "" "petscamgf {VERSION}"\n.SH NAME\n{name} \\- {escape(description)}\n{body}')
+
+
+def items(lines):
+    """Lists "+ name - text", "." and "-" alike, and paragraphs"""
+    for line in lines:
+        item = re.match(r"\s*[+.-]\s+(\S.*?)\s+-(?:\s+(.*))?$", line)
+        if item:
+            yield ".TP\n\\fB" + escape(item[1]) + "\\fR"
+            yield escape(item[2] or "")
+        elif re.match(r"\s*[+.-]?\s*\* - ", line):
+            yield ".IP \\(bu 2\n" + escape(re.sub(r"^\s*[+.-]?\s*\* - ", "", line))
+        elif line.strip():
+            yield escape(line.strip())
+        else:
+            yield ".PP"
+
+
+def from_source(comment, synopsis):
+    lines = comment.strip("\n").split("\n")
+    name, description = (part.strip() for part in lines[0].split(" - ", 1))
+    body = [".SH SYNOPSIS\n.nf\n#include <petscamgf.h>\n" + escape(synopsis) + "\n.fi"] if synopsis else []
+    body.append(".SH DESCRIPTION")
+    for line in lines[1:]:
+        heading = re.match(r"\s*([A-Z][A-Za-z ]*):$", line)
+        seealso = re.match(r"\s*\.seealso:\s*(.*)", line)
+        if heading:
+            body.append(".SH " + heading[1].upper())
+        elif seealso:
+            body += [".SH SEE ALSO", escape(seealso[1])]
+        else:
+            body += items([line])
+    page(name, 3, description, "\n".join(body) + "\n")
+
+
+for path in sorted(glob.glob(os.path.join(TOP, "pc_amgf", "*.c")) + glob.glob(os.path.join(TOP, "tao_ipfilter", "*.c")) + [os.path.join(TOP, "include", "petscamgf.h")]):
+    with open(path) as file:
+        text = file.read()
+    for match in re.finditer(r"/\*(@C?|MC|E)\n(.*?)\n(?:@|M|E)\*/\n([^\n]*)", text, flags=re.S):
+        from_source(match[2], match[3] if match[1].startswith("@") else "")
+
+with open(os.path.join(TOP, "apps", "contact.c")) as file:
+    help_text = re.search(r'help\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
+summary, rest = help_text.split("\n", 1)
+options, codes = rest.split("Exit code:\n")
+body = [".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n.SH DESCRIPTION\nThe scene is a YAML file; share/amgf/scenes has some, and README.md there every key.\n.SH OPTIONS"]
+for line in options.splitlines():
+    name, text = re.match(r"\s+(\S.*?)\s{2,}(.*)", line).groups()
+    body += [".TP\n\\fB" + escape(name) + "\\fR", escape(text)]
+body.append(".PP\nEvery option of PETSc, and those of PCAMGF(3) and TAOIPFILTER(3).\n.SH EXIT STATUS")
+for line in codes.splitlines():
+    code, text = line.split(None, 1)
+    body += [f".TP\n\\fB{code}\\fR", escape(text)]
+body.append(".SH SEE ALSO\nPCAMGF(3), TAOIPFILTER(3)")
+page("contact", 1, summary.split(":")[0].rstrip("."), "\n".join(body) + "\n")
