@@ -2,7 +2,8 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -refine N            uniform refinements of the scene's level 0\n\
   -load_steps N        load steps of equal size\n\
   -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
-  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView\n\
+  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView, BASE.csv (a line a load step)\n\
+  -output_gauss        also stress at the quadrature points, BASE_gauss.xmf\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
   -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
@@ -39,7 +40,7 @@ Exit code:\n\
 
 typedef struct {
   char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, summarize, contact_free, effects, accuracy, check, quiet;
+  PetscBool write, gauss, summarize, contact_free, effects, accuracy, check, quiet;
 } AppOptions;
 
 /* What is known of an error by the time it reaches main() */
@@ -144,6 +145,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
+  PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss, &app->gauss, NULL));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free, &app->contact_free, NULL));
   PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
@@ -191,6 +193,7 @@ static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Ac
   PetscCall(AccuracyPlan(accuracy, scene, &tolerances));
   PetscCall(SimulationSetTolerances(*sim, &tolerances));
   PetscCall(SimulationSetMonitor(*sim, (PetscBool)!app->quiet));
+  PetscCall(SimulationSetFields(*sim, app->write, (PetscBool)(app->write && app->gauss)));
   PetscCall(SimulationSetFromOptions(*sim));
   PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);

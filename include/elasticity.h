@@ -40,6 +40,12 @@ PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, co
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
+/* Fields to look at: stress at the nodes of the local section, by recovery, and at quadrature points; strain energy of cells per volume */
+PETSC_EXTERN PetscErrorCode ElasticityNodalStress(Elasticity, Vec u, PetscReal *stress[]);
+PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *npoints, PetscReal *places[], PetscReal *stress[]);
+PETSC_EXTERN PetscErrorCode ElasticityCellEnergy(Elasticity, Vec u, PetscReal *density[]);
+/* Principal values of a stress, xx yy zz xy yz zx, the largest first */
+PETSC_EXTERN PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3]);
 /* Discretization error in the energy norm, squared, estimated for each body; and for each local cell, unless cells is NULL [force length] */
 PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal bodies[], PetscReal *cells[]);
 PETSC_EXTERN PetscErrorCode ElasticityDestroy(Elasticity *);

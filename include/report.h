@@ -31,6 +31,16 @@ typedef struct {
   PetscReal   factor;
 } RampReport;
 
+/* A point of a probe. Stress is interpolated from the nodes' */
+typedef struct {
+  const char *name;
+  PetscReal   arc;                                                                                                                /* from the beginning of its line; 0 of a point [length] */
+  PetscReal   place[3];                                                                                                           /* undeformed [length] */
+  PetscReal   displacement[3];                                                                                                    /* [length] */
+  PetscReal   stress_xx, stress_yy, stress_zz, stress_xy, stress_yz, stress_zx, von_mises, principal_1, principal_2, principal_3; /* [force/length^2] */
+  PetscReal   contact_pressure, contact_gap, contact_status;                                                                      /* [force/length^2], [length], 1 closed 0 open; NaN: on no face of a pair */
+} ProbeReport;
+
 /* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
 typedef struct {
   const char *name;
@@ -74,13 +84,17 @@ typedef struct {
   PetscReal            reaction[3];      /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if none is [force] */
   PetscInt             nramps;           /* of the scene, the load itself first */
   RampReport          *ramps;
-  PetscInt             npairs;           /* of the scene, in its order; 0 before the first solve that converged */
+  PetscInt             npairs; /* of the scene, in its order; 0 before the first solve that converged */
   PairReport          *pairs;
   PetscInt             nfaces; /* with prescribed displacements, in the order in which the scene names them first */
   FaceReport          *faces;
   PetscInt             nbodies;
   BodyReport          *bodies;
-  PetscReal            balance;    /* largest of the bodies' */
+  PetscReal            balance; /* largest of the bodies' */
+  PetscInt             nprobes; /* of the scene: points */
+  ProbeReport         *probes;
+  PetscInt             nlines; /* points of all lines in turn */
+  ProbeReport         *lines;
   PetscLogDouble       solve_time; /* optimizer alone, its linear solves included [s] */
   PetscLogDouble       step_time;  /* all of the load step but what is written of it [s] */
   PetscBool            converged;
@@ -101,13 +115,21 @@ typedef struct {
   PetscBool closed;
 } ContactPoint;
 
-/* The state at the end of a load step; borrowed, valid until the next one */
+/* Of a stress: xx yy zz xy yz zx, von Mises, the principal values with the largest first */
+#define STRESS_VALUES 10
+
+/* The state at the end of a load step; borrowed, valid until the next one. What SimulationSetFields() did not ask for is NULL */
 typedef struct {
   const StepReport   *report;
-  Vec                 displacement; /* global, 3 a vertex [length] */
-  const PetscReal    *stress;       /* 7 values a local cell, see ElasticityCellStress() */
-  PetscInt            npoints;      /* of contact, of this rank */
-  const ContactPoint *points;       /* pair by pair */
+  Vec                 displacement;      /* global, 3 a vertex [length] */
+  const PetscReal    *stress;            /* 7 values a local cell, see ElasticityCellStress() */
+  const PetscReal    *nodal;             /* STRESS_VALUES a vertex that this rank owns, in the order of global vectors */
+  const PetscReal    *density;           /* strain energy per undeformed volume, one a local cell [force/length^2] */
+  PetscInt            nquadrature;       /* quadrature points of this rank */
+  const PetscReal    *quadrature;        /* 3 coordinates each, undeformed [length] */
+  const PetscReal    *quadrature_stress; /* 6 values each [force/length^2] */
+  PetscInt            npoints;           /* of contact, of this rank */
+  const ContactPoint *points;            /* pair by pair */
 } StepState;
 
 /* What a scene may call for. An effect that is off was neither allocated nor assembled nor solved */
@@ -161,7 +183,7 @@ typedef struct {
 
 /* [s], the largest over the ranks; what is not in a phase is in other */
 typedef struct {
-  PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, other;
+  PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate, results, other;
 } RunTimes;
 
 /* How a run ended: the exit code of a program. After the run what the operating system made of it may come first */

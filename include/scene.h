@@ -131,6 +131,15 @@ typedef struct {
   PetscBool smooth;       /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
 
+/* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
+typedef struct {
+  char     *name;
+  PetscInt  body; /* PETSC_DECIDE: any */
+  PetscBool line;
+  PetscInt  n;              /* points */
+  PetscReal from[3], to[3]; /* a point is at from [length] */
+} SceneProbe;
+
 /* A PETSc option, without its dash */
 typedef struct {
   char     *name, *value;
@@ -149,6 +158,8 @@ typedef struct {
   SceneBodyForce    *forces;
   PetscInt           npairs;
   SceneContactPair  *pairs;
+  PetscInt           nprobes;
+  SceneProbe        *probes;
   PetscInt           nsteps; /* load steps, at least 1 */
   PetscInt           nramps; /* at least 1: ramp 0 is the load itself, for whatever names no ramp */
   SceneRamp         *ramps;

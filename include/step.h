@@ -24,6 +24,7 @@ PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
 PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *);
 PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
+PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);

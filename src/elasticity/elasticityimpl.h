@@ -224,6 +224,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
 PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c, elasticity.c: the error estimate, and the object's life, public */
+/* estimate.c: the error estimate, public, and which bodies can be recovered together */
+PETSC_INTERN PetscErrorCode ElasticitySelectApart(Elasticity, PetscSF, PetscBool remaining[], PetscBool selected[], PetscBool *more);
+
+/* principal.c, fields.c, elasticity.c: fields to look at, and the object's life, public */
 
 #endif

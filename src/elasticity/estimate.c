@@ -58,7 +58,7 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
    Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first at all of
    their nodes
 */
-static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
+PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
 {
   PetscInt *first, *second;
 

@@ -4,25 +4,6 @@
 #include <rankerror.h>
 #include <math.h>
 
-static PetscErrorCode FieldsCreateVec(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
-{
-  PetscFunctionBegin;
-  PetscCall(VecCreate(output->comm, field));
-  PetscCall(VecSetSizes(*field, n * components, PETSC_DECIDE));
-  PetscCall(VecSetBlockSize(*field, components));
-  PetscCall(VecSetType(*field, VECSTANDARD));
-  PetscCall(PetscObjectSetName((PetscObject)*field, name));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FieldsWriteVec(Vec *field, PetscViewer viewer)
-{
-  PetscFunctionBegin;
-  PetscCall(VecView(*field, viewer));
-  PetscCall(VecDestroy(field));
-  PetscFunctionReturn(0);
-}
-
 /* Number of a local vertex among all, whoever owns it */
 static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, PetscInt *number)
 {
@@ -47,7 +28,7 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscCall(DMGetCoordinateSection(output->dm, &csection));
   PetscCall(DMGetCoordinatesLocal(output->dm, &coordinates));
   PetscCall(DMPlexGetDepthStratum(output->dm, 0, &vstart, &vend));
-  PetscCall(FieldsCreateVec(output, "vertices", output->nowned, 3, &field));
+  PetscCall(DatasetCreate(output, "vertices", output->nowned, 3, &field));
   PetscCall(VecGetArrayRead(coordinates, &x));
   PetscCall(VecGetArray(field, &values));
   for (PetscInt v = vstart; v < vend; ++v) {
@@ -61,7 +42,7 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   }
   PetscCall(VecRestoreArray(field, &values));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCall(FieldsWriteVec(&field, viewer));
+  PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -128,31 +109,9 @@ static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, P
 
   PetscFunctionBegin;
   /* A plain vector: those of a DMPlex are viewed in PETSc's own file layout */
-  PetscCall(FieldsCreateVec(output, "displacement", output->nowned, 3, &field));
+  PetscCall(DatasetCreate(output, "displacement", output->nowned, 3, &field));
   PetscCall(VecCopy(displacement, field));
-  PetscCall(FieldsWriteVec(&field, viewer));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FieldsWriteStress(Output output, const PetscReal stress[], PetscViewer viewer)
-{
-  static const PetscInt xdmf[6] = {0, 3, 5, 1, 4, 2}; /* xx xy xz yy yz zz of xx yy zz xy yz zx */
-  Vec                   tensor, scalar;
-  PetscScalar          *t, *s;
-
-  PetscFunctionBegin;
-  PetscCall(FieldsCreateVec(output, "stress", output->ncellslocal, 6, &tensor));
-  PetscCall(FieldsCreateVec(output, "von_mises", output->ncellslocal, 1, &scalar));
-  PetscCall(VecGetArray(tensor, &t));
-  PetscCall(VecGetArray(scalar, &s));
-  for (PetscInt c = 0; c < output->ncellslocal; ++c) {
-    for (PetscInt i = 0; i < 6; ++i) t[6 * c + i] = stress[7 * c + xdmf[i]];
-    s[c] = stress[7 * c + 6];
-  }
-  PetscCall(VecRestoreArray(scalar, &s));
-  PetscCall(VecRestoreArray(tensor, &t));
-  PetscCall(FieldsWriteVec(&tensor, viewer));
-  PetscCall(FieldsWriteVec(&scalar, viewer));
+  PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -168,7 +127,7 @@ static PetscErrorCode FieldsCreateContact(Output output, const char name[], cons
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), "%s%s%s", name, suffix ? "_" : "", suffix ? suffix : ""));
-  PetscCall(FieldsCreateVec(output, full, output->nowned, components, field));
+  PetscCall(DatasetCreate(output, full, output->nowned, components, field));
   PetscCall(VecGetArray(*field, values));
   for (PetscInt i = 0; i < output->nowned * components; ++i) (*values)[i] = value;
   PetscFunctionReturn(0);
@@ -227,11 +186,11 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(VecRestoreArray(fields.area, &fields.a));
   PetscCall(VecRestoreArray(fields.status, &fields.s));
   PetscCall(VecRestoreArray(fields.force, &fields.f));
-  PetscCall(FieldsWriteVec(&fields.pressure, viewer));
-  PetscCall(FieldsWriteVec(&fields.gap, viewer));
-  PetscCall(FieldsWriteVec(&fields.area, viewer));
-  PetscCall(FieldsWriteVec(&fields.status, viewer));
-  PetscCall(FieldsWriteVec(&fields.force, viewer));
+  PetscCall(DatasetWrite(&fields.pressure, viewer));
+  PetscCall(DatasetWrite(&fields.gap, viewer));
+  PetscCall(DatasetWrite(&fields.area, viewer));
+  PetscCall(DatasetWrite(&fields.status, viewer));
+  PetscCall(DatasetWrite(&fields.force, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -256,7 +215,9 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
 
   PetscFunctionBegin;
   PetscCall(FieldsWriteDisplacement(output, state->displacement, viewer));
-  PetscCall(FieldsWriteStress(output, state->stress, viewer));
+  PetscCall(StressWriteCells(output, state, viewer));
+  PetscCall(StressWriteNodes(output, state, viewer));
+  PetscCall(StressWriteQuadrature(output, state, viewer));
   PetscCall(FieldsWriteContact(output, state, viewer));
   PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &time));
   PetscFunctionReturn(0);

@@ -5,11 +5,13 @@
 
 /* What a line is made of: the names of its columns, or the values of a step */
 typedef struct {
-  Output            output;
-  const StepReport *report;
-  FILE             *stream;
-  PetscBool         heading;
-  PetscBool         first; /* nothing stands in the line so far */
+  Output             output;
+  const StepReport  *report;
+  FILE              *stream;
+  PetscBool          heading;
+  PetscBool          first;   /* nothing stands in the line so far */
+  PetscInt           npoints; /* of a line of the scene's probes */
+  const ProbeReport *points;
 } HistoryLine;
 
 /* A name with a comma or a quote, as Gmsh files may have it, stands in quotes */
@@ -69,6 +71,7 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
     for (PetscInt b = 0; b < line->output->nbodies; ++b) HistoryPut(line, line->output->bodynames[b], field->name, "", *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
     break;
   case FIELD_LIST:
+    if (field->record == &SchemaLines) break; /* they have files of their own */
     for (PetscInt i = 0; i < SchemaCount(field, record); ++i) {
       const char *item = *(const char *const *)value + (size_t)i * field->record->size;
 
@@ -117,15 +120,62 @@ static PetscErrorCode HistoryBegin(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* The first step that an output gets begins a new file */
-PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
+/* A point of a line: which load step it is of, and all that it has */
+static void HistoryPutPoint(HistoryLine *line, const ProbeReport *point)
 {
-  const HistoryLine line = {.output = output, .report = report};
-  char              file[PETSC_MAX_PATH_LEN];
+  line->first = PETSC_TRUE;
+  HistoryPut(line, "", "step", "", (double)line->report->step);
+  HistoryPut(line, "", "time", "", (double)line->report->time);
+  HistoryPutRecord(line, &SchemaLines, point, "");
+  fputc('\n', line->stream);
+}
+
+static PetscErrorCode HistoryAppendLine(FILE *stream, const void *ctx)
+{
+  HistoryLine line = *(const HistoryLine *)ctx;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(file, sizeof(file), "%s.csv", output->base));
-  if (output->nsteps == 1) PetscCall(FileWriteText(output->comm, file, HistoryBegin, &line));
-  else PetscCall(FileAppendText(output->comm, file, HistoryAppend, &line));
+  line.stream = stream;
+  for (PetscInt k = 0; k < line.npoints; ++k) HistoryPutPoint(&line, &line.points[k]);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode HistoryBeginLine(FILE *stream, const void *ctx)
+{
+  HistoryLine line = *(const HistoryLine *)ctx;
+
+  PetscFunctionBegin;
+  line.stream  = stream;
+  line.heading = PETSC_TRUE;
+  HistoryPutPoint(&line, line.points);
+  PetscCall(HistoryAppendLine(stream, ctx));
+  PetscFunctionReturn(0);
+}
+
+/* The first step that an output gets begins a new file */
+static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[], PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
+{
+  char file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(file, sizeof(file), "%s%s%s.csv", line->output->base, name[0] ? "_" : "", name));
+  if (line->output->nsteps == 1) PetscCall(FileWriteText(line->output->comm, file, begin, line));
+  else PetscCall(FileAppendText(line->output->comm, file, append, line));
+  PetscFunctionReturn(0);
+}
+
+/* The points of a line follow one another */
+PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
+{
+  HistoryLine line = {.output = output, .report = report};
+
+  PetscFunctionBegin;
+  PetscCall(HistoryWriteFile(&line, "", HistoryBegin, HistoryAppend));
+  for (PetscInt k = 0; k < report->nlines; k += line.npoints) {
+    line.points  = &report->lines[k];
+    line.npoints = 1;
+    while (k + line.npoints < report->nlines && !strcmp(report->lines[k].name, report->lines[k + line.npoints].name)) ++line.npoints;
+    PetscCall(HistoryWriteFile(&line, report->lines[k].name, HistoryBeginLine, HistoryAppendLine));
+  }
   PetscFunctionReturn(0);
 }

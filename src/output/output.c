@@ -70,10 +70,15 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   PetscFunctionReturn(0);
 }
 
-/* One pair has its fields without its name */
-static PetscErrorCode OutputKeepPairs(Output output, const StepReport *report)
+/* Which fields the steps have, the first tells. One pair has its fields without its name */
+static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 {
+  const StepReport *report = state->report;
+
   PetscFunctionBegin;
+  output->nodes = (PetscBool)(state->nodal != NULL);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPIU_BOOL, MPI_LOR, output->comm));
+  PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   if (report->npairs < 2) PetscFunctionReturn(0);
   output->npairs = report->npairs;
   PetscCall(PetscMalloc1(output->npairs, &output->pairnames));
@@ -119,16 +124,19 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    With several pairs each has fields of its own, called contact_pressure_<pair> and so on; those without a name have, at a
    vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
 
-   Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body.
+   Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them: strain_energy_density of cells
+   [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the three values with the largest first; and
+   <basename>_gauss.xmf, the quadrature points as a cloud with gauss_stress.
 
-   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
+   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md. The points of each line of the
+   scene's probes are added to <basename>_<line>.csv.
 
 .seealso: `OutputCreate()`, `OutputDestroy()`
 @*/
 PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
   PetscFunctionBegin;
-  if (!output->nsteps) PetscCall(OutputKeepPairs(output, state->report));
+  if (!output->nsteps) PetscCall(OutputKeepFields(output, state));
   PetscCall(OutputWriteFields(output, state));
   if (output->nsteps == output->maxsteps) {
     output->maxsteps = 2 * output->maxsteps + 8;

@@ -35,6 +35,8 @@ struct _n_Output {
   char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
   PetscInt    nowned, ncellslocal, first; /* vertices and cells of this rank; number of its first vertex */
+  PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
+  PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };
@@ -42,6 +44,15 @@ struct _n_Output {
 /* names.c */
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
+
+/* dataset.c: n records of this rank; written and destroyed */
+PETSC_INTERN PetscErrorCode DatasetCreate(Output, const char name[], PetscInt n, PetscInt components, Vec *);
+PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
+
+/* stress.c: of what a state does not have nothing is written */
+PETSC_INTERN PetscErrorCode StressWriteCells(Output, const StepState *, PetscViewer);
+PETSC_INTERN PetscErrorCode StressWriteNodes(Output, const StepState *, PetscViewer);
+PETSC_INTERN PetscErrorCode StressWriteQuadrature(Output, const StepState *, PetscViewer);
 
 /* fields.c */
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
@@ -130,7 +141,7 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
 PETSC_INTERN const void        *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double             SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char        *SchemaText(const ReportField *, const void *record);

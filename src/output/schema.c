@@ -60,6 +60,19 @@ static const ReportField ramp_fields[] = {
 };
 static const ReportRecord SchemaRamps = {sizeof(RampReport), PETSC_TRUE, ramp_fields};
 
+#define PROBE_FIELDS \
+  FIELD(ProbeReport, place, FIELD_VECTOR, "length"), FIELD(ProbeReport, displacement, FIELD_VECTOR, "length"), FIELD(ProbeReport, stress_xx, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_yy, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_zz, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_xy, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_yz, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_zx, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, von_mises, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, principal_1, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, principal_2, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, principal_3, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, contact_pressure, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, contact_gap, FIELD_REAL, "length"), FIELD(ProbeReport, contact_status, FIELD_REAL, "")
+
+static const ReportField  probe_fields[] = {FIELD(ProbeReport, name, FIELD_TEXT, ""), PROBE_FIELDS, END};
+static const ReportRecord SchemaProbes   = {sizeof(ProbeReport), PETSC_TRUE, probe_fields};
+
+static const ReportField line_fields[] = {FIELD(ProbeReport, name, FIELD_TEXT, ""), FIELD(ProbeReport, arc, FIELD_REAL, "length"), PROBE_FIELDS, END};
+const ReportRecord       SchemaLines   = {sizeof(ProbeReport), PETSC_TRUE, line_fields};
+
 static const ReportField body_fields[] = {
   FIELD(BodyReport, name, FIELD_TEXT, ""),
   FIELD(BodyReport, contact, FIELD_VECTOR, "force"),
@@ -113,6 +126,8 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
+  FIELD(StepReport, probes, FIELD_LIST, "", .count = offsetof(StepReport, nprobes), .record = &SchemaProbes),
+  FIELD(StepReport, lines, FIELD_LIST, "", .count = offsetof(StepReport, nlines), .record = &SchemaLines),
   FIELD(StepReport, solve_time, FIELD_DOUBLE, "s"),
   FIELD(StepReport, step_time, FIELD_DOUBLE, "s"),
   FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged", .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
@@ -131,6 +146,7 @@ static const ReportField time_fields[] = {
   FIELD(RunTimes, filter_setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter set-up", "", 0)}),
   FIELD(RunTimes, filter_apply, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter apply", "", 0)}),
   FIELD(RunTimes, error_estimate, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "error estimate", "", 0)}),
+  FIELD(RunTimes, results, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "results", "", 0)}),
   FIELD(RunTimes, other, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "other", "", 0)}),
   END,
 };

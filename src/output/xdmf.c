@@ -65,6 +65,19 @@ static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char f
   PetscFunctionReturn(0);
 }
 
+static void XDMFWriteNodalStress(FILE *stream, Output output, const char file[])
+{
+  XDMFWriteAttribute(stream, file, "strain_energy_density", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+  XDMFWriteAttribute(stream, file, "nodal_stress", "Tensor6", "Node", PETSC_FALSE, output->nvertices, 6);
+  XDMFWriteAttribute(stream, file, "nodal_von_mises", "Scalar", "Node", PETSC_FALSE, output->nvertices, 1);
+  XDMFWriteAttribute(stream, file, "principal_stress", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
+}
+
+static void XDMFBeginStep(FILE *stream, const OutputStep *step)
+{
+  fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", step->step, (double)step->time);
+}
+
 static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
 {
   Output output = (Output)ctx;
@@ -81,13 +94,35 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
   fputs("    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
   for (PetscInt s = 0; s < output->nsteps; ++s) {
     PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
-    fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", output->steps[s].step, (double)output->steps[s].time);
+    XDMFBeginStep(stream, &output->steps[s]);
     XDMFWriteMeshGrid(stream, output, mesh);
     XDMFWriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
     PetscCall(XDMFWriteContact(stream, output, file, NULL));
     for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
     XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
     XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    if (output->nodes) XDMFWriteNodalStress(stream, output, file);
+    fputs("      </Grid>\n", stream);
+  }
+  fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream);
+  PetscFunctionReturn(0);
+}
+
+/* The quadrature points of each load step, undeformed */
+static PetscErrorCode XDMFWriteCloud(FILE *stream, const void *ctx)
+{
+  Output output = (Output)ctx;
+  char   file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
+  for (PetscInt s = 0; s < output->nsteps; ++s) {
+    PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
+    XDMFBeginStep(stream, &output->steps[s]);
+    fprintf(stream, "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%" PetscInt_FMT "\"/>\n        <Geometry GeometryType=\"XYZ\">\n", output->nquadrature);
+    XDMFWriteDataItem(stream, file, "gauss_points", PETSC_FALSE, output->nquadrature, 3);
+    fputs("        </Geometry>\n", stream);
+    XDMFWriteAttribute(stream, file, "gauss_stress", "Tensor6", "Node", PETSC_FALSE, output->nquadrature, 6);
     fputs("      </Grid>\n", stream);
   }
   fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream);
@@ -101,5 +136,8 @@ PetscErrorCode OutputWriteXDMF(Output output)
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(file, sizeof(file), "%s.xmf", output->base));
   PetscCall(FileWriteText(output->comm, file, XDMFWriteDocument, output));
+  if (!output->nquadrature) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(file, sizeof(file), "%s_gauss.xmf", output->base));
+  PetscCall(FileWriteText(output->comm, file, XDMFWriteCloud, output));
   PetscFunctionReturn(0);
 }

@@ -59,3 +59,21 @@ PetscErrorCode SceneReadBodies(SceneKeys keys, Scene scene)
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
+
+/* The body that <list>_<name> names by its key body; PETSC_DECIDE, any or every one, where it names none */
+PetscErrorCode SceneReadBodyName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *body)
+{
+  const char *text;
+  PetscBool   same;
+
+  PetscFunctionBegin;
+  *body = PETSC_DECIDE;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_body", list, name));
+  if (!text) PetscFunctionReturn(0);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    PetscCall(PetscStrcmp(text, scene->bodies[b].name, &same));
+    if (same) *body = b;
+  }
+  if (*body < 0) PetscCall(SceneKeysComplain(keys, "%s_%s_body is \"%s\", which is no body of the scene", list, name, text));
+  PetscFunctionReturn(0);
+}

@@ -209,6 +209,29 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* An error where one is in no body */
+static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
+{
+  PetscInt   n;
+  MeshPlace *places;
+  PetscReal(*points)[3];
+
+  PetscFunctionBegin;
+  if (!scene->nprobes) PetscFunctionReturn(0);
+  PetscCall(MeshLocateProbes(dm, scene, &n, &points, &places));
+  PetscCall(PetscFree(points));
+  PetscCall(PetscFree(places));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Probes\n"));
+  for (PetscInt p = 0; p < scene->nprobes; ++p) {
+    const SceneProbe *here = &scene->probes[p];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: (%.6g, %.6g, %.6g)", here->name, (double)here->from[0], (double)here->from[1], (double)here->from[2]));
+    if (here->line) PetscCall(PetscViewerASCIIPrintf(viewer, " to (%.6g, %.6g, %.6g), %" PetscInt_FMT " points", (double)here->to[0], (double)here->to[1], (double)here->to[2], here->n));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", in %s\n", here->body < 0 ? "any body" : scene->bodies[here->body].name));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* One line a step, one column a ramp */
 static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 {
@@ -308,6 +331,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
+  PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
   PetscCall(DescribeEffects(scene, viewer));
   PetscFunctionReturn(0);

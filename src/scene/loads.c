@@ -25,24 +25,6 @@ PetscErrorCode SceneReadPressures(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Where no body is named the force acts on every one */
-static PetscErrorCode SceneReadForceBody(SceneKeys keys, Scene scene, SceneBodyForce *force)
-{
-  const char *text;
-  PetscBool   same;
-
-  PetscFunctionBegin;
-  force->body = PETSC_DECIDE;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "body_forces_%s_body", force->name));
-  if (!text) PetscFunctionReturn(0);
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    PetscCall(PetscStrcmp(text, scene->bodies[b].name, &same));
-    if (same) force->body = b;
-  }
-  if (force->body < 0) PetscCall(SceneKeysComplain(keys, "body_forces_%s_body is \"%s\", which is no body of the scene", force->name, text));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode SceneReadBodyForces(SceneKeys keys, Scene scene)
 {
   char        key[SCENE_KEY_LENGTH];
@@ -56,7 +38,7 @@ PetscErrorCode SceneReadBodyForces(SceneKeys keys, Scene scene)
     SceneBodyForce *force = &scene->forces[f];
 
     force->name = names[f];
-    PetscCall(SceneReadForceBody(keys, scene, force));
+    PetscCall(SceneReadBodyName(keys, scene, "body_forces", force->name, &force->body));
     PetscCall(PetscSNPrintf(key, sizeof(key), "body_forces_%s_value", force->name));
     PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
     if (text) PetscCall(SceneParseReals(keys, key, text, 3, force->value));

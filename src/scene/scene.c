@@ -114,6 +114,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadPressures(keys, s));
   PetscCall(SceneReadBodyForces(keys, s));
   PetscCall(SceneReadContact(keys, s));
+  PetscCall(SceneReadProbes(keys, s));
   PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));
   PetscCall(SceneKeysDestroy(&keys));
@@ -165,6 +166,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->pressures));
   PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
+  PetscCall(SceneDestroyProbes(s));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {
     PetscCall(PetscFree(s->ramps[r].name));

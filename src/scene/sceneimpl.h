@@ -61,8 +61,9 @@ PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyShape(SceneBody *);
 
-/* bodies.c */
+/* bodies.c: the bodies; the one that an entry of a list names */
 PETSC_INTERN PetscErrorCode SceneReadBodies(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadBodyName(SceneKeys, Scene, const char list[], const char name[], PetscInt *body);
 
 /* faces.c: the body of a name <body>.<face>, PETSC_DECIDE if there is none, and the face; the faces cut out of others */
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
@@ -83,6 +84,11 @@ PETSC_INTERN PetscErrorCode SceneReadBodyForces(SceneKeys, Scene);
 
 /* contact.c */
 PETSC_INTERN PetscErrorCode SceneReadContact(SceneKeys, Scene);
+
+/* probes.c */
+PETSC_INTERN PetscErrorCode SceneReadProbes(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneViewProbe(Scene, PetscViewer, PetscInt probe);
+PETSC_INTERN PetscErrorCode SceneDestroyProbes(Scene);
 
 /* solver.c: the scene's PETSc options, in the options database while it lives */
 PETSC_INTERN PetscErrorCode SceneReadSolver(SceneKeys, Scene);

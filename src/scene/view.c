@@ -162,6 +162,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(SceneViewEntries(scene, viewer, "pressures", scene->npressures, SceneViewPressure));
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
   PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));
+  PetscCall(SceneViewEntries(scene, viewer, "probes", scene->nprobes, SceneViewProbe));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(SceneViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));

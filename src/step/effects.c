@@ -13,10 +13,23 @@ typedef enum {
   EFFECT_BODY_FORCE,
   EFFECT_BOUNDS,
   EFFECT_ESTIMATE,
+  EFFECT_RESULTS,
   EFFECT_COUNT
 } EffectType;
 
-static const char *const EffectNames[] = {"contact", "contact updates", "AMG filter", "finite strain", "mean dilatation", "incompatible modes", "pressure", "body force", "displacement bounds", "error estimate"};
+static const char *const EffectNames[] = {
+  [EFFECT_CONTACT]       = "contact",
+  [EFFECT_UPDATES]       = "contact updates",
+  [EFFECT_FILTER]        = "AMG filter",
+  [EFFECT_FINITE_STRAIN] = "finite strain",
+  [EFFECT_BBAR]          = "mean dilatation",
+  [EFFECT_INCOMPATIBLE]  = "incompatible modes",
+  [EFFECT_PRESSURE]      = "pressure",
+  [EFFECT_BODY_FORCE]    = "body force",
+  [EFFECT_BOUNDS]        = "displacement bounds",
+  [EFFECT_ESTIMATE]      = "error estimate",
+  [EFFECT_RESULTS]       = "probes and fields",
+};
 
 static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
 
@@ -59,6 +72,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));
+  PetscCall(EffectSet(report, EFFECT_RESULTS, (PetscBool)(sim->probes.n || sim->results.nodes || sim->results.points), "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", sim->probes.n, sim->results.nodes ? "" : "no ", sim->results.points ? "" : "not "));
   PetscCall(EffectSet(report, EFFECT_ESTIMATE, sim->estimate, sim->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
   PetscFunctionReturn(0);
 }
@@ -77,6 +91,7 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
   report->effects[EFFECT_CONTACT].time  = report->time.contact;
   report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
   report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
+  report->effects[EFFECT_RESULTS].time  = report->time.results;
   if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
   PetscFunctionReturn(0);
 }

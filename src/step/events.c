@@ -2,7 +2,7 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
-PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces;
+PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;
 
 /* The events of the phases: ours, the preconditioner's, the estimator's */
 static const struct {
@@ -17,6 +17,7 @@ static const struct {
   {"PCAMGFFltSetUp", offsetof(RunTimes, filter_setup)},
   {"PCAMGFFltApply", offsetof(RunTimes, filter_apply)},
   {"ElastError", offsetof(RunTimes, error_estimate)},
+  {"SimResults", offsetof(RunTimes, results)},
 };
 
 PetscErrorCode StepEventsRegister(void)
@@ -33,6 +34,7 @@ PetscErrorCode StepEventsRegister(void)
   PetscCall(PetscLogEventRegister("SimContact", classid, &SIM_Contact));
   PetscCall(PetscLogEventRegister("SimSolve", classid, &SIM_Solve));
   PetscCall(PetscLogEventRegister("SimForces", classid, &SIM_Forces));
+  PetscCall(PetscLogEventRegister("SimResults", classid, &SIM_Results));
   PetscFunctionReturn(0);
 }
 

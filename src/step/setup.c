@@ -93,6 +93,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreate(sim->comm, scene->nbodies, scene->bodies, scene->refine, &sim->dm));
   PetscCall(MeshCheckScene(sim->dm, scene));
+  PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(ResidentGet(sim->comm, &sim->report.memory.mesh));
   PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));

@@ -97,6 +97,28 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 }
 
 /*@C
+   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and the cells' mean stress
+
+   Logically Collective
+
+   Input Parameters:
++  sim    - the simulation, before SimulationSetUp()
+.  nodes  - stress at the nodes with its principal values, strain energy of the cells; default false
+-  points - stress at the quadrature points; default false
+
+   Level: intermediate
+
+.seealso: `SimulationStep()`, `OutputWrite()`
+@*/
+PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool points)
+{
+  PetscFunctionBegin;
+  sim->results.nodes  = nodes;
+  sim->results.points = points;
+  PetscFunctionReturn(0);
+}
+
+/*@C
    SimulationSetFromOptions - Takes what the options say
 
    Collective
@@ -194,6 +216,8 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
     PetscCall(PetscFree(s->report.steps[i].ramps));
+    PetscCall(PetscFree(s->report.steps[i].probes));
+    PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
@@ -205,6 +229,8 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
+  PetscCall(ResultsFree(&s->results));
+  PetscCall(ProbesDestroy(&s->probes));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));
   PetscCall(ContactMemoryDestroy(&s->memory));

@@ -26,11 +26,20 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
-  state->report       = report;
-  state->displacement = sim->path.u;
-  state->stress       = sim->stress;
-  state->npoints      = sim->npoints;
-  state->points       = sim->points;
+  PetscCall(ResultsMeasure(sim));
+  PetscCall(ProbesMeasure(sim, report));
+  *state = (StepState){
+    .report            = report,
+    .displacement      = sim->path.u,
+    .stress            = sim->stress,
+    .nodal             = sim->results.nodal,
+    .density           = sim->results.density,
+    .nquadrature       = sim->results.npoints,
+    .quadrature        = sim->results.places,
+    .quadrature_stress = sim->results.point_stress,
+    .npoints           = sim->npoints,
+    .points            = sim->points,
+  };
   PetscFunctionReturn(0);
 }
 

@@ -13,7 +13,7 @@
 #include <petscamgf.h>
 
 /* events.c */
-PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces;
+PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;
 PETSC_INTERN PetscErrorCode StepEventsRegister(void);
 PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
 PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);
@@ -101,6 +101,21 @@ typedef struct {
   PetscReal work;              /* of theirs [force length] */
 } LoadPath;
 
+/* Fields that are asked for, and what they were at the end of the last load step */
+typedef struct {
+  PetscBool  nodes, points; /* asked for: at nodes and of cells, at quadrature points */
+  PetscReal *recovered;     /* stress, 6 values a local node */
+  PetscReal *nodal, *density, *places, *point_stress;
+  PetscInt   npoints;
+} Results;
+
+/* Where the points of the scene's probes are */
+typedef struct {
+  PetscInt n;
+  PetscReal (*points)[3];
+  MeshPlace *places;
+} Probes;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -123,6 +138,8 @@ struct _n_Simulation {
   PetscReal           *pressure, *gap, *stress;
   PetscInt             npoints;
   ContactPoint        *points;
+  Results              results;
+  Probes               probes;
   StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
   PetscBool            warm;        /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
@@ -235,6 +252,16 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, StepReport *);
+
+/* results.c */
+PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
+PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation);
+PETSC_INTERN PetscErrorCode ResultsFree(Results *);
+
+/* probes.c */
+PETSC_INTERN PetscErrorCode ProbesCreate(DM, Scene, Probes *);
+PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);

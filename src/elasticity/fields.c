@@ -1,0 +1,177 @@
+/* Fields for people to look at: stress at the nodes and at the quadrature points, strain energy of the cells */
+#include "elasticityimpl.h"
+
+/* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2 makes */
+static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
+{
+  const PetscBool valid = m->law->cauchy(IsochoricLambda(m), m->mu, strain, stress);
+
+  for (int k = 0; k < 6; ++k) stress[k] = valid ? stress[k] + (k < 3 ? BulkModulus(m) * strain[9] : 0) : PETSC_INFINITY;
+  return valid;
+}
+
+/* Adds the stresses of the selected bodies' nodes; n: how many were added to each */
+static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[], PetscReal n[], PetscReal stress[])
+{
+  PetscInt *body;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->nnodes, &body));
+  for (PetscInt v = 0; v < e->nnodes; ++v) body[v] = PETSC_DECIDE;
+  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
+    if (selected[e->cellbody[i / 8]]) body[e->cellnodes[i]] = e->cellbody[i / 8];
+  }
+  for (PetscInt v = 0; v < e->nnodes; ++v) {
+    PetscReal s[6];
+
+    if (body[v] < 0) continue;
+    (void)FieldsStress(&e->bodies[body[v]].material, recovered[v].value, s);
+    for (int k = 0; k < 6; ++k) stress[6 * v + k] += s[k];
+    n[v] += 1;
+  }
+  PetscCall(PetscFree(body));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityNodalStress - Computes the Cauchy stress at the nodes, recovered from the cells about each
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameter:
+. stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by body, and the law gives the stress of
+  them: second order up to the surface, where the cells' own stress is first order. Where bodies share a node it has the mean of theirs. A node
+  at which the material is turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
+@*/
+PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+  PetscSF            sf;
+  PetscBool         *remaining, *selected, more = PETSC_TRUE;
+  RecoveredNode     *recovered;
+  PetscReal         *n;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(ElasticityCreateNodeSF(e, &sf));
+  PetscCall(PetscMalloc3(e->nbodies, &remaining, e->nbodies, &selected, e->nnodes, &recovered));
+  PetscCall(PetscCalloc1(6 * e->nnodes, stress));
+  PetscCall(PetscCalloc1(e->nnodes, &n));
+  for (PetscInt b = 0; b < e->nbodies; ++b) remaining[b] = PETSC_TRUE;
+  while (more) {
+    PetscCall(ElasticitySelectApart(e, sf, remaining, selected, &more));
+    PetscCall(PetscArrayzero(recovered, e->nnodes));
+    PetscCall(ElasticityRecover(e, sf, selected, x, ul, recovered));
+    PetscCall(FieldsAddNodes(e, selected, recovered, n, *stress));
+  }
+  for (PetscInt i = 0; i < 6 * e->nnodes; ++i) (*stress)[i] /= PetscMax(1, n[i / 6]);
+  PetscCall(PetscFree(n));
+  PetscCall(PetscFree3(remaining, selected, recovered));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityPointStress - Computes the Cauchy stress at the quadrature points of the cells
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameters:
++ npoints - quadrature points of all local cells
+. places  - 3 coordinates a point, undeformed, cell by cell [length]; free with `PetscFree()`
+- stress  - 6 values a point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
+@*/
+PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, PetscReal *places[], PetscReal *stress[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  *npoints = e->basis.npoints * e->ncells;
+  PetscCall(PetscCalloc1(3 * *npoints, places));
+  PetscCall(PetscMalloc1(6 * *npoints, stress));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const Body *body = &e->bodies[e->cellbody[c]];
+    PetscReal   X[3][8], U[3][8], w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELEMENT_STRAINS];
+
+    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
+    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
+    body->element->strains(&e->basis, &body->material, X, U, w, H);
+    for (PetscInt q = 0; q < e->basis.npoints; ++q) {
+      const PetscInt k = e->basis.npoints * c + q;
+
+      (void)FieldsStress(&body->material, H[q], *stress + 6 * k);
+      for (int a = 0; a < 8; ++a) {
+        for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += e->basis.N[q][a] * X[d][a];
+      }
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityCellEnergy - Computes the strain energy of each cell per undeformed volume
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameter:
+. density - mean over each local cell, in the order of the mesh's cells [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  Density times volume sums to `ElasticityEnergy()`. A cell turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
+@*/
+PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(PetscMalloc1(e->ncells, density));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const Body *body = &e->bodies[e->cellbody[c]];
+    PetscReal   X[3][8], U[3][8], G[3][8], volume = 0, energy;
+
+    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
+    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
+    for (PetscInt q = 0; q < e->basis.npoints; ++q) volume += HexGradients(&e->basis, q, X, G);
+    energy        = body->element->energy(&e->basis, &body->material, X, U);
+    (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}

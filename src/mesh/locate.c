@@ -1,0 +1,369 @@
+/*
+   Which cell is a point in? Points are sorted into the bins of a grid; each cell looks at those in the bins about it, and the point's place in the
+   cell is where the trilinear map takes it, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+*/
+#include "meshimpl.h"
+
+/* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between facets */
+static const PetscReal locate_margin = 0.25;
+
+/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1] */
+typedef struct {
+  PetscInt  n[3], *start, *order;
+  PetscReal lower[3], size[3];
+} LocateBins;
+
+static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
+{
+  const PetscReal place = (x - bins->lower[d]) / bins->size[d];
+
+  return place <= 0 ? 0 : place >= (PetscReal)bins->n[d] ? bins->n[d] - 1
+                                                         : (PetscInt)place;
+}
+
+static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
+{
+  return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
+}
+
+/* About one point a bin, where they fill their box */
+static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[][3], LocateBins *bins)
+{
+  const PetscInt side = 1 + (PetscInt)PetscCbrtReal((PetscReal)npoints);
+  PetscInt       nbins;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) {
+    PetscReal upper = PETSC_MIN_REAL;
+
+    bins->lower[d] = PETSC_MAX_REAL;
+    for (PetscInt i = 0; i < npoints; ++i) {
+      bins->lower[d] = PetscMin(bins->lower[d], points[i][d]);
+      upper          = PetscMax(upper, points[i][d]);
+    }
+    bins->n[d]    = upper > bins->lower[d] ? side : 1;
+    bins->size[d] = upper > bins->lower[d] ? (upper - bins->lower[d]) / (PetscReal)side : 1.0;
+  }
+  nbins = bins->n[0] * bins->n[1] * bins->n[2];
+  PetscCall(PetscCalloc1(nbins + 1, &bins->start));
+  PetscCall(PetscMalloc1(npoints, &bins->order));
+  for (PetscInt i = 0; i < npoints; ++i) ++bins->start[LocateBinOfPoint(bins, points[i])];
+  for (PetscInt b = 0, sum = 0; b <= nbins; ++b) {
+    sum += bins->start[b];
+    bins->start[b] = sum;
+  }
+  for (PetscInt i = npoints - 1; i >= 0; --i) bins->order[--bins->start[LocateBinOfPoint(bins, points[i])]] = i;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(bins->start));
+  PetscCall(PetscFree(bins->order));
+  PetscFunctionReturn(0);
+}
+
+/* The trilinear shape functions at a place of the reference cube, and their derivatives */
+static void LocateShape(const PetscReal xi[3], PetscReal N[8], PetscReal dN[3][8])
+{
+  for (PetscInt a = 0; a < 8; ++a) {
+    PetscReal L[3], s[3];
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      s[d] = (a >> d & 1) ? 0.5 : -0.5;
+      L[d] = 0.5 + s[d] * xi[d];
+    }
+    N[a]     = L[0] * L[1] * L[2];
+    dN[0][a] = s[0] * L[1] * L[2];
+    dN[1][a] = L[0] * s[1] * L[2];
+    dN[2][a] = L[0] * L[1] * s[2];
+  }
+}
+
+/* Vector from X(xi) to the point, and dX_d/dxi_k */
+static void LocateDifference(PetscReal X[8][3], const PetscReal point[3], const PetscReal xi[3], PetscReal N[8], PetscReal r[3], PetscReal J[3][3])
+{
+  PetscReal dN[3][8];
+
+  LocateShape(xi, N, dN);
+  for (PetscInt d = 0; d < 3; ++d) {
+    r[d] = point[d];
+    for (PetscInt k = 0; k < 3; ++k) J[d][k] = 0;
+    for (PetscInt a = 0; a < 8; ++a) {
+      r[d] -= N[a] * X[a][d];
+      for (PetscInt k = 0; k < 3; ++k) J[d][k] += dN[k][a] * X[a][d];
+    }
+  }
+}
+
+/* J^(-1) r by Cramer's rule */
+static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[3])
+{
+  PetscReal det = 0;
+
+  for (PetscInt k = 0; k < 3; ++k) det += J[0][k] * (J[1][(k + 1) % 3] * J[2][(k + 2) % 3] - J[1][(k + 2) % 3] * J[2][(k + 1) % 3]);
+  for (PetscInt k = 0; k < 3; ++k) {
+    const PetscInt l = (k + 1) % 3, m = (k + 2) % 3;
+
+    step[k] = 0;
+    for (PetscInt d = 0; d < 3; ++d) step[k] += (J[(d + 1) % 3][l] * J[(d + 2) % 3][m] - J[(d + 1) % 3][m] * J[(d + 2) % 3][l]) * r[d] / det;
+  }
+}
+
+static PetscReal LocateNorm(const PetscReal r[3])
+{
+  return PetscSqrtReal(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+}
+
+/* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the distance */
+static PetscReal LocateInCell(PetscReal X[8][3], const PetscReal point[3], PetscReal N[8])
+{
+  PetscReal xi[3] = {0, 0, 0}, r[3], J[3][3], step[3];
+
+  for (PetscInt it = 0; it < 30; ++it) {
+    PetscReal change = 0;
+
+    LocateDifference(X, point, xi, N, r, J);
+    LocateSolve(J, r, step);
+    for (PetscInt k = 0; k < 3; ++k) {
+      const PetscReal next = PetscMax(-2.0, PetscMin(2.0, xi[k] + step[k]));
+
+      change = PetscMax(change, PetscAbsReal(next - xi[k]));
+      xi[k]  = next;
+    }
+    if (!(change > 8 * PETSC_MACHINE_EPSILON)) break;
+  }
+  for (PetscInt k = 0; k < 3; ++k) xi[k] = PetscMax(-1.0, PetscMin(1.0, xi[k]));
+  LocateDifference(X, point, xi, N, r, J);
+  return LocateNorm(r);
+}
+
+/* Of a cell's vertices, with a margin all round */
+static PetscReal LocateBox(PetscReal X[8][3], PetscReal lower[3], PetscReal upper[3])
+{
+  PetscReal diagonal[3], size;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    lower[d] = upper[d] = X[0][d];
+    for (PetscInt a = 1; a < 8; ++a) {
+      lower[d] = PetscMin(lower[d], X[a][d]);
+      upper[d] = PetscMax(upper[d], X[a][d]);
+    }
+    diagonal[d] = upper[d] - lower[d];
+  }
+  size = LocateNorm(diagonal);
+  for (PetscInt d = 0; d < 3; ++d) {
+    lower[d] -= locate_margin * size;
+    upper[d] += locate_margin * size;
+  }
+  return size;
+}
+
+struct _n_MeshLocator {
+  PetscInt n;
+  const PetscReal (*points)[3];
+  const PetscInt *body;
+  LocateBins      bins;
+  MeshPlace      *places;
+};
+
+/*@
+  MeshLocatorCreate - Prepares to find the cells that points are in
+
+  Not Collective
+
+  Input Parameters:
++ n      - number of points
+. points - the points; borrowed until the locator is destroyed [length]
+- body   - the body in which each is looked for, `PETSC_DECIDE`: any; borrowed too
+
+  Output Parameter:
+. locator - the locator; no cell is known to it
+
+  Level: developer
+
+.seealso: `MeshLocatorAddCell()`, `MeshLocatorGetPlaces()`, `MeshLocatorDestroy()`, `MeshLocate()`
+@*/
+PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *locator)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(locator));
+  (*locator)->n      = n;
+  (*locator)->points = points;
+  (*locator)->body   = body;
+  PetscCall(LocateBinsCreate(n, points, &(*locator)->bins));
+  PetscCall(PetscMalloc1(n, &(*locator)->places));
+  for (PetscInt i = 0; i < n; ++i) (*locator)->places[i] = (MeshPlace){.distance = PETSC_MAX_REAL, .cell = -1};
+  PetscFunctionReturn(0);
+}
+
+/* A place in the cell is taken where it is nearer than any before */
+static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal size, PetscReal X[8][3])
+{
+  MeshPlace place = {.cell = cell, .size = size};
+
+  place.distance = LocateInCell(X, locator->points[i], place.N);
+  if (place.distance < locator->places[i].distance) locator->places[i] = place;
+}
+
+/*@
+  MeshLocatorAddCell - Looks which points are in a cell, or beside it
+
+  Not Collective
+
+  Input Parameters:
++ locator - the locator
+. cell    - a number for the cell
+. body    - its body
+- X       - its vertices in tensor order [length]
+
+  Level: developer
+
+  Notes:
+  A point has its place in the nearest cell; among equals in the one that was added first. Cells farther away than a quarter of their size are not
+  looked at.
+
+.seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
+@*/
+PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscReal X[8][3])
+{
+  const LocateBins *bins = &locator->bins;
+  PetscReal         lower[3], upper[3];
+  const PetscReal   size = LocateBox(X, lower, upper);
+  PetscInt          from[3], to[3];
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) {
+    from[d] = LocateBin(bins, d, lower[d]);
+    to[d]   = LocateBin(bins, d, upper[d]);
+  }
+  for (PetscInt k = from[2]; k <= to[2]; ++k) {
+    for (PetscInt j = from[1]; j <= to[1]; ++j) {
+      const PetscInt row = (k * bins->n[1] + j) * bins->n[0];
+
+      for (PetscInt o = bins->start[row + from[0]]; o < bins->start[row + to[0] + 1]; ++o) {
+        const PetscInt   i     = bins->order[o];
+        const PetscReal *point = locator->points[i];
+        PetscBool        near  = (PetscBool)(locator->body[i] == PETSC_DECIDE || locator->body[i] == body);
+
+        for (PetscInt d = 0; d < 3; ++d) near = (PetscBool)(near && point[d] >= lower[d] && point[d] <= upper[d]);
+        if (near) LocatorTry(locator, i, cell, size, X);
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocatorGetPlaces - Gets the places that points have in the cells so far
+
+  Not Collective
+
+  Input Parameter:
+. locator - the locator
+
+  Output Parameter:
+. places - one a point, borrowed; its cell is negative where none is near
+
+  Level: developer
+
+.seealso: `MeshLocatorAddCell()`
+@*/
+PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **places)
+{
+  PetscFunctionBegin;
+  *places = locator->places;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocatorDestroy - Frees a locator
+
+  Not Collective
+
+  Level: developer
+
+.seealso: `MeshLocatorCreate()`
+@*/
+PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
+{
+  PetscFunctionBegin;
+  PetscCall(LocateBinsDestroy(&(*locator)->bins));
+  PetscCall(PetscFree((*locator)->places));
+  PetscCall(PetscFree(*locator));
+  PetscFunctionReturn(0);
+}
+
+/* The nearest of all ranks has a point, of equals the first; rounding makes no difference between a point in a cell and one on its side */
+static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace places[])
+{
+  PetscMPIInt rank;
+  struct {
+    double distance;
+    int    rank;
+  } * nearest;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PetscMalloc1(n, &nearest));
+  for (PetscInt i = 0; i < n; ++i) {
+    nearest[i].distance = places[i].cell < 0 ? PETSC_MAX_REAL : places[i].distance > 1e-12 * places[i].size ? (double)places[i].distance
+                                                                                                            : 0.0;
+    nearest[i].rank     = rank;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nearest, (PetscMPIInt)n, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  for (PetscInt i = 0; i < n; ++i) {
+    places[i].distance = (PetscReal)nearest[i].distance;
+    if (nearest[i].rank != rank) places[i].cell = -1;
+  }
+  PetscCall(PetscFree(nearest));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocate - Finds the cells that points of the undeformed bodies are in
+
+  Collective
+
+  Input Parameters:
++ dm     - the mesh, from `MeshCreate()`
+. n      - number of points, the same on every rank
+. points - the points, the same on every rank [length]
+- body   - the body in which each is looked for; `PETSC_DECIDE`: any
+
+  Output Parameter:
+. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of the point from the cell, is the same
+           on every rank, and `PETSC_MAX_REAL` where no cell is near
+
+  Level: developer
+
+  Notes:
+  A point on a curved surface may be outside of the facets: it has the nearest place in a cell beside it.
+
+.seealso: `MeshCreate()`, `MeshGetCellVertices()`
+@*/
+PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
+{
+  MeshLocator      locator;
+  const MeshPlace *found;
+  DMLabel          label;
+  PetscInt         cstart, cend, b, vertices[8];
+  PetscReal        X[8][3];
+
+  PetscFunctionBegin;
+  PetscCall(MeshLocatorCreate(n, points, body, &locator));
+  PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscCall(DMLabelGetValue(label, c, &b));
+    PetscCall(MeshGetCellVertices(dm, c, vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, 8, vertices, X));
+    PetscCall(MeshLocatorAddCell(locator, c, b, X));
+  }
+  PetscCall(MeshLocatorGetPlaces(locator, &found));
+  PetscCall(PetscArraycpy(places, found, n));
+  PetscCall(MeshLocatorDestroy(&locator));
+  PetscCall(LocateChooseRank(PetscObjectComm((PetscObject)dm), n, places));
+  PetscFunctionReturn(0);
+}

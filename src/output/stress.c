@@ -1,0 +1,52 @@
+/* Stress and strain energy as datasets of a load step's file */
+#include "outputimpl.h"
+
+/* n values of a record in the dataset's order, from records of `stride` */
+static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
+{
+  Vec          field;
+  PetscScalar *f;
+
+  PetscFunctionBegin;
+  PetscCall(DatasetCreate(output, name, n, components, &field));
+  PetscCall(VecGetArray(field, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt k = 0; k < components; ++k) f[components * i + k] = values[stride * i + order[k]];
+  }
+  PetscCall(VecRestoreArray(field, &f));
+  PetscCall(DatasetWrite(&field, viewer));
+  PetscFunctionReturn(0);
+}
+
+static const int identity[] = {0, 1, 2, 3, 4, 5};
+static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* XDMF's xx xy xz yy yz zz of xx yy zz xy yz zx */
+static const int mises[]    = {6};
+static const int highest[]  = {7, 8, 9};
+
+PetscErrorCode StressWriteCells(Output output, const StepState *state, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(StressWriteValues(output, "stress", output->ncellslocal, 6, tensor6, 7, state->stress, viewer));
+  PetscCall(StressWriteValues(output, "von_mises", output->ncellslocal, 1, mises, 7, state->stress, viewer));
+  if (state->density) PetscCall(StressWriteValues(output, "strain_energy_density", output->ncellslocal, 1, identity, 1, state->density, viewer));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StressWriteNodes(Output output, const StepState *state, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (!state->nodal) PetscFunctionReturn(0);
+  PetscCall(StressWriteValues(output, "nodal_stress", output->nowned, 6, tensor6, STRESS_VALUES, state->nodal, viewer));
+  PetscCall(StressWriteValues(output, "nodal_von_mises", output->nowned, 1, mises, STRESS_VALUES, state->nodal, viewer));
+  PetscCall(StressWriteValues(output, "principal_stress", output->nowned, 3, highest, STRESS_VALUES, state->nodal, viewer));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StressWriteQuadrature(Output output, const StepState *state, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (!state->quadrature) PetscFunctionReturn(0);
+  PetscCall(StressWriteValues(output, "gauss_points", state->nquadrature, 3, identity, 3, state->quadrature, viewer));
+  PetscCall(StressWriteValues(output, "gauss_stress", state->nquadrature, 6, tensor6, 6, state->quadrature_stress, viewer));
+  PetscFunctionReturn(0);
+}
