@@ -4,6 +4,9 @@ static char help[] = "Quasi-static frictionless contact of elastic bodies: conta
   -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
   -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView, BASE.csv (a line a load step)\n\
   -output_gauss        also stress at the quadrature points, BASE_gauss.xmf\n\
+  -checkpoint_every N  after every N load steps write the state to go on from; a run that a signal ends always does\n\
+  -checkpoint FILE     where to; by default BASE_checkpoint.h5 of -output BASE, else <problem>_checkpoint.h5\n\
+  -restart FILE        go on from such a state, also on other ranks, with -refine, with a load program that goes on otherwise\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
   -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
@@ -29,6 +32,7 @@ Exit code:\n\
 #include <mesh.h>
 #include <step.h>
 #include <accuracy.h>
+#include <checkpoint.h>
 #include <output.h>
 #include <errno.h>
 #include <signal.h>
@@ -39,8 +43,9 @@ Exit code:\n\
 #endif
 
 typedef struct {
-  char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN];
-  PetscBool write, gauss, summarize, contact_free, effects, accuracy, check, quiet;
+  char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN], checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN];
+  PetscInt  checkpoint_every; /* load steps; 0: only where a signal ends the run */
+  PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet;
 } AppOptions;
 
 /* What is known of an error by the time it reaches main() */
@@ -146,6 +151,9 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
   PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss, &app->gauss, NULL));
+  PetscCall(PetscOptionsBoundedInt("-checkpoint_every", "Load steps between two checkpoints", NULL, app->checkpoint_every, &app->checkpoint_every, NULL, 0));
+  PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint, sizeof(app->checkpoint), NULL));
+  PetscCall(PetscOptionsString("-restart", "Checkpoint to go on from", NULL, app->restart, app->restart, sizeof(app->restart), &app->restarts));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free, &app->contact_free, NULL));
   PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
@@ -227,32 +235,82 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Simulation sim)
+{
+  Checkpoint checkpoint;
+  DM         dm;
+  char       file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBeginUser;
+  if (app->checkpoint[0]) PetscCall(PetscStrncpy(file, app->checkpoint, sizeof(file)));
+  else PetscCall(PetscSNPrintf(file, sizeof(file), "%s_checkpoint.h5", app->write ? app->output : scene->name));
+  PetscCall(SimulationGetDM(sim, &dm));
+  PetscCall(SimulationGetCheckpoint(sim, &checkpoint));
+  PetscCall(CheckpointWrite(checkpoint, scene, dm, file));
+  if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Checkpoint %s: time %g\n", file, (double)checkpoint->time));
+  PetscCall(CheckpointDestroy(&checkpoint));
+  PetscFunctionReturn(0);
+}
+
+/* The first load step: 0, or that with which the run goes on */
+static PetscErrorCode AppBegin(const AppOptions *app, Scene scene, Simulation sim, Output output, PetscInt *step)
+{
+  Checkpoint checkpoint;
+  DM         dm;
+  PetscBool  same;
+
+  PetscFunctionBeginUser;
+  *step = 0;
+  if (!app->restarts) PetscFunctionReturn(0);
+  PetscCall(SimulationGetDM(sim, &dm));
+  PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, &same));
+  PetscCall(SimulationSetCheckpoint(sim, checkpoint, step));
+  if (output) PetscCall(OutputContinue(output, *step, same));
+  if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time, same ? "" : ", interpolated to this mesh and these ranks"));
+  PetscCall(CheckpointDestroy(&checkpoint));
+  PetscFunctionReturn(0);
+}
+
+/* Load steps until one fails; true: none did */
+static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output, PetscBool *converged)
+{
+  StepState state;
+  PetscInt  first;
+
+  PetscFunctionBeginUser;
+  *converged = PETSC_TRUE;
+  PetscCall(AppBegin(app, scene, sim, output, &first));
+  for (PetscInt step = first; step < scene->nsteps && *converged; ++step) {
+    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
+    PetscCall(SimulationStep(sim, step, &state));
+    *converged = state.report->converged;
+    if (output && *converged) PetscCall(OutputWrite(output, &state));
+    if (*converged && app->checkpoint_every && (step + 1) % app->checkpoint_every == 0) PetscCall(AppWriteCheckpoint(app, scene, sim));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, RunEnd *end, PetscBool *again)
 {
   Simulation     sim;
   Output         output;
-  StepState      state;
   StepTolerances tolerances;
   RunReport      report;
-  PetscBool      converged = PETSC_TRUE;
+  PetscBool      converged;
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
   PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
-  for (PetscInt step = 0; step < scene->nsteps && converged; ++step) {
-    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
-    PetscCall(SimulationStep(sim, step, &state));
-    converged = state.report->converged;
-    if (output && converged) PetscCall(OutputWrite(output, &state));
-  }
+  PetscCall(AppSimulateSteps(app, scene, sim, output, &converged));
   PetscCall(SimulationGetReport(sim, &report));
   PetscCall(SimulationGetTolerances(sim, &tolerances));
   if (converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
   if (accuracy->nlevels) report.accuracy = accuracy;
   if (converged && report.accuracy && !accuracy->reached) report.exit_code = RUN_ACCURACY_MISSED;
+  if (report.exit_code == RUN_INTERRUPTED) PetscCall(AppWriteCheckpoint(app, scene, sim));
   *end = (RunEnd)report.exit_code;
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));
@@ -279,6 +337,7 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscFunctionBeginUser;
   if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
   PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
+  PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
   PetscCall(SimulationCatchSignals());
   do {
     PetscCall(AppSimulate(app, scene, &accuracy, end, &again));

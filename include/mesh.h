@@ -51,11 +51,11 @@ typedef struct {
 
 /* In which cells of a mesh are points? Of any cells, which need not be those of a DM */
 typedef struct _n_MeshLocator *MeshLocator;
-PETSC_EXTERN PetscErrorCode MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[]);
-PETSC_EXTERN PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *);
-PETSC_EXTERN PetscErrorCode MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscReal X[8][3]);
-PETSC_EXTERN PetscErrorCode MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
-PETSC_EXTERN PetscErrorCode MeshLocatorDestroy(MeshLocator *);
+PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[]);
+PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *);
+PETSC_EXTERN PetscErrorCode    MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscReal X[8][3]);
+PETSC_EXTERN PetscErrorCode    MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
+PETSC_EXTERN PetscErrorCode    MeshLocatorDestroy(MeshLocator *);
 /* The points of a scene's probes; an error where one is in no body */
 PETSC_EXTERN PetscErrorCode MeshLocateProbes(DM, Scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[]);
 /* PETSCPARTITIONER type "metis" */

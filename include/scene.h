@@ -175,6 +175,9 @@ PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 /* Factor of a ramp at a time: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
+/* The text of a scene as it is viewed; what sets another one apart from such a text, but for how the load goes on, mesh and solver */
+PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);
+PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char difference[], size_t length);
 /* What will be simulated, in words; dm: the scene's mesh */
 PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);

@@ -8,6 +8,7 @@
 #include <petscdmplex.h>
 #include "scene.h"
 #include "report.h"
+#include "checkpoint.h"
 
 typedef struct _n_Simulation *Simulation;
 
@@ -30,6 +31,9 @@ PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
+/* The state, to be written; and one to go on from, before any load step: with which step */
+PETSC_EXTERN PetscErrorCode SimulationGetCheckpoint(Simulation, Checkpoint *);
+PETSC_EXTERN PetscErrorCode SimulationSetCheckpoint(Simulation, Checkpoint, PetscInt *step);
 /* How the faces of the contact pairs stand to each other before a run; dm: the scene's mesh */
 PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);

@@ -203,6 +203,7 @@ static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal
 {
   MeshPlace place = {.cell = cell, .size = size};
 
+  if (locator->places[i].distance <= 1e-14 * size) return; /* in a cell: none is nearer */
   place.distance = LocateInCell(X, locator->points[i], place.N);
   if (place.distance < locator->places[i].distance) locator->places[i] = place;
 }

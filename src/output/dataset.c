@@ -1,10 +1,10 @@
 /* One dataset of an HDF5 file, each rank's part in turn */
 #include "outputimpl.h"
 
-PetscErrorCode DatasetCreate(Output output, const char name[], PetscInt n, PetscInt components, Vec *field)
+PetscErrorCode DatasetCreate(MPI_Comm comm, const char name[], PetscInt n, PetscInt components, Vec *field)
 {
   PetscFunctionBegin;
-  PetscCall(VecCreate(output->comm, field));
+  PetscCall(VecCreate(comm, field));
   PetscCall(VecSetSizes(*field, n * components, PETSC_DECIDE));
   PetscCall(VecSetBlockSize(*field, components));
   PetscCall(VecSetType(*field, VECSTANDARD));

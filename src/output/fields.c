@@ -15,10 +15,33 @@ static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, Petsc
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
+/* Of the vertices of this rank, each of which has a cell here */
+static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
+{
+  PetscSection global;
+  DMLabel      label;
+  PetscInt     cstart, cend, vertices[8], number = 0, b;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(output->dm, &global));
+  PetscCall(DMGetLabel(output->dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscCall(DMLabelGetValue(label, c, &b));
+    PetscCall(MeshGetCellVertices(output->dm, c, vertices));
+    for (PetscInt i = 0; i < 8; ++i) {
+      PetscCall(FieldsGetVertex(global, vertices[i], &number));
+      if (number >= output->first && number < output->first + output->nowned) body[number - output->first] = b;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Undeformed; body: of each, or NULL */
+PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
 {
   PetscSection       global, csection;
-  Vec                coordinates, field;
+  Vec                coordinates;
   const PetscScalar *x;
   PetscScalar       *values;
   PetscInt           vstart, vend;
@@ -28,9 +51,9 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscCall(DMGetCoordinateSection(output->dm, &csection));
   PetscCall(DMGetCoordinatesLocal(output->dm, &coordinates));
   PetscCall(DMPlexGetDepthStratum(output->dm, 0, &vstart, &vend));
-  PetscCall(DatasetCreate(output, "vertices", output->nowned, 3, &field));
+  PetscCall(DatasetCreate(output->comm, "vertices", output->nowned, 3, field));
   PetscCall(VecGetArrayRead(coordinates, &x));
-  PetscCall(VecGetArray(field, &values));
+  PetscCall(VecGetArray(*field, &values));
   for (PetscInt v = vstart; v < vend; ++v) {
     PetscInt number = 0, offset, from;
 
@@ -40,8 +63,18 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
     PetscCall(PetscSectionGetOffset(csection, v, &from));
     for (PetscInt d = 0; d < 3; ++d) values[3 * (number - output->first) + d] = x[from + d];
   }
-  PetscCall(VecRestoreArray(field, &values));
+  PetscCall(VecRestoreArray(*field, &values));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
+  if (body) PetscCall(FieldsGetBodies(output, body));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
+{
+  Vec field;
+
+  PetscFunctionBegin;
+  PetscCall(FieldsGetVertices(output, &field, NULL));
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
@@ -85,7 +118,8 @@ static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteMesh(PetscViewer viewer, void *ctx)
+/* ctx: the output */
+PetscErrorCode FieldsWriteMesh(PetscViewer viewer, void *ctx)
 {
   PetscFunctionBegin;
   PetscCall(FieldsWriteVertices((Output)ctx, viewer));
@@ -99,7 +133,7 @@ PetscErrorCode OutputWriteMesh(Output output)
 
   PetscFunctionBegin;
   PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteMesh, output));
+  PetscCall(FileWriteHDF5(output->comm, file, PETSC_FALSE, FieldsWriteMesh, output));
   PetscFunctionReturn(0);
 }
 
@@ -109,7 +143,7 @@ static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, P
 
   PetscFunctionBegin;
   /* A plain vector: those of a DMPlex are viewed in PETSc's own file layout */
-  PetscCall(DatasetCreate(output, "displacement", output->nowned, 3, &field));
+  PetscCall(DatasetCreate(output->comm, "displacement", output->nowned, 3, &field));
   PetscCall(VecCopy(displacement, field));
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
@@ -127,7 +161,7 @@ static PetscErrorCode FieldsCreateContact(Output output, const char name[], cons
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), "%s%s%s", name, suffix ? "_" : "", suffix ? suffix : ""));
-  PetscCall(DatasetCreate(output, full, output->nowned, components, field));
+  PetscCall(DatasetCreate(output->comm, full, output->nowned, components, field));
   PetscCall(VecGetArray(*field, values));
   for (PetscInt i = 0; i < output->nowned * components; ++i) (*values)[i] = value;
   PetscFunctionReturn(0);
@@ -230,6 +264,6 @@ PetscErrorCode OutputWriteFields(Output output, const StepState *state)
 
   PetscFunctionBegin;
   PetscCall(OutputGetStepFile(output, state->report->step, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteState, &what));
+  PetscCall(FileWriteHDF5(output->comm, file, PETSC_FALSE, FieldsWriteState, &what));
   PetscFunctionReturn(0);
 }

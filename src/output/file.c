@@ -1,7 +1,8 @@
 /* Files that appear whole or not at all */
-#define _POSIX_C_SOURCE 200809L /* lstat(), truncate() */
+#define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), fsync() */
 #include "outputimpl.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -61,7 +62,32 @@ PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FileCommit(MPI_Comm comm, const char file[])
+/* What was written of a file, or the names in its folder, is on the disk */
+static int FileSync(const char file[])
+{
+  const int descriptor = open(file, O_RDONLY);
+  int       error      = 0;
+
+  if (descriptor < 0) return errno;
+  if (fsync(descriptor)) error = errno;
+  (void)close(descriptor);
+  return error;
+}
+
+static PetscErrorCode FileSyncFolder(const char file[], int *error)
+{
+  char  folder[PETSC_MAX_PATH_LEN];
+  char *slash;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(folder, file, sizeof(folder)));
+  slash = strrchr(folder, '/');
+  if (slash) slash[slash == folder] = 0;
+  *error = FileSync(slash ? folder : ".");
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FileCommit(MPI_Comm comm, const char file[], PetscBool safe)
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
@@ -71,7 +97,11 @@ static PetscErrorCode FileCommit(MPI_Comm comm, const char file[])
   PetscFunctionBegin;
   PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && renamed && rename(part, file)) error = errno;
+  if (rank == 0 && renamed) {
+    if (safe) error = FileSync(part);
+    if (!error && rename(part, file)) error = errno;
+    if (!error && safe) PetscCall(FileSyncFolder(file, &error));
+  }
   PetscCall(FileRaise(comm, file, error));
   PetscFunctionReturn(0);
 }
@@ -85,7 +115,7 @@ static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *fun
   return n;
 }
 
-PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
+PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscBool safe, PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
 {
   char           part[PETSC_MAX_PATH_LEN], complaint[FILE_COMPLAINT_LENGTH] = "";
   PetscViewer    viewer;
@@ -103,7 +133,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
   if (ierr && renamed) (void)remove(part);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
-  PetscCall(FileCommit(comm, file));
+  PetscCall(FileCommit(comm, file, safe));
   PetscFunctionReturn(0);
 }
 
@@ -159,6 +189,6 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
     }
   }
   PetscCall(FileRaise(comm, file, error));
-  PetscCall(FileCommit(comm, file));
+  PetscCall(FileCommit(comm, file, PETSC_FALSE));
   PetscFunctionReturn(0);
 }

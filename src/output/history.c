@@ -1,6 +1,8 @@
 /* The history of a run: a table of comma-separated values, a line a load step, a column for every number of its report. */
+#define _POSIX_C_SOURCE 200809L /* getline() */
 #include "outputimpl.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What a line is made of: the names of its columns, or the values of a step */
@@ -13,6 +15,12 @@ typedef struct {
   PetscInt           npoints; /* of a line of the scene's probes */
   const ProbeReport *points;
 } HistoryLine;
+
+/* The table of an earlier run, and how many load steps of it stay */
+typedef struct {
+  const char *file;
+  PetscInt    step;
+} HistoryOlder;
 
 /* A name with a comma or a quote, as Gmsh files may have it, stands in quotes */
 static void HistoryPutName(HistoryLine *line, const char owner[], const char name[], const char component[])
@@ -152,14 +160,49 @@ static PetscErrorCode HistoryBeginLine(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* The first step that an output gets begins a new file */
+/* The lines of load steps that an earlier run has done; on the first rank alone */
+static PetscErrorCode HistoryCopyOlder(FILE *to, const void *ctx)
+{
+  const HistoryOlder *older   = (const HistoryOlder *)ctx;
+  FILE               *from    = fopen(older->file, "r");
+  char               *text    = NULL;
+  size_t              size    = 0;
+  PetscBool           heading = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  while (from && getline(&text, &size, from) > 0) {
+    if (heading || strtod(text, NULL) <= (double)older->step) fputs(text, to);
+    heading = PETSC_FALSE;
+  }
+  free(text);
+  if (from) (void)fclose(from);
+  PetscFunctionReturn(0);
+}
+
+/* Whether the table goes on that an earlier run began; what that has written of later load steps goes */
+static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBool *goes_on)
+{
+  const HistoryOlder older = {.file = file, .step = output->continued};
+
+  PetscFunctionBegin;
+  *goes_on = output->begun;
+  if (output->begun || !output->continued) PetscFunctionReturn(0);
+  PetscCall(PetscTestFile(file, 'r', goes_on));
+  PetscCallMPI(MPI_Bcast(goes_on, 1, MPIU_BOOL, 0, output->comm));
+  if (*goes_on) PetscCall(FileWriteText(output->comm, file, HistoryCopyOlder, &older));
+  PetscFunctionReturn(0);
+}
+
+/* The first step that an output gets begins a new file, unless it goes on with another run's */
 static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[], PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
 {
-  char file[PETSC_MAX_PATH_LEN];
+  char      file[PETSC_MAX_PATH_LEN];
+  PetscBool goes_on;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(file, sizeof(file), "%s%s%s.csv", line->output->base, name[0] ? "_" : "", name));
-  if (line->output->nsteps == 1) PetscCall(FileWriteText(line->output->comm, file, begin, line));
+  PetscCall(HistoryContinue(line->output, file, &goes_on));
+  if (!goes_on) PetscCall(FileWriteText(line->output->comm, file, begin, line));
   else PetscCall(FileAppendText(line->output->comm, file, append, line));
   PetscFunctionReturn(0);
 }

@@ -3,27 +3,6 @@
 #include "outputimpl.h"
 #include <sys/stat.h>
 
-/* Vertices are numbered as the DM's global vectors are */
-static PetscErrorCode OutputCount(Output output)
-{
-  Vec      global;
-  PetscInt n, N, start, cstart, cend;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalVector(output->dm, &global));
-  PetscCall(VecGetLocalSize(global, &n));
-  PetscCall(VecGetSize(global, &N));
-  PetscCall(VecGetOwnershipRange(global, &start, NULL));
-  PetscCall(DMRestoreGlobalVector(output->dm, &global));
-  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
-  output->nowned      = n / 3;
-  output->nvertices   = N / 3;
-  output->first       = start / 3;
-  output->ncellslocal = cend - cstart;
-  PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    OutputCreate - Prepares results on disk for ParaView, and writes the mesh
 
@@ -55,15 +34,11 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   Output o;
 
   PetscFunctionBegin;
-  PetscCall(PetscNew(&o));
-  PetscCall(PetscObjectGetComm((PetscObject)dm, &o->comm));
-  PetscCall(PetscObjectReference((PetscObject)dm));
-  o->dm = dm;
+  PetscCall(OutputCreateMesh(dm, &o));
   PetscCall(PetscStrallocpy(basename, &o->base));
   o->nbodies = nbodies;
   PetscCall(PetscMalloc1(nbodies, &o->bodynames));
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
-  PetscCall(OutputCount(o));
   PetscCall(OutputWriteMesh(o));
   PetscCall(OutputWriteXDMF(o));
   *output = o;
@@ -86,13 +61,57 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time)
+{
+  PetscFunctionBegin;
+  if (output->nsteps == output->maxsteps) {
+    output->maxsteps = 2 * output->maxsteps + 8;
+    PetscCall(PetscRealloc(output->maxsteps * sizeof(*output->steps), &output->steps));
+  }
+  output->steps[output->nsteps++] = (OutputStep){.step = step, .time = time};
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputContinue - Goes on with the files of a run that ended before its last load step
+
+   Collective
+
+   Input Parameters:
++  output - the output, before OutputWrite()
+.  step   - load steps that are done
+-  same   - whether the mesh is laid out as that run's; else its fields are not listed beside the new ones
+
+   Level: intermediate
+
+   Note:
+   The history keeps the lines of those load steps, <basename>.xmf their files as far as they are there.
+
+.seealso: `OutputCreate()`, `OutputWrite()`, `CheckpointRead()`
+@*/
+PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
+{
+  char      file[PETSC_MAX_PATH_LEN];
+  PetscBool exists;
+
+  PetscFunctionBegin;
+  output->continued = step;
+  for (PetscInt s = 1; same && s <= step; ++s) {
+    PetscCall(OutputGetStepFile(output, s, file, sizeof(file)));
+    PetscCall(PetscTestFile(file, 'r', &exists));
+    PetscCallMPI(MPI_Bcast(&exists, 1, MPIU_BOOL, 0, output->comm));
+    if (exists) PetscCall(OutputAddStep(output, s, (PetscReal)s));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Steps beyond this one are those of an older run of the same name; only the first rank looks. What is no file, but a link or a device,
    was put there by somebody and stays. */
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
   char        file[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscInt    step = output->steps[0].step;
+  PetscInt    step = output->steps[output->nsteps - 1].step;
   struct stat info;
 
   PetscFunctionBegin;
@@ -136,18 +155,13 @@ static PetscErrorCode OutputRemoveOlder(Output output)
 PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
   PetscFunctionBegin;
-  if (!output->nsteps) PetscCall(OutputKeepFields(output, state));
+  if (!output->begun) PetscCall(OutputKeepFields(output, state));
   PetscCall(OutputWriteFields(output, state));
-  if (output->nsteps == output->maxsteps) {
-    output->maxsteps = 2 * output->maxsteps + 8;
-    PetscCall(PetscRealloc(output->maxsteps * sizeof(*output->steps), &output->steps));
-  }
-  output->steps[output->nsteps].step = state->report->step;
-  output->steps[output->nsteps].time = state->report->time;
-  output->nsteps++;
+  PetscCall(OutputAddStep(output, state->report->step, state->report->time));
   PetscCall(OutputWriteXDMF(output));
   PetscCall(OutputWriteHistory(output, state->report));
-  if (output->nsteps == 1) PetscCall(OutputRemoveOlder(output));
+  if (!output->begun) PetscCall(OutputRemoveOlder(output));
+  output->begun = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 

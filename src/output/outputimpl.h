@@ -6,14 +6,16 @@
 #define OUTPUTIMPL_H
 
 #include <output.h>
+#include <checkpoint.h>
+#include <rankerror.h>
 #include <petscviewerhdf5.h>
 
 /*
    file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
    names the file.
 */
-/* Every rank writes into the open viewer */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
+/* Every rank writes into the open viewer; safe: it is on the disk before it takes its name */
+PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscBool safe, PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
 /* On the first rank fill() writes the stream; the others wait for the outcome */
 PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 /* The same behind what the file holds; it stays as it was where there is no room for all of it */
@@ -37,6 +39,8 @@ struct _n_Output {
   PetscInt    nowned, ncellslocal, first; /* vertices and cells of this rank; number of its first vertex */
   PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
+  PetscBool   begun;                      /* a step has been written */
+  PetscInt    continued;                  /* load steps of the run that this one goes on with; 0: none */
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };
@@ -46,7 +50,7 @@ PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 
 /* dataset.c: n records of this rank; written and destroyed */
-PETSC_INTERN PetscErrorCode DatasetCreate(Output, const char name[], PetscInt n, PetscInt components, Vec *);
+PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);
 PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
 
 /* stress.c: of what a state does not have nothing is written */
@@ -54,7 +58,12 @@ PETSC_INTERN PetscErrorCode StressWriteCells(Output, const StepState *, PetscVie
 PETSC_INTERN PetscErrorCode StressWriteNodes(Output, const StepState *, PetscViewer);
 PETSC_INTERN PetscErrorCode StressWriteQuadrature(Output, const StepState *, PetscViewer);
 
-/* fields.c */
+/* layout.c: an output that only knows its mesh */
+PETSC_INTERN PetscErrorCode OutputCreateMesh(DM, Output *);
+
+/* fields.c: the mesh of an output into an open file, its vertices on this rank with their bodies; its files */
+PETSC_INTERN PetscErrorCode FieldsGetVertices(Output, Vec *vertices, PetscInt body[]);
+PETSC_INTERN PetscErrorCode FieldsWriteMesh(PetscViewer, void *output);
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
 PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
 
@@ -63,6 +72,15 @@ PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
 
 /* history.c: <base>.csv, one line a load step */
 PETSC_INTERN PetscErrorCode OutputWriteHistory(Output, const StepReport *);
+
+/* restart.c, checkpoint.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
+typedef struct {
+  const char *name;
+  size_t      offset;
+} CheckpointNumberField;
+
+PETSC_INTERN const CheckpointNumberField CheckpointNumbers[];
+PETSC_INTERN PetscReal                  *CheckpointNumber(Checkpoint, size_t i);
 
 /* output.c, on top of these, has no more than what output.h offers */
 

@@ -8,7 +8,7 @@ static PetscErrorCode StressWriteValues(Output output, const char name[], PetscI
   PetscScalar *f;
 
   PetscFunctionBegin;
-  PetscCall(DatasetCreate(output, name, n, components, &field));
+  PetscCall(DatasetCreate(output->comm, name, n, components, &field));
   PetscCall(VecGetArray(field, &f));
   for (PetscInt i = 0; i < n; ++i) {
     for (PetscInt k = 0; k < components; ++k) f[components * i + k] = values[stride * i + order[k]];
@@ -42,10 +42,28 @@ PetscErrorCode StressWriteNodes(Output output, const StepState *state, PetscView
   PetscFunctionReturn(0);
 }
 
+/* ParaView shows points that are cells */
+static PetscErrorCode StressWritePointCells(Output output, PetscInt n, PetscViewer viewer)
+{
+  IS        is;
+  PetscInt *cells, first = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Exscan(&n, &first, 1, MPIU_INT, MPI_SUM, output->comm));
+  PetscCall(PetscMalloc1(n, &cells));
+  for (PetscInt i = 0; i < n; ++i) cells[i] = first + i;
+  PetscCall(ISCreateGeneral(output->comm, n, cells, PETSC_OWN_POINTER, &is));
+  PetscCall(PetscObjectSetName((PetscObject)is, "gauss_cells"));
+  PetscCall(ISView(is, viewer));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode StressWriteQuadrature(Output output, const StepState *state, PetscViewer viewer)
 {
   PetscFunctionBegin;
   if (!state->quadrature) PetscFunctionReturn(0);
+  PetscCall(StressWritePointCells(output, state->nquadrature, viewer));
   PetscCall(StressWriteValues(output, "gauss_points", state->nquadrature, 3, identity, 3, state->quadrature, viewer));
   PetscCall(StressWriteValues(output, "gauss_stress", state->nquadrature, 6, tensor6, 6, state->quadrature_stress, viewer));
   PetscFunctionReturn(0);

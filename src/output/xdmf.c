@@ -119,7 +119,9 @@ static PetscErrorCode XDMFWriteCloud(FILE *stream, const void *ctx)
   for (PetscInt s = 0; s < output->nsteps; ++s) {
     PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
     XDMFBeginStep(stream, &output->steps[s]);
-    fprintf(stream, "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%" PetscInt_FMT "\"/>\n        <Geometry GeometryType=\"XYZ\">\n", output->nquadrature);
+    fprintf(stream, "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%" PetscInt_FMT "\" NodesPerElement=\"1\">\n", output->nquadrature);
+    XDMFWriteDataItem(stream, file, "gauss_cells", PETSC_TRUE, output->nquadrature, 1);
+    fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
     XDMFWriteDataItem(stream, file, "gauss_points", PETSC_FALSE, output->nquadrature, 3);
     fputs("        </Geometry>\n", stream);
     XDMFWriteAttribute(stream, file, "gauss_stress", "Tensor6", "Node", PETSC_FALSE, output->nquadrature, 6);

@@ -16,7 +16,7 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   report->nramps                                              = scene->nramps;
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
   for (PetscInt r = 0; r < scene->nramps; ++r) report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
-  sim->report.nsteps = step + 1;
+  sim->report.nsteps = step + 1 - sim->first_step;
   PetscFunctionReturn(0);
 }
 
@@ -85,9 +85,9 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 @*/
 PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
-  StepReport     *report    = &sim->report.steps[step];
+  StepReport     *report    = &sim->report.steps[step - sim->first_step];
   const PetscReal end       = (PetscReal)(step + 1);
-  PetscReal       increment = end - sim->path.time;
+  PetscReal       increment = sim->increment > 0.0 ? sim->increment : end - sim->path.time;
   PetscBool       again     = PETSC_TRUE, stop;
   PetscLogDouble  t0, t1;
 
@@ -108,7 +108,9 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
       ++report->substeps;
       increment *= 2.0;
     } else PetscCall(SimulationCut(sim, report, &increment, &again));
+    sim->increment = increment;
   }
+  if (sim->path.time >= end) sim->increment = 0.0;
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;

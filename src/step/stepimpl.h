@@ -7,6 +7,7 @@
 #define STEPIMPL_H
 
 #include <step.h>
+#include <checkpoint.h>
 #include <mesh.h>
 #include <elasticity.h>
 #include <contact.h>
@@ -129,7 +130,9 @@ struct _n_Simulation {
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
-  KSP                  ksp; /* of a quadratic step without contact */
+  KSP                  ksp;        /* of a quadratic step without contact */
+  PetscInt             first_step; /* of this run: 0, or that which it goes on with */
+  PetscReal            increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
   LoadPath             path;
   ContactMemory        memory;
   PetscContainer       subspace;      /* what the optimizer keeps from one load step to the next; NULL before the first */
@@ -277,6 +280,6 @@ PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepRe
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
-/* simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more than what step.h and accuracy.h offer */
+/* state.c, checkpoint.c, simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more than what step.h and accuracy.h offer */
 
 #endif

@@ -1,0 +1,36 @@
+/* What a run goes on from: taken and put back by src/step, written and read by src/output. */
+#ifndef CHECKPOINT_H
+#define CHECKPOINT_H
+
+#include <petscdmplex.h>
+#include "scene.h"
+
+/* At the vertices that a rank owns, in the order of the global vectors */
+typedef struct {
+  char       name[128];
+  PetscInt   components;
+  PetscReal *values;
+} CheckpointField;
+
+typedef struct _n_Checkpoint {
+  PetscInt         step;              /* load step that is under way or comes next, from 0 */
+  PetscReal        time;              /* of the state; load step k ends at time k */
+  PetscReal        previous_time;     /* of the state before it */
+  PetscReal        increment;         /* of time, that a load step under way was tried with; 0: all that is left of it */
+  PetscReal        largest_increment; /* of any displacement so far [length] */
+  PetscReal        work;              /* of the forces from outside [force length] */
+  PetscInt         nfields;
+  CheckpointField *fields;
+} * Checkpoint;
+
+/* A name's length is cut where it is too long for a field */
+PETSC_EXTERN PetscErrorCode CheckpointAddField(Checkpoint, const char name[], PetscInt components, PetscInt nvertices, PetscReal **values);
+PETSC_EXTERN PetscErrorCode CheckpointGetField(Checkpoint, const char name[], const PetscReal **values);
+PETSC_EXTERN PetscErrorCode CheckpointDestroy(Checkpoint *);
+
+/* Atomically: a file that was there stays until the new one is safe on the disk */
+PETSC_EXTERN PetscErrorCode CheckpointWrite(Checkpoint, Scene, DM, const char file[]);
+/* On any mesh of the same bodies. same: its vertices are those of the file in the same order; an error where the file is of another scene */
+PETSC_EXTERN PetscErrorCode CheckpointRead(Scene, DM, const char file[], Checkpoint *, PetscBool *same);
+
+#endif

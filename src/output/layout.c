@@ -1,0 +1,34 @@
+/* How the mesh of an output is laid out */
+#include "outputimpl.h"
+
+/* Vertices are numbered as the DM's global vectors are */
+static PetscErrorCode OutputCount(Output output)
+{
+  Vec      global;
+  PetscInt n, N, start, cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(output->dm, &global));
+  PetscCall(VecGetLocalSize(global, &n));
+  PetscCall(VecGetSize(global, &N));
+  PetscCall(VecGetOwnershipRange(global, &start, NULL));
+  PetscCall(DMRestoreGlobalVector(output->dm, &global));
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  output->nowned      = n / 3;
+  output->nvertices   = N / 3;
+  output->first       = start / 3;
+  output->ncellslocal = cend - cstart;
+  PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputCreateMesh(DM dm, Output *output)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(output));
+  PetscCall(PetscObjectGetComm((PetscObject)dm, &(*output)->comm));
+  PetscCall(PetscObjectReference((PetscObject)dm));
+  (*output)->dm = dm;
+  PetscCall(OutputCount(*output));
+  PetscFunctionReturn(0);
+}

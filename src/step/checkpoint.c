@@ -1,0 +1,159 @@
+/* The state of a simulation, to go on from: the path, and what the contact remembers. */
+#include "stepimpl.h"
+
+/* A field of a global vector; NULL: zero */
+static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
+{
+  const PetscScalar *a;
+  PetscReal         *values;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointAddField(checkpoint, name, 3, nvertices, &values));
+  if (!v) PetscFunctionReturn(0);
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt i = 0; i < 3 * nvertices; ++i) values[i] = PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[], Vec v)
+{
+  const PetscReal *values;
+  PetscScalar     *a;
+  PetscInt         n;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointGetField(checkpoint, name, &values));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayWrite(v, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = values[i];
+  PetscCall(VecRestoreArrayWrite(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* What is remembered of a pair, by vertices that this rank owns: to a field from memory, or back */
+static PetscErrorCode CheckpointCopyMemory(Simulation sim, PetscInt pair, PetscReal memory[], PetscReal field[], PetscBool back)
+{
+  const ContactMemory *m = &sim->memory;
+  PetscSection         global;
+  PetscInt             rstart;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  for (PetscInt v = m->vstart; v < m->vend; ++v) {
+    PetscReal *kept = &memory[pair * (m->vend - m->vstart) + v - m->vstart];
+    PetscInt   offset;
+
+    PetscCall(PetscSectionGetOffset(global, v, &offset));
+    if (offset < 0) continue;
+    if (back) *kept = field[(offset - rstart) / 3];
+    else field[(offset - rstart) / 3] = *kept;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Of every pair pressure and slack, under its name */
+static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscInt nvertices, PetscBool back)
+{
+  const struct {
+    const char *name;
+    PetscReal  *memory;
+  } kept[] = {
+    {"pressure", sim->memory.pressure},
+    {"slack", sim->memory.slack},
+  };
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; sim->contact && p < sim->scene->npairs; ++p) {
+    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kept); ++k) {
+      char       name[128];
+      PetscReal *values;
+
+      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, sim->scene->pairs[p].name));
+      if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
+      else PetscCall(CheckpointAddField(checkpoint, name, 1, nvertices, &values));
+      PetscCall(CheckpointCopyMemory(sim, p, kept[k].memory, values, back));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetCheckpoint - Takes the state of a simulation, after a load step or one that was interrupted
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  checkpoint - the state; free with CheckpointDestroy()
+
+   Level: intermediate
+
+   Note:
+   What the optimizer keeps of its Krylov spaces is not in it: the first load step that goes on from it finds it again.
+
+.seealso: `SimulationSetCheckpoint()`, `CheckpointWrite()`
+@*/
+PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
+{
+  const LoadPath *path = &sim->path;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(checkpoint));
+  (*checkpoint)->step              = (PetscInt)PetscFloorReal(path->time);
+  (*checkpoint)->time              = path->time;
+  (*checkpoint)->previous_time     = path->previous_time;
+  (*checkpoint)->increment         = sim->increment;
+  (*checkpoint)->largest_increment = path->largest_increment;
+  (*checkpoint)->work              = path->work;
+  PetscCall(VecGetLocalSize(path->u, &n));
+  PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
+  PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
+  PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
+  PetscCall(CheckpointCopyContact(sim, *checkpoint, n / 3, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetCheckpoint - Puts a simulation into a state, from which load steps go on
+
+   Collective
+
+   Input Parameters:
++  sim        - the simulation, after SimulationSetUp() and before any load step
+-  checkpoint - the state, of this simulation's mesh
+
+   Output Parameter:
+.  step - the load step to go on with, from 0
+
+   Level: intermediate
+
+   Note:
+   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part of the work in the first solve.
+
+.seealso: `SimulationGetCheckpoint()`, `CheckpointRead()`
+@*/
+PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
+{
+  LoadPath *path = &sim->path;
+
+  PetscFunctionBegin;
+  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT, "the run that is to go on is at time %g, and the scene's load program ends at time %" PetscInt_FMT ": nothing is left to do", (double)checkpoint->time, sim->scene->nsteps);
+  *step = sim->first_step = checkpoint->step;
+  sim->increment          = checkpoint->increment;
+  path->time              = checkpoint->time;
+  path->previous_time     = checkpoint->previous_time;
+  path->largest_increment = checkpoint->largest_increment;
+  path->work              = checkpoint->work;
+  PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
+  PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
+  PetscCall(VecDestroy(&path->outside));
+  PetscCall(VecDuplicate(path->u, &path->outside));
+  PetscCall(CheckpointGetVec(checkpoint, "outside_force", path->outside));
+  PetscCall(CheckpointCopyContact(sim, checkpoint, 0, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}

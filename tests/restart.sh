@@ -1,0 +1,95 @@
+# A run goes on from a checkpoint: to the same answer on the same ranks, on others, on a refined mesh, with another load program; from what SIGKILL, SIGTERM and
+# a full disk leave. What it cannot go on from is said in one sentence.
+contact=$AMGF_DIR/bin/contact
+cat > press.yaml <<'YAML'
+problem: press
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], material: neohookean, young: 1, poisson: 0.3}
+  - lid: {lower: [0, 0, 1.01], upper: [1.5, 1.5, 1.5], cells: [2, 2, 2], young: 5, poisson: 0.3}
+symmetry: [cube.xmin, cube.ymin, cube.zmin, lid.xmin, lid.ymin]
+displacements:
+  - top: {face: lid.zmax, value: [free, free, -0.2]}
+contact:
+  - joint: {mortar: lid.zmin, nonmortar: cube.zmax}
+load: {steps: 4}
+YAML
+sed 's/material: neohookean, //; s/problem: press/problem: linear/' press.yaml > linear.yaml
+sed 's/steps: 4/factors: [0.25, 0.5, 0.75, 0.5, 0.1]/' press.yaml > later.yaml
+options="-quiet -tao_ipfilter_tol 1e-12 -contact_update_tol 1e-12"
+judge() { "$PYTHON" "$AMGF_DIR/tests/restart.py" "$@"; }
+
+for scene in press linear; do
+  "$contact" $scene.yaml $options -output whole -summary whole.json -checkpoint_every 3 -checkpoint $scene.h5 || echo "exit code $?"
+  cp -r whole.csv part.csv
+  "$contact" $scene.yaml $options -restart $scene.h5 -summary part.json -output part
+  judge "$scene, one rank" 1e-12 whole.json part.json
+  echo "lines of its history: $(cut -d, -f1 part.csv | tr '\n' ' ')"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml $options -restart $scene.h5 -summary part.json
+  judge "$scene, three ranks" 1e-9 whole.json part.json
+done
+mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -checkpoint_every 2 -load_steps 3 -checkpoint two.h5 -summary whole.json
+mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -load_steps 3 -restart two.h5 -summary part.json
+judge "from two ranks to two" 1e-12 whole.json part.json
+"$contact" linear.yaml $options -refine 1 -summary whole.json
+"$contact" linear.yaml $options -refine 1 -restart linear.h5 -summary part.json
+judge "refined" 1e-9 whole.json part.json energy
+"$contact" later.yaml $options -summary whole.json
+"$contact" later.yaml $options -restart press.h5 -summary part.json
+judge "another load program" 1e-9 whole.json part.json
+
+"$contact" press.yaml $options -summary whole.json
+for part in 2 4 6; do
+  rm -f killed.h5*
+  "$contact" press.yaml $options -checkpoint_every 1 -checkpoint killed.h5 &
+  pid=$!
+  for i in $(seq 900); do [ -f killed.h5 ] && break; sleep 0.1; done
+  sleep 0.0$(((part * 37 + $$) % 89 + 10))
+  kill -KILL $pid 2> /dev/null
+  wait $pid 2> /dev/null
+  "$contact" press.yaml $options -restart killed.h5 -summary part.json 2> err && judge "killed" 1e-12 whole.json part.json || sed 's/.*: nothing is left to do/killed: energy, work and forces as without a stop to 1e-12: yes/' err
+done
+
+# begun LOG: waits until a run has solved a load step
+begun() { for i in $(seq 900); do grep -q "$2" "$1" && break; sleep 0.1; done; }
+"$contact" press.yaml -load_steps 400 -checkpoint term.h5 > log 2>&1 &
+pid=$!
+begun log 'Load step 3'
+kill -TERM $pid
+wait $pid
+echo "SIGTERM: exit $?, $(ls term.h5*)"
+"$contact" press.yaml -load_steps 400 -restart term.h5 -checkpoint term.h5 > log 2>&1 &
+pid=$!
+begun log 'Load step 5'
+kill -TERM $pid
+wait $pid
+echo "and again: exit $?, $(grep -c '^Going on from term.h5 at time [2-9]' log) $(grep -c '^Checkpoint term.h5: time' log)"
+
+trap '' XFSZ # the disk is full: a write fails, and no signal says so
+"$contact" press.yaml -quiet -load_steps 4000 -checkpoint_every 1 -checkpoint full.h5 2> err &
+pid=$!
+for i in $(seq 900); do [ -f full.h5 ] && break; sleep 0.1; done
+prlimit --pid $pid --fsize=16384
+wait $pid
+echo "full disk: exit $([ $? -eq 0 ] && echo 0 || echo 'not 0'), $(grep 'contact: error' err | sed 's/full? .*/full?/')"
+"$PYTHON" -c '
+import h5py
+with h5py.File("full.h5") as file:
+    print("the checkpoint before is there:", file.attrs["time"] >= 1 and file["displacement"][...].shape[1] == 3)'
+
+try() {
+  "$contact" "$@" -quiet 2>&1 | grep -a 'contact: error\|HDF5' || echo "no error: $*"
+}
+sed 's/young: 5/young: 6/' press.yaml > other.yaml
+sed 's/\[0.25, 0.5, 0.75/[0.25, 0.5, 0.7/' later.yaml > sooner.yaml
+sed '/joint/d; /contact:/d; s/lid.zmax, value: \[free, free/lid.zmax, value: [0, 0/' press.yaml > alone.yaml
+try other.yaml -restart press.h5
+try alone.yaml -restart press.h5
+try sooner.yaml -restart press.h5
+try press.yaml -load_steps 3 -restart press.h5
+try press.yaml -restart whole.h5
+try press.yaml -restart press.yaml
+try press.yaml -restart nowhere.h5
+head -c 3000 press.h5 > torn.h5
+try press.yaml -restart torn.h5
+try press.yaml -restart press.h5 -accuracy 0.1
+try press.yaml -checkpoint_every 1 -checkpoint nowhere/press.h5
