@@ -18,8 +18,8 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(e->nnodes, &body));
   for (PetscInt v = 0; v < e->nnodes; ++v) body[v] = PETSC_DECIDE;
-  for (PetscInt i = 0; i < 8 * e->ncells; ++i) {
-    if (selected[e->cellbody[i / 8]]) body[e->cellnodes[i]] = e->cellbody[i / 8];
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    for (PetscInt i = e->cellstart[c]; selected[e->cellbody[c]] && i < e->cellstart[c + 1]; ++i) body[e->cellnodes[i]] = e->cellbody[c];
   }
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     PetscReal s[6];
@@ -112,22 +112,22 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
-  *npoints = e->basis.npoints * e->ncells;
+  *npoints = 0;
+  for (PetscInt c = 0; c < e->ncells; ++c) *npoints += e->bodies[e->cellbody[c]].basis->npoints;
   PetscCall(PetscCalloc1(3 * *npoints, places));
   PetscCall(PetscMalloc1(6 * *npoints, stress));
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    const Body *body = &e->bodies[e->cellbody[c]];
-    PetscReal   X[3][8], U[3][8], w[HEX_MAX_POINTS], H[HEX_MAX_POINTS][ELEMENT_STRAINS];
+  for (PetscInt c = 0, k = 0; c < e->ncells; ++c) {
+    CellState        cell;
+    const CellBasis *basis;
+    PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS];
 
-    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
-    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
-    body->element->strains(&e->basis, &body->material, X, U, w, H);
-    for (PetscInt q = 0; q < e->basis.npoints; ++q) {
-      const PetscInt k = e->basis.npoints * c + q;
-
-      (void)FieldsStress(&body->material, H[q], *stress + 6 * k);
-      for (int a = 0; a < 8; ++a) {
-        for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += e->basis.N[q][a] * X[d][a];
+    ElasticityGetCell(e, c, x, ul, &cell);
+    basis = cell.body->basis;
+    cell.body->element->strains(basis, &cell.body->material, cell.X, cell.U, w, H);
+    for (PetscInt q = 0; q < basis->npoints; ++q, ++k) {
+      (void)FieldsStress(&cell.body->material, H[q], *stress + 6 * k);
+      for (int a = 0; a < basis->nnodes; ++a) {
+        for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += basis->N[q][a] * cell.X[d][a];
       }
     }
   }
@@ -163,13 +163,14 @@ PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   PetscCall(PetscMalloc1(e->ncells, density));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    const Body *body = &e->bodies[e->cellbody[c]];
-    PetscReal   X[3][8], U[3][8], G[3][8], volume = 0, energy;
+    CellState        cell;
+    const CellBasis *basis;
+    PetscReal        G[3][CELL_MAX_NODES], volume = 0, energy;
 
-    ElasticityGatherCell(e->cellnodes + 8 * c, x, X);
-    ElasticityGatherCell(e->cellnodes + 8 * c, ul, U);
-    for (PetscInt q = 0; q < e->basis.npoints; ++q) volume += HexGradients(&e->basis, q, X, G);
-    energy        = body->element->energy(&e->basis, &body->material, X, U);
+    ElasticityGetCell(e, c, x, ul, &cell);
+    basis = cell.body->basis;
+    for (PetscInt q = 0; q < basis->npoints; ++q) volume += CELL_CALL(CellGradients, basis, q, cell.X, G);
+    energy        = cell.body->element->energy(basis, &cell.body->material, cell.X, cell.U);
     (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
