@@ -1,6 +1,7 @@
 # BASE.csv: a line a load step, its numbers those of the summary; the work of the forces from outside is the energy of linear bodies; times of the fields
 # are those of the load program, also where the load goes back. Curves of it, and a disk that is full.
 contact=$AMGF_DIR/bin/contact
+rm -f bar.csv # a link, of the last time
 cat > bar.yaml <<'YAML'
 problem: bar
 bodies:

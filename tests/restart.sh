@@ -64,6 +64,7 @@ kill -TERM $pid
 wait $pid
 echo "and again: exit $?, $(grep -c '^Going on from term.h5 at time [2-9]' log) $(grep -c '^Checkpoint term.h5: time' log)"
 
+rm -f full.h5
 trap '' XFSZ # the disk is full: a write fails, and no signal says so
 "$contact" press.yaml -quiet -load_steps 4000 -checkpoint_every 1 -checkpoint full.h5 2> err &
 pid=$!
