@@ -96,6 +96,7 @@ static PetscErrorCode CreateAMGF(Mat A, IS is, PCAMGFCycle cycle, PC *pc)
   PetscCall(PCCreate(PETSC_COMM_SELF, pc));
   PetscCall(PCSetOperators(*pc, A, A));
   PetscCall(PCSetType(*pc, PCAMGF));
+  PetscCall(PCAMGFSetFilterOptional(*pc, PETSC_TRUE));
   if (is) PetscCall(PCAMGFSetFilterIS(*pc, is));
   PetscCall(PCAMGFSetCycle(*pc, cycle));
   PetscCall(PCSetFromOptions(*pc));

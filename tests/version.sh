@@ -7,7 +7,7 @@ for word in -version --version --help; do
     [ $ranks -eq 1 ] || launch=(mpiexec --oversubscribe -n $ranks)
     "${launch[@]}" "$contact" $word > out 2> err
     echo "$word, ranks $ranks: exit $?, $(grep -c . err) lines of errors"
-    sed -e "s/$version/VERSION/g" -e '/^petscamgf/ s/PETSc [0-9].*/PETSc .../' -e 's/^running Petsc .*/running .../' out | grep -E 'VERSION|running|^Quasi|^  -refine|^  7'
+    sed -e "s/$version/VERSION/g" -e '/^petscamgf/ s/PETSc [0-9].*/PETSc .../' -e 's/^running .*/running .../' out | grep -E 'VERSION|running|^Quasi|^  -refine|^  7'
   done
 done
 readelf -d "$AMGF_DIR/lib/libpetscamgf.so" | sed -n "s/.*soname: \[\(.*\)\]/soname \1/p" | sed "s/${version%.*}/MAJOR.MINOR/"

@@ -2,6 +2,17 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
+/* share/options/pdipm.opts has an option by the names of all releases, of which each asks for one: the other is no mistake either */
+static PetscErrorCode OptimizerKnowBothNames(void)
+{
+  PetscBool given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_pdipm_solve_symmetric_kkt", &given));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_pdipm_symmetric_kkt", &given));
+  PetscFunctionReturn(0);
+}
+
 /* ours: false where -tao_type has chosen another optimizer */
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
@@ -30,6 +41,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
   PetscCall(TaoSetTolerances(*tao, sim->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(OptimizerKnowBothNames());
   PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
