@@ -36,6 +36,11 @@ PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
    (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
+/* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */
+PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);
+PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], Vec force);
+/* Stiffness of springs to the ground, one a row, in energy, force and tangent; NULL: none [force/length] */
+PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness);
 /* Row-sum lumped mass: integral of each vertex's shape function, for each of its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */

@@ -25,6 +25,7 @@ PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscI
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
 /* Do the faces that a scene refers to have facets, and is every body held by displacements or contact? */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
+PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
 /* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */

@@ -44,9 +44,9 @@ typedef struct {
 /* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
 typedef struct {
   const char *name;
-  PetscReal   contact[3], reaction[3], load[3]; /* [force] */
-  PetscReal   residual[3];                      /* their sum [force] */
-  PetscReal   balance;                          /* its size over the sum of the sizes of each pair's, face's and the loads' force */
+  PetscReal   contact[3], reaction[3], springs[3], load[3]; /* [force] */
+  PetscReal   residual[3];                                  /* their sum [force] */
+  PetscReal   balance;                                      /* its size over the sum of the sizes of each pair's, face's and the loads' force */
 } BodyReport;
 
 typedef struct {
@@ -90,8 +90,9 @@ typedef struct {
   FaceReport          *faces;
   PetscInt             nbodies;
   BodyReport          *bodies;
-  PetscReal            balance; /* largest of the bodies' */
-  PetscInt             nprobes; /* of the scene: points */
+  PetscReal            balance;           /* largest of the bodies' */
+  PetscReal            weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */
+  PetscInt             nprobes;           /* of the scene: points */
   ProbeReport         *probes;
   PetscInt             nlines; /* points of all lines in turn */
   ProbeReport         *lines;

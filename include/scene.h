@@ -113,6 +113,23 @@ typedef struct {
   PetscInt  ramp;
 } ScenePressure;
 
+/* Dead load on a face, uniform; or with a resultant, and then linear where there is a moment */
+typedef struct {
+  char     *name;
+  char     *face;
+  PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
+  PetscReal value[3];
+  PetscReal moment[3]; /* of a resultant, about the face's centroid, at factor 1 [force length] */
+  PetscInt  ramp;
+} SceneTraction;
+
+/* Springs between a face and the ground */
+typedef struct {
+  char     *name;
+  char     *face;
+  PetscReal value[3]; /* stiffness along x, y, z per undeformed area [force/length^3] */
+} SceneSpring;
+
 typedef struct {
   char     *name;
   PetscInt  body;     /* index, or PETSC_DECIDE: every body */
@@ -125,10 +142,10 @@ typedef struct {
   char     *mortar;    /* "<body>.<face>" */
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
-  PetscReal distance;     /* facets further apart never pair [length]; 0: chosen from the size of the faces */
-  PetscReal interference; /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
+  PetscReal distance;          /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal interference;      /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
   PetscInt  interference_ramp; /* that it follows; PETSC_DECIDE: all of it is there from the start */
-  PetscBool smooth;       /* whether the gap is that of the smooth surfaces which curved faces stand for */
+  PetscBool smooth;            /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
 
 /* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
@@ -154,6 +171,11 @@ typedef struct {
   SceneDisplacement *displacements;
   PetscInt           npressures;
   ScenePressure     *pressures;
+  PetscInt           ntractions; /* forces on faces too */
+  SceneTraction     *tractions;
+  PetscInt           nsprings;
+  SceneSpring       *springs;
+  PetscBool          weak_springs; /* bodies that move freely are held by springs that carry next to nothing */
   PetscInt           nforces;
   SceneBodyForce    *forces;
   PetscInt           npairs;

@@ -86,6 +86,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
     PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCall(SpringsAddTangent(e, all, global, tangent));
   PetscCall(MatAssemblyBegin(tangent, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(tangent, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);

@@ -225,6 +225,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   PetscCall(PetscFree((*e)->cellnodes));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
+  PetscCall(VecDestroy(&(*e)->springs));
   PetscCall(PetscFree(*e));
   PetscFunctionReturn(0);
 }

@@ -164,15 +164,16 @@ struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
   PetscBool        mattype_given; /* by an option */
-  CellBasis       *basis[2]; /* of order 1 and 2; NULL: no such cells on this rank */
+  CellBasis       *basis[2];      /* of order 1 and 2; NULL: no such cells on this rank */
   PetscInt         nbodies;
   Body            *bodies;
-  PetscInt         quadrature; /* Gauss points per axis of order 1 */
+  PetscInt         quadrature;     /* Gauss points per axis of order 1 */
   PetscInt         ncells, nnodes; /* of this rank; nodes are numbered as the local section does */
   PetscInt        *cellstart;      /* ncells + 1 */
   PetscInt        *cellnodes;      /* nodes of cell c, in tensor order, from cellnodes[cellstart[c]] */
   PetscInt        *cellbody;
   unsigned char   *prescribed; /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
+  Vec              springs;    /* to the ground, one a row; NULL: none [force/length] */
   AssembledTangent assembled;
 };
 
@@ -205,7 +206,12 @@ static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar
   CellGather(cell->n, cell->nodes, u, cell->U);
 }
 
-/* force.c, stress.c, loads.c: loops over the cells and facets, all of them public */
+/* springs.c: of this rank; of all bodies or of those that are assembled again */
+PETSC_INTERN PetscErrorCode SpringsAddEnergy(Elasticity, Vec u, PetscReal *energy);
+PETSC_INTERN PetscErrorCode SpringsAddForce(Elasticity, Vec u, Vec force);
+PETSC_INTERN PetscErrorCode SpringsAddTangent(Elasticity, PetscBool all, const PetscInt global[], Mat);
+
+/* force.c, stress.c, loads.c, faces.c: loops over the cells and facets, all of them public */
 
 /* constant.c: the bodies whose tangent is constant, and which of them are kept when a tangent is assembled again */
 PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);

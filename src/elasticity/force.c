@@ -40,6 +40,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
     else sums[0] += stored;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCall(SpringsAddEnergy(e, u, &sums[0]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
   *energy = sums[1] > 0 ? PETSC_INFINITY : sums[0];
   PetscCall(PetscLogEventEnd(ELASTICITY_Force, u, 0, 0, 0));
@@ -93,6 +94,7 @@ PetscErrorCode ElasticityForce(Elasticity e, Vec u, Vec force)
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
   PetscCall(VecZeroEntries(force));
   PetscCall(DMLocalToGlobal(e->dm, flocal, ADD_VALUES, force));
+  PetscCall(SpringsAddForce(e, u, force));
   PetscCall(DMRestoreLocalVector(e->dm, &flocal));
   PetscCall(PetscLogEventEnd(ELASTICITY_Force, u, force, 0, 0));
   PetscFunctionReturn(0);

@@ -244,6 +244,49 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscFunctionReturn(0);
 }
 
+/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to false before */
+static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
+{
+  Support    support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
+  PetscReal *outside;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
+  PetscCall(SupportMeasureBodies(&support));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = scene->springs[s].face, .fixed = {scene->springs[s].value[0] > 0, scene->springs[s].value[1] > 0, scene->springs[s].value[2] > 0}}));
+  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(SupportAddPair(&support, &scene->pairs[p]));
+  PetscCall(SupportGetFree(&support, outside));
+  for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
+  if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
+  PetscCall(PetscFree5(support.center, support.size, support.gram, support.row, outside));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetUnheld - Finds the bodies that move freely: weak springs may hold them
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, by `MeshCreate()`
+- scene - the scene
+
+  Output Parameter:
+. unheld - of each body whether any of its rigid motions is free
+
+  Level: intermediate
+
+.seealso: `MeshCheckScene()`
+@*/
+PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(unheld, scene->nbodies));
+  PetscCall(SupportFindUnheld(dm, scene, unheld));
+  PetscFunctionReturn(0);
+}
+
 /*@
   MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is held
 
@@ -262,22 +305,15 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 @*/
 PetscErrorCode MeshCheckScene(DM dm, Scene scene)
 {
-  Support    support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
-  PetscReal *outside;
-
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
   }
-  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
-  PetscCall(SupportMeasureBodies(&support));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
-  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(SupportAddPair(&support, &scene->pairs[p]));
-  PetscCall(SupportGetFree(&support, outside));
-  PetscCall(SupportRaise(&support, scene, outside));
-  PetscCall(PetscFree5(support.center, support.size, support.gram, support.row, outside));
+  PetscCall(SupportFindUnheld(dm, scene, NULL));
   PetscFunctionReturn(0);
 }

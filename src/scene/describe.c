@@ -172,6 +172,14 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g, follows %s\n", here->name, here->face, (double)here->value, scene->ramps[here->ramp].name));
   }
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    const SceneTraction *here = &scene->tractions[t];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s %s: %s, (%.6g, %.6g, %.6g)", here->resultant ? "force" : "traction", here->name, here->face, (double)here->value[0], (double)here->value[1], (double)here->value[2]));
+    if (here->resultant) PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0], (double)here->moment[1], (double)here->moment[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
+  }
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s, stiffness (%.6g, %.6g, %.6g) per area\n", scene->springs[s].name, scene->springs[s].face, (double)scene->springs[s].value[0], (double)scene->springs[s].value[1], (double)scene->springs[s].value[2]));
   for (PetscInt f = 0; f < scene->nforces; ++f) {
     const SceneBodyForce *here = &scene->forces[f];
 

@@ -112,6 +112,8 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadDisplacements(keys, s));
   PetscCall(SceneReadSymmetry(keys, s));
   PetscCall(SceneReadPressures(keys, s));
+  PetscCall(SceneReadTractions(keys, s));
+  PetscCall(SceneReadSprings(keys, s));
   PetscCall(SceneReadBodyForces(keys, s));
   PetscCall(SceneReadContact(keys, s));
   PetscCall(SceneReadProbes(keys, s));
@@ -166,6 +168,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->pressures));
   PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
+  PetscCall(SceneDestroyTractions(s));
   PetscCall(SceneDestroyProbes(s));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {

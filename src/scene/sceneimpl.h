@@ -82,6 +82,12 @@ PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadPressures(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadBodyForces(SceneKeys, Scene);
 
+/* tractions.c: dead loads on faces, springs */
+PETSC_INTERN PetscErrorCode SceneReadTractions(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadSprings(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneViewTractions(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDestroyTractions(Scene);
+
 /* contact.c */
 PETSC_INTERN PetscErrorCode SceneReadContact(SceneKeys, Scene);
 

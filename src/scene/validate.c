@@ -47,6 +47,8 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SceneValidateFace(comm, file, scene, "pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SceneValidateFace(comm, file, scene, "spring", scene->springs[s].name, scene->springs[s].face));
   PetscFunctionReturn(0);
 }
 

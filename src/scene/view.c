@@ -160,6 +160,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(SceneViewFaces(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "displacements", scene->ndisplacements, SceneViewDisplacement));
   PetscCall(SceneViewEntries(scene, viewer, "pressures", scene->npressures, SceneViewPressure));
+  PetscCall(SceneViewTractions(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
   PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));
   PetscCall(SceneViewEntries(scene, viewer, "probes", scene->nprobes, SceneViewProbe));

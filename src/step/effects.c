@@ -10,7 +10,10 @@ typedef enum {
   EFFECT_BBAR,
   EFFECT_INCOMPATIBLE,
   EFFECT_PRESSURE,
+  EFFECT_TRACTION,
   EFFECT_BODY_FORCE,
+  EFFECT_SPRINGS,
+  EFFECT_WEAK_SPRINGS,
   EFFECT_BOUNDS,
   EFFECT_ESTIMATE,
   EFFECT_RESULTS,
@@ -25,7 +28,10 @@ static const char *const EffectNames[] = {
   [EFFECT_BBAR]          = "mean dilatation",
   [EFFECT_INCOMPATIBLE]  = "incompatible modes",
   [EFFECT_PRESSURE]      = "pressure",
+  [EFFECT_TRACTION]      = "traction",
   [EFFECT_BODY_FORCE]    = "body force",
+  [EFFECT_SPRINGS]       = "springs",
+  [EFFECT_WEAK_SPRINGS]  = "weak springs",
   [EFFECT_BOUNDS]        = "displacement bounds",
   [EFFECT_ESTIMATE]      = "error estimate",
   [EFFECT_RESULTS]       = "probes and fields",
@@ -69,6 +75,9 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures", scene->npressures));
+  PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0), "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
+  PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces", scene->nsprings));
+  PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, scene->weak_springs, scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set", sim->springs.nweak));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));

@@ -259,8 +259,20 @@ static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *repor
   PetscFunctionReturn(0);
 }
 
-/* From the pairs and faces as they are reported, and the loads; NULL: there are none */
-PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec load, StepReport *report)
+static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
+{
+  PetscReal *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(SpringsMeasure(sim, u, sums, &report->weak_spring_force));
+  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/* From the pairs and faces as they are reported, the springs and the loads; NULL: there are none */
+PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, StepReport *report)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
@@ -275,6 +287,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec load, StepReport *report)
     PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction));
   }
   if (load) PetscCall(ForcesSumLoads(sim, load, report));
+  if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];

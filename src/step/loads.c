@@ -19,13 +19,20 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   PetscFunctionBegin;
   loads->scene = scene;
   loads->force = NULL;
-  if (!scene->npressures && !scene->nforces) PetscFunctionReturn(0);
+  if (!scene->npressures && !scene->nforces && !scene->ntractions) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nramps, &loads->force));
   for (PetscInt i = 0; i < scene->npressures; ++i) {
     const ScenePressure *pressure = &scene->pressures[i];
 
     PetscCall(DeadLoadsGetRamp(dm, loads, pressure->ramp, &force));
     PetscCall(ElasticityAddPressure(elasticity, pressure->face, pressure->value, force));
+  }
+  for (PetscInt i = 0; i < scene->ntractions; ++i) {
+    const SceneTraction *traction = &scene->tractions[i];
+
+    PetscCall(DeadLoadsGetRamp(dm, loads, traction->ramp, &force));
+    if (traction->resultant) PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment, force));
+    else PetscCall(ElasticityAddFaceField(elasticity, traction->face, traction->value, force));
   }
   for (PetscInt i = 0; i < scene->nforces; ++i) {
     const SceneBodyForce *density = &scene->forces[i];

@@ -116,7 +116,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
   PetscCall(WorkAdd(p, u, force, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, report));
-  PetscCall(ForcesMeasureBodies(sim, p->load, report));
+  PetscCall(ForcesMeasureBodies(sim, u, p->load, report));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;

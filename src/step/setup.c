@@ -26,11 +26,12 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
   PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
+  PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
+  PetscCall(SpringsCreate(sim));
   PetscCall(StiffnessSetType(sim));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
   if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
-  PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

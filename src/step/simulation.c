@@ -237,6 +237,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(SpringsDestroy(&s->springs));
   PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));
   PetscCall(PetscContainerDestroy(&s->subspace));

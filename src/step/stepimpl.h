@@ -117,6 +117,12 @@ typedef struct {
   MeshPlace *places;
 } Probes;
 
+/* springs.c: stiffness a row; NULL where the scene has none */
+typedef struct {
+  Vec      stiffness, weak; /* of all springs; of the weak ones among them [force/length] */
+  PetscInt nweak;           /* bodies that they hold */
+} Springs;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -126,6 +132,7 @@ struct _n_Simulation {
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
   DeadLoads            loads;
+  Springs              springs;
   VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
@@ -154,6 +161,11 @@ struct _n_Simulation {
   RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
 
+PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
+PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
+PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
+
+/* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
 PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
 PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
@@ -244,7 +256,7 @@ PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec load, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */

@@ -1,0 +1,129 @@
+/* tractions and forces: lists of named dead loads on faces; springs that hold faces to the ground */
+#include "sceneimpl.h"
+#include <petscviewer.h>
+
+/* Three numbers of <list>_<name>_<what>, and the face */
+static PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_%s_face", list, name));
+  PetscCall(PetscStrallocpy(text ? text : "", face));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s_value", list, name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+  if (text) PetscCall(SceneParseReals(keys, key, text, 3, value));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadTractionList(SceneKeys keys, Scene scene, const char list[], PetscBool resultant)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  char      **names;
+  PetscInt    n;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetNames(keys, list, PETSC_FALSE, &n, &names));
+  PetscCall(PetscRealloc((size_t)(scene->ntractions + n) * sizeof(*scene->tractions), &scene->tractions));
+  for (PetscInt t = 0; t < n; ++t) {
+    SceneTraction *traction = &scene->tractions[scene->ntractions++];
+
+    *traction = (SceneTraction){.name = names[t], .resultant = resultant};
+    PetscCall(SceneReadOnFace(keys, list, names[t], &traction->face, traction->value));
+    PetscCall(SceneReadRampName(keys, scene, list, names[t], &traction->ramp));
+    if (!resultant) continue;
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s_moment", list, names[t]));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+    if (text) PetscCall(SceneParseReals(keys, key, text, 3, traction->moment));
+  }
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadTractions(SceneKeys keys, Scene scene)
+{
+  PetscFunctionBegin;
+  PetscCall(SceneReadTractionList(keys, scene, "tractions", PETSC_FALSE));
+  PetscCall(SceneReadTractionList(keys, scene, "forces", PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadSprings(SceneKeys keys, Scene scene)
+{
+  char      **names;
+  const char *text;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "weak_springs"));
+  if (text) PetscCall(SceneParseAnswer(keys, "weak_springs", text, &scene->weak_springs));
+  PetscCall(SceneGetNames(keys, "springs", PETSC_FALSE, &scene->nsprings, &names));
+  PetscCall(PetscCalloc1(scene->nsprings, &scene->springs));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    SceneSpring *spring = &scene->springs[s];
+
+    spring->name = names[s];
+    PetscCall(SceneReadOnFace(keys, "springs", spring->name, &spring->face, spring->value));
+    for (PetscInt d = 0; d < 3; ++d) {
+      if (spring->value[d] < 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value has a stiffness of %g along %c, which must not be negative", spring->name, (double)spring->value[d], "xyz"[d]));
+    }
+    if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value is zero along each axis: such springs hold nothing", spring->name));
+  }
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneViewTractionList(Scene scene, PetscViewer viewer, PetscBool resultant)
+{
+  PetscBool first = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    const SceneTraction *traction = &scene->tractions[t];
+
+    if (traction->resultant != resultant) continue;
+    if (first) PetscCall(PetscViewerASCIIPrintf(viewer, "%s:\n", resultant ? "forces" : "tractions"));
+    first = PETSC_FALSE;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  - %s: {face: %s, value: ", traction->name, traction->face));
+    PetscCall(SceneViewList(viewer, 3, traction->value));
+    if (traction->moment[0] != 0 || traction->moment[1] != 0 || traction->moment[2] != 0) {
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", moment: "));
+      PetscCall(SceneViewList(viewer, 3, traction->moment));
+    }
+    if (traction->ramp) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[traction->ramp].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewTractions(Scene scene, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(SceneViewTractionList(scene, viewer, PETSC_FALSE));
+  PetscCall(SceneViewTractionList(scene, viewer, PETSC_TRUE));
+  if (scene->nsprings) PetscCall(PetscViewerASCIIPrintf(viewer, "springs:\n"));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  - %s: {face: %s, value: ", scene->springs[s].name, scene->springs[s].face));
+    PetscCall(SceneViewList(viewer, 3, scene->springs[s].value));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  }
+  if (scene->weak_springs) PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: true\n"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneDestroyTractions(Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    PetscCall(PetscFree(scene->tractions[t].name));
+    PetscCall(PetscFree(scene->tractions[t].face));
+  }
+  PetscCall(PetscFree(scene->tractions));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    PetscCall(PetscFree(scene->springs[s].name));
+    PetscCall(PetscFree(scene->springs[s].face));
+  }
+  PetscCall(PetscFree(scene->springs));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,96 @@
+/* Springs to the ground: those of the scene on faces, and weak ones for bodies that move freely. */
+#include "stepimpl.h"
+
+/*
+   Of Young's modulus times the cube root of the volume: what a weakly held body's springs are worth in all. They take as little
+   from its deformation as this, and from the forces on it what is out of balance.
+*/
+static const PetscReal weak_stiffness = 1e-9;
+
+/* At the vertices of the bodies that are not held: their share of the volume. mass: of unit density */
+static PetscErrorCode SpringsCreateWeak(Simulation sim)
+{
+  Scene              scene = sim->scene;
+  PetscBool         *unheld;
+  PetscReal         *volume;
+  const PetscScalar *m;
+  PetscScalar       *k;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &unheld));
+  PetscCall(PetscCalloc1(scene->nbodies, &volume));
+  PetscCall(MeshGetUnheld(sim->dm, scene, unheld));
+  PetscCall(VecDuplicate(sim->mass, &sim->springs.weak));
+  PetscCall(VecGetLocalSize(sim->mass, &n));
+  PetscCall(VecGetArrayRead(sim->mass, &m));
+  for (PetscInt i = 0; i < n; i += 3) volume[sim->places.body[i / 3]] += PetscRealPart(m[i]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)scene->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(VecGetArrayWrite(sim->springs.weak, &k));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt b = sim->places.body[i / 3];
+
+    k[i] = unheld[b] ? weak_stiffness * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b] : 0.0;
+  }
+  PetscCall(VecRestoreArrayWrite(sim->springs.weak, &k));
+  PetscCall(VecRestoreArrayRead(sim->mass, &m));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) sim->springs.nweak += unheld[b];
+  PetscCall(PetscFree(unheld));
+  PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
+/* Before the first tangent; sim->mass and sim->places are known */
+PetscErrorCode SpringsCreate(Simulation sim)
+{
+  Springs *springs = &sim->springs;
+
+  PetscFunctionBegin;
+  if (!sim->scene->nsprings && !sim->scene->weak_springs) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(sim->mass, &springs->stiffness));
+  PetscCall(VecZeroEntries(springs->stiffness));
+  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value, springs->stiffness));
+  if (sim->scene->weak_springs) {
+    PetscCall(SpringsCreateWeak(sim));
+    PetscCall(VecAXPY(springs->stiffness, 1.0, springs->weak));
+  }
+  PetscCall(ElasticitySetSprings(sim->elasticity, springs->stiffness));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the springs' forces on the bodies, 3 each, and the sum of the sizes of the weak ones' */
+PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscReal *weak)
+{
+  const PetscScalar *k, *w = NULL, *v;
+  PetscInt           n;
+  PetscReal          sum = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(u, &v));
+  PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
+  if (sim->springs.weak) PetscCall(VecGetArrayRead(sim->springs.weak, &w));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal square = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      bodies[3 * sim->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d]);
+      if (w) square += PetscSqr(PetscRealPart(w[i + d] * v[i + d]));
+    }
+    sum += PetscSqrtReal(square);
+  }
+  if (w) PetscCall(VecRestoreArrayRead(sim->springs.weak, &w));
+  PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SpringsDestroy(Springs *springs)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&springs->stiffness));
+  PetscCall(VecDestroy(&springs->weak));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,57 @@
+"""Scenes for supports.sh, and their answers: python supports.py write|judge."""
+import sys
+
+import numpy as np
+
+from summaries import load, say
+
+BAR = "bodies:\n  - bar: {lower: [0, 0, 0], upper: [1, 2, 3], cells: [2, 3, 4], young: 10, poisson: 0.3}\n"
+PROBES = "probes:\n  - corner: {point: [1, 2, 3]}\n  - foot: {point: [1, 2, 0]}\n"
+SIX = "".join("  - p%s%s: {face: bar.%s%s, value: 0.5}\n" % (axis, end, axis, end) for axis in "xyz" for end in ("min", "max"))
+BLOCK = "  - %s: {lower: [%g, %g, %g], upper: [%g, %g, %g], cells: [%d, %d, 2], young: 1e5, poisson: 0.3}\n"
+
+SCENES = {
+    "pull": BAR + "symmetry: [bar.xmin, bar.ymin, bar.zmin]\ntractions:\n  - up: {face: bar.zmax, value: [0, 0, 0.1]}\nforces:\n  - more: {face: bar.zmax, value: [0, 0, 0.4]}\n" + PROBES,
+    "twist": BAR.replace("young: 10", "young: 1e7")  # moments are those of the deformed places
+    + "displacements:\n  - wall: {face: bar.zmin, value: [0, 0, 0]}\nforces:\n  - top: {face: bar.zmax, value: [0.1, 0.2, -0.3], moment: [0.02, -0.01, 0.03]}\ntractions:\n  - side: {face: bar.xmax, value: [0, 0.01, 0]}\n",
+    "bed": BAR + "symmetry: [bar.xmin, bar.ymin]\nsprings:\n  - ground: {face: bar.zmin, value: [0, 0, 4]}\npressures:\n  - load: {face: bar.zmax, value: 0.2}\n" + PROBES,
+    "float": BAR + "weak_springs: true\npressures:\n" + SIX + PROBES,
+    "stack": "bodies:\n"
+    + BLOCK % ("bottom", -2, -2, 0, 2, 2, 1, 4, 4)
+    + BLOCK % ("middle", -1.5, -1.5, 1, 1.5, 1.5, 2, 3, 3)
+    + BLOCK % ("top", -1, -1, 2, 1, 1, 3, 4, 4)
+    + "displacements:\n  - floor: {face: bottom.zmin, value: [0, 0, 0]}\npressures:\n  - load: {face: top.zmax, value: 1}\n"
+    + "contact:\n  - lower: {mortar: middle.zmin, nonmortar: bottom.zmax}\n  - upper: {mortar: middle.zmax, nonmortar: top.zmin}\nweak_springs: true\n",
+}
+
+
+def near(a, b, size):
+    return bool(np.linalg.norm(np.subtract(a, b)) <= 1e-6 * size)
+
+
+def judge_bars(title, end):
+    step = {name: load(name + end)["steps"][-1] for name in SCENES}
+    corner, foot = ({name: next(p for p in step[name]["probes"] if p["name"] == probe) for name in ("pull", "bed", "float")} for probe in ("corner", "foot"))
+    say(title + "pulled: stress and displacement", near(corner["pull"]["stress_zz"], 0.3, 0.3) and near(corner["pull"]["displacement"], [-0.009, -0.018, 0.09], 0.09), corner["pull"])
+    face = step["twist"]["faces"][0]
+    force = np.array([0.1, 0.2 + 0.06, -0.3])
+    moment = np.cross([0.5, 1, 3], [0.1, 0.2, -0.3]) + [0.02, -0.01, 0.03] + np.cross([1, 1, 1.5], [0, 0.06, 0])
+    say(title + "twisted: reaction is the load", near(face["reaction"], -force, 1), face)
+    say(title + "twisted: moment is the load's", near(face["moment"], -moment, 1), (face["moment"], moment))
+    say(title + "on springs: sinks by pressure over stiffness", near(foot["bed"]["displacement"][2], -0.05, 0.05) and near(corner["bed"]["stress_zz"], -0.2, 0.2), foot["bed"])
+    body = step["bed"]["bodies"][0]
+    say(title + "on springs: they carry the load, in balance", near(body["springs"], [0, 0, 0.4], 0.4) and body["balance"] < 1e-8, body)
+    say(title + "free under pressure: stress", near([corner["float"]["stress_" + c] for c in ("xx", "yy", "zz", "xy")], [-0.5, -0.5, -0.5, 0], 0.5), corner["float"])
+    say(title + "free under pressure: weak springs carry less than 1e-6 of the load", 0 < step["float"]["weak_spring_force"] < 1e-6 * 0.5 * 6, step["float"]["weak_spring_force"])
+    forces = {pair["name"]: pair["force"] for pair in step["stack"]["pairs"]}
+    say(title + "stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
+    say(title + "stack: weak springs carry less than 1e-6 of the load", 0 < step["stack"]["weak_spring_force"] < 4e-6, step["stack"]["weak_spring_force"])
+
+
+if sys.argv[1] == "write":
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write("problem: %s\n%s" % (name, text))
+else:
+    judge_bars("", "")
+    judge_bars("three ranks, ", "_3")
