@@ -14,7 +14,8 @@ run() {
 }
 
 run published 1 -contact_free -options_file "$published"
-run exact 1 -options_file "$published" -tao_ipfilter_tol 1e-9
+# the same method with every system solved by MUMPS
+run exact 1 -options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_subspace false -tao_ipfilter_tol 1e-9
 for ranks in 1 2 3 5; do run "default_$ranks" "$ranks"; done
 # without the filter, the last Newton systems need more iterations than the bound allows
 run amg 1 -load_steps 1 -refine 0 -options_file "$published" -tao_ipfilter_pc_type hypre -tao_ipfilter_ksp_max_it 10000
