@@ -5,8 +5,9 @@
 #include <petscsys.h>
 
 typedef enum {
-  MATERIAL_LINEAR,    /* small strain, isotropic */
-  MATERIAL_NEOHOOKEAN /* compressible neo-Hookean, finite strain */
+  MATERIAL_LINEAR,      /* small strain, isotropic */
+  MATERIAL_NEOHOOKEAN,  /* compressible neo-Hookean, finite strain */
+  MATERIAL_SAINT_VENANT /* Saint Venant-Kirchhoff, large rotations at moderate strain */
 } MaterialType;
 PETSC_EXTERN const char *const MaterialTypes[];
 

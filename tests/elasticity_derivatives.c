@@ -377,4 +377,9 @@ int main(int argc, char **argv)
          suffix: order2_neohookean_bbar
          args: -material neohookean -element bbar
 
+   test:
+      suffix: saint_venant
+      nsize: {{1 3}}
+      args: -material saint_venant
+
 TEST*/

@@ -77,6 +77,7 @@ static const Mistake mistakes[] = {
   {"normal motion held by contact", "value: [0, 0, -1/10]", "value: [0, 0, free]"},
   {"unknown element", "slab: {", "slab: {element: hybrid, "},
   {"incompatible modes at finite strain", "slab: {", "slab: {material: neohookean, element: incompatible, "},
+  {"mean of what is no dilatation", "slab: {", "slab: {material: saint_venant, element: bbar, "},
   {"unknown model", "refine: 0", "model: exact"},
   {"no linearization of the gap", "refine: 0", "contact_updates: 0"},
   {"bounds from the first step", "refine: 0", "displacement_bounds: 1"},

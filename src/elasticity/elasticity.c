@@ -139,6 +139,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
+    PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do", b);
   }
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));

@@ -1,7 +1,7 @@
 /* Parameters of materials and the table of laws */
 #include "materialimpl.h"
 
-const char *const MaterialTypes[] = {"linear", "neohookean", "MaterialType", "MATERIAL_", NULL};
+const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "MaterialType", "MATERIAL_", NULL};
 
 /*@
   MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))
@@ -58,6 +58,9 @@ PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
     break;
   case MATERIAL_NEOHOOKEAN:
     *law = &MaterialLawNeoHookean;
+    break;
+  case MATERIAL_SAINT_VENANT:
+    *law = &MaterialLawSaintVenant;
     break;
   default:
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Unknown material type %d", (int)material->type);

@@ -6,8 +6,9 @@
 
 #include <material.h>
 
-/* linear.c, neohookean.c: one constitutive law a file; material.c lists them */
+/* linear.c, neohookean.c, saintvenant.c: one constitutive law a file; material.c lists them */
 PETSC_INTERN const MaterialLaw MaterialLawLinear;
 PETSC_INTERN const MaterialLaw MaterialLawNeoHookean;
+PETSC_INTERN const MaterialLaw MaterialLawSaintVenant;
 
 #endif

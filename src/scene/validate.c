@@ -19,6 +19,7 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
     SceneRequire(E > 0, "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)E);
     SceneRequire(nu > -1 && nu < 0.5, "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file, body->name, (double)nu);
     SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->material.type == MATERIAL_LINEAR, "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable under compression, so it takes full or bbar", file, body->name, MaterialTypes[body->material.type]);
+    SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT, "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to average; use material neohookean near incompressibility, or element full", file, body->name);
   }
   PetscFunctionReturn(0);
 }

@@ -61,7 +61,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    if (scene->bodies[b].material.type == MATERIAL_NEOHOOKEAN) ++finite;
+    if (scene->bodies[b].material.type != MATERIAL_LINEAR) ++finite;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
   }
@@ -70,7 +70,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
   PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1), "contact_updates is %" PetscInt_FMT, scene->contact_updates));
   PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0), scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
-  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies neo-Hookean%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
+  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law of finite strain%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
                                                                                                                                                                                                   : ", true energy"));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));

@@ -1,0 +1,106 @@
+/*
+   Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2. For large rotations at moderate strain: it softens in
+   compression, and is unstable below about 0.58 of the length.
+*/
+#include "materialimpl.h"
+
+/* E; returns det F, which small strains need no digits of */
+static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
+{
+  PetscReal F[9];
+
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      E[3 * i + j] = 0.5 * (H[3 * i + j] + H[3 * j + i] + H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j]);
+      F[3 * i + j] = H[3 * i + j] + (i == j);
+    }
+  }
+  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
+}
+
+/* S = lambda tr E I + 2 mu E, whether det F > 0 (or not a number) */
+static PetscBool SaintVenantStress(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal S[9], PetscReal *J)
+{
+  PetscReal E[9];
+
+  *J = SaintVenantStrain(H, E);
+  if (*J <= 0) return PETSC_FALSE;
+  for (int k = 0; k < 9; ++k) S[k] = 2 * mu * E[k] + (k % 4 ? 0 : lambda * (E[0] + E[4] + E[8]));
+  return PETSC_TRUE;
+}
+
+static PetscReal MaterialEnergy_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+{
+  PetscReal E[9], trace, square = 0;
+
+  if (SaintVenantStrain(H, E) <= 0) return PETSC_INFINITY;
+  trace = E[0] + E[4] + E[8];
+  for (int k = 0; k < 9; ++k) square += E[k] * E[k];
+  return 0.5 * lambda * trace * trace + mu * square;
+}
+
+/* P = F S */
+static PetscBool MaterialStress_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+{
+  PetscReal S[9], J;
+
+  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) P[3 * i + j] = S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j];
+  }
+  return PETSC_TRUE;
+}
+
+/* dP_ij = dF_il S_lj + F_il dS_lj, dE = (F^T dF + dF^T F)/2 */
+static PetscBool MaterialTangent_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+{
+  PetscReal S[9], F[9], B[9], J;
+
+  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  for (int k = 0; k < 9; ++k) F[k] = (k % 4 ? 0 : 1) + H[k];
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) B[3 * i + k] = F[3 * i] * F[3 * k] + F[3 * i + 1] * F[3 * k + 1] + F[3 * i + 2] * F[3 * k + 2];
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) {
+        for (int l = 0; l < 3; ++l) {
+          A[9 * (3 * i + j) + 3 * k + l] = (i == k ? S[3 * j + l] : 0) + lambda * F[3 * i + j] * F[3 * k + l] + mu * (F[3 * i + l] * F[3 * k + j] + (j == l ? B[3 * i + k] : 0));
+        }
+      }
+    }
+  }
+  return PETSC_TRUE;
+}
+
+/* sigma = F S F^T / J */
+static PetscBool MaterialCauchy_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+{
+  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  PetscReal        S[9], J;
+
+  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  for (int s = 0; s < 6; ++s) {
+    sigma[s] = 0;
+    for (int k = 0; k < 9; ++k) sigma[s] += ((row[s] == k / 3) + H[3 * row[s] + k / 3]) * S[k] * ((column[s] == k % 3) + H[3 * column[s] + k % 3]) / J;
+  }
+  return PETSC_TRUE;
+}
+
+/* theta = tr E */
+static PetscReal MaterialDilatation_SaintVenant(const PetscReal H[9], PetscReal C[9])
+{
+  PetscReal E[9];
+
+  (void)SaintVenantStrain(H, E);
+  for (int k = 0; k < 9; ++k) C[k] = (k % 4 ? 0 : 1) + H[k];
+  return E[0] + E[4] + E[8];
+}
+
+static void MaterialCurvature_SaintVenant(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+{
+  (void)H;
+  for (int k = 0; k < 9; ++k) A[10 * k] += pressure;
+}
+
+const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, MaterialEnergy_SaintVenant, MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant, MaterialCurvature_SaintVenant};
