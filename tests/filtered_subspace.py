@@ -10,6 +10,12 @@ def steps(name):
     return summary["steps"], summary["contact_free"]["iterations"]
 
 
+def filters(name):
+    """Whether a run says that it filtered systems"""
+    with open(name + ".json") as file:
+        return any(effect["on"] for effect in json.load(file)["effects"] if effect["name"] == "AMG filter")
+
+
 def forces(step):
     return [component for pair in step["pairs"] for component in pair["force"]]
 
@@ -52,3 +58,4 @@ for n in 1, 2:
         setups = int(re.search(r"^PCSetUp +(\d+)", file.read(), re.M)[1])
     print("  the stiffness matrix was factored", "once" if setups == 1 else f"{setups} times")
     print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
+        print("  the AMG filter was", "not in use" if not filters(f"{scene}_{n}") else "SAID TO BE IN USE")

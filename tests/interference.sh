@@ -42,6 +42,31 @@ say("all of it: the same as at once", abs(forces("ramped")[2] / whole - 1) < 1e-
 say("three ranks: the same", max(abs(a - b) for a, b in zip(forces("ranks"), forces("ramped"))) < 1e-6 * whole, (forces("ranks"), forces("ramped")))
 say("no warning of an overlap", not any(load(name)["warnings"] for name in ("ramped", "whole", "load")), load("ramped")["warnings"])
 PY
+# Back to where nothing is asked for: no overlap is left, or no displacement, and the bodies are undeformed again
+blocks() { # where the upper one begins, other keys of the scene
+  cat <<SCENE
+bodies:
+  - lower: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], young: 1000, poisson: 0.3}
+  - upper: {lower: [0, 0, $1], upper: [1, 1, 2], cells: [4, 4, 4], material: neohookean, young: 1000, poisson: 0.3}
+contact:
+  - fit: {mortar: lower.zmax, nonmortar: upper.zmin$2}
+load: {factors: [1/2, 1, 0, 1/2]}
+SCENE
+}
+{ blocks 0.9 ", interference: 0.1, ramp: load" && echo "symmetry: [lower.xmin, lower.ymin, lower.zmin, upper.xmin, upper.ymin, upper.zmax]"; } > overlap.yaml
+{ blocks 1 && echo "displacements: [bottom: {face: lower.zmin, value: [0, 0, 0]}, top: {face: upper.zmax, value: [0, 0, -0.1]}]"; } > press.yaml
+rings "interference: 0.04, ramp: heat" 5 | sed 's|1/8]|0, 1/2]|' > back.yaml
+for name in overlap press back; do run $name -error_estimate 0; done
+PYTHONPATH=$AMGF_DIR/tests "$PYTHON" -B - <<'PY'
+from summaries import load, say
+
+for name in ("overlap", "press", "back"):
+    steps = load(name)["steps"]
+    force = [step["pairs"][0]["normal_force"] for step in steps]
+    first = 0 if name != "back" else 1
+    say(name + ": nothing is left where nothing is asked for, and no step is cut", force[-2] == 0 and steps[-2]["energy"] == 0 and not any(step["cuts"] for step in steps), force)
+    say(name + ": pressed again, the same force as at first", abs(force[-1] / force[first] - 1) < 1e-6, force)
+PY
 for keys in "ramp: heat" "interference: true, ramp: heat" "interference: 0.03, ramp: cold"; do
   rings "$keys" 4 > wrong.yaml
   "$AMGF_DIR/bin/contact" wrong.yaml -scene_check 2>&1 | grep contact:

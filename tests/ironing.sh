@@ -7,6 +7,7 @@ run() {
 }
 
 run coarse_published -refine 0 -options_file "$AMGF_DIR/share/options/published.opts" -tao_ipfilter_tol 1e-9
-run coarse -refine 0 -contact_smooth false # the same bodies: published runs keep the facets
-run ironing
+run coarse -refine 0 -contact_smooth false -contact_updates 1 # the same bodies and linearizations: published runs keep the facets
+run true -refine 0 -load_steps 5
+run ironing -contact_updates 1
 "$PYTHON" "$AMGF_DIR/tests/ironing.py"

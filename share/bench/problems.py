@@ -26,6 +26,10 @@ class Level:
         return 1 / (self.factor or 2**self.refine)
 
 
+# As published, and as the runs of the other configurations are measured: the gap is not linearized again
+SINGLE = ((r"^load:", "contact_updates: 1\nload:"),)
+
+
 def last(summary):
     return summary["steps"][-1]
 
@@ -139,9 +143,9 @@ PROBLEMS = {
             title="Hertz cylinder",
         ),
         TwoBlock("two_block", [two_block_level(factor) for factor in (1, 2, 3, 4, 6, 8)], steps=2, title="two-block"),
-        BeamSphere("beam_sphere_linear", [Level("0", 0, 7902), Level("1", 1, 53547), Level("2", 2, 392661)], steps=6, title="beam-sphere"),
-        Problem("beam_sphere_neo_hookean", [Level("0", 0, 7902), Level("1", 1, 53547)], steps=6, title="beam-sphere, neo-Hookean"),
-        Problem("ironing", [Level("1", 1, 12876), Level("2", 2, 89370)], steps=10),
+        BeamSphere("beam_sphere_linear", [Level("0", 0, 7902, SINGLE), Level("1", 1, 53547, SINGLE), Level("2", 2, 392661, SINGLE)], steps=6, title="beam-sphere"),
+        Problem("beam_sphere_neo_hookean", [Level("0", 0, 7902, SINGLE), Level("1", 1, 53547, SINGLE)], steps=6, title="beam-sphere, neo-Hookean"),
+        Problem("ironing", [Level("1", 1, 12876, SINGLE), Level("2", 2, 89370, SINGLE)], steps=10),
         Cantilever("cantilever", [Level("0", 0, 3075), Level("1", 1, 19683), Level("2", 2, 140000), Level("3", 3, 1050000)]),
     )
 }

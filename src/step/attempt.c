@@ -229,6 +229,32 @@ static PetscErrorCode AttemptOnce(StepProblem *p, Vec u_linearized, Vec u, StepR
   PetscFunctionReturn(0);
 }
 
+/* Back to the undeformed bodies, where that is the answer: sim->linearization and `at_u` are of them then */
+static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
+{
+  Simulation           sim = p->sim;
+  ContactLinearization undeformed;
+  PetscBool            due, is_true;
+
+  PetscFunctionBegin;
+  *rests = PETSC_FALSE;
+  PetscCall(RestIsDue(p, &due));
+  if (!due) PetscFunctionReturn(0);
+  PetscCall(VecZeroEntries(u));
+  PetscCall(AttemptLinearizeGap(sim, p->time, u, &undeformed));
+  PetscCall(RestSolve(p, undeformed, u, report, sol, rests));
+  if (*rests) {
+    PetscCall(ContactLinearizationDestroy(&sim->linearization));
+    sim->linearization = undeformed;
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
+    PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
+    report->gap_change      = 0.0;
+    report->gap_untrue      = PETSC_FALSE;
+    report->contact_updates = 1;
+  } else PetscCall(ContactLinearizationDestroy(&undeformed));
+  PetscFunctionReturn(0);
+}
+
 /* sim->linearization is the one u was found with; `at_u` on exit the one at u */
 static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
 {
@@ -240,6 +266,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
   PetscFunctionBegin;
   report->contact_updates = 0;
   report->gap_untrue      = PETSC_FALSE;
+  PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptOnce(p, u_linearized, u, report, sol, at_u, &end, &slid));
     if (end || report->contact_updates == sim->scene->contact_updates) break;

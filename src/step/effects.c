@@ -96,6 +96,7 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
     systems += report->steps[s].systems;
     filtered += report->steps[s].filtered_systems;
   }
+  if (sim->contact && !systems && report->nsteps) PetscCall(EffectSet(report, EFFECT_FILTER, PETSC_FALSE, "no system holds constraints: they are solved beside it"));
   if (sim->contact && systems) PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(filtered > 0), "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
   report->effects[EFFECT_CONTACT].time  = report->time.contact;
   report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;

@@ -239,6 +239,10 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 /* anticipate.c */
 PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
 
+/* rest.c: a load step back to where nothing is asked for */
+PETSC_INTERN PetscErrorCode RestIsDue(const StepProblem *, PetscBool *);
+PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *, ContactSolution *, PetscBool *rests);
+
 /* secants.c: where the gap is linearized next, within one solve; begins as all zeros */
 #define GAP_SECANTS 2
 typedef struct {

@@ -12,10 +12,10 @@ UNITS = {"m, Pa": (1.0, 1.0), "mm, MPa": (1e3, 1e-6), "lengths x 1e-6": (1e-6, 1
 # What keeps a run within seconds
 OPTIONS = {
     "two_block": ["-refine", 0],
-    "ironing": ["-refine", 0],
+    "ironing": ["-refine", 0, "-contact_updates", 1],
     "gmsh_blocks": ["-refine", 0],
-    "beam_sphere_linear": ["-load_steps", 2],
-    "beam_sphere_neo_hookean": ["-load_steps", 6],
+    "beam_sphere_linear": ["-load_steps", 2, "-contact_updates", 1],
+    "beam_sphere_neo_hookean": ["-load_steps", 6, "-contact_updates", 1],
 }
 
 LENGTHS = {"lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance", "interference"}
