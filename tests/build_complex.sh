@@ -7,7 +7,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 make PETSC_DIR="$COMPLEX_PETSC" PETSC_ARCH= CFLAGS='-g -O1 -Werror=incompatible-pointer-types' all > log 2>&1 || cat log
-find lib bin -type f 2> /dev/null
+find lib bin ! -type d 2> /dev/null | sed 's/\.so\..*/.so/' | sort -u
 
 export PKG_CONFIG_PATH=$COMPLEX_PETSC/lib/pkgconfig
 mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/amgf_hermitian.c" -o hermitian -Llib -lpetscamgf -Wl,-rpath,"$work/lib" $(pkg-config --libs PETSc) -lm

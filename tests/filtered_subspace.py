@@ -31,6 +31,11 @@ def verdict(what, value, limit):
     print(f"{what}: below {limit:g}" if value <= limit else f"{what}: {value:g} is above {limit:g}")
 
 
+def spared(name, run):
+    print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
+    print("  the AMG filter was", "not in use" if not filters(name) else "SAID TO BE IN USE")
+
+
 for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5), (1.5, 1.2)):
     interior, _ = steps(scene)
     alone, _ = steps(f"{scene}_1")
@@ -44,7 +49,7 @@ for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5
         verdict("  AMG applications of the first load step by those without contact", run[0]["amg_applications"] / free, cost[0])
         verdict("  of a later one", max(step["amg_applications"] for step in run[1:]) / free, cost[1])
         print("  the AMG was set up", "once" if sum(step["amg_setups"] for step in run) == 1 else "MORE THAN ONCE")
-        print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
+        spared(f"{scene}_{n}", run)
 
 interior, _ = steps("beam_sphere")
 for n in 1, 2:
@@ -57,5 +62,4 @@ for n in 1, 2:
     with open(f"beam_sphere_direct_{n}.log") as file:
         setups = int(re.search(r"^PCSetUp +(\d+)", file.read(), re.M)[1])
     print("  the stiffness matrix was factored", "once" if setups == 1 else f"{setups} times")
-    print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
-        print("  the AMG filter was", "not in use" if not filters(f"{scene}_{n}") else "SAID TO BE IN USE")
+    spared(f"beam_sphere_direct_{n}", run)
