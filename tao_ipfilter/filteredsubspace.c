@@ -380,7 +380,8 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   tao->ksp_its        = 0;
   ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are the method's way */
-  *done                               = FilteredProgresses(f, IPBothErrors(ip));
+  /* Half of the steps there may be are left to the interior point method */
+  *done = (PetscBool)(FilteredProgresses(f, IPBothErrors(ip)) && 2 * tao->niter < tao->max_it);
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
