@@ -43,10 +43,27 @@ typedef enum {
 } PCAMGFCycle;
 PETSC_EXTERN const char *const PCAMGFCycles[];
 
+/*E
+  PCAMGFFactorUse - whether a factorization of the operator takes the place of the AMG
+
+  Values:
++ PC_AMGF_FACTOR_FALSE - never
+. PC_AMGF_FACTOR_TRUE  - always
+- PC_AMGF_FACTOR_AUTO  - where it is estimated to be the cheaper for what `PCAMGFExpect()` says is to come
+
+  Level: intermediate
+E*/
+typedef enum {
+  PC_AMGF_FACTOR_FALSE,
+  PC_AMGF_FACTOR_TRUE,
+  PC_AMGF_FACTOR_AUTO
+} PCAMGFFactorUse;
+PETSC_EXTERN const char *const PCAMGFFactorUses[];
+
 /* What a PCAMGF has done since it was created; kept over PCReset() */
 typedef struct {
-  PetscInt amg_setups;     /* set-ups of the AMG */
-  PetscInt amg_applies;    /* applications of the AMG */
+  PetscInt amg_setups;     /* set-ups of the AMG, or factorizations in its place */
+  PetscInt amg_applies;    /* applications of the AMG, or solves with the factors */
   PetscInt filter_setups;  /* numerical factorizations of the filtered matrix */
   PetscInt filter_applies; /* solves with the filtered matrix */
 } PCAMGFCounts;
@@ -78,6 +95,9 @@ PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFactor(PC, PCAMGFFactorUse);
+PETSC_EXTERN PetscErrorCode PCAMGFExpect(PC, PetscReal applications, PetscReal solves);
+PETSC_EXTERN PetscErrorCode PCAMGFGetFactored(PC, PetscBool *factored, const char *why[]);
 
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);
@@ -95,5 +115,6 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
 PETSC_EXTERN PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao, void *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetSubspace(Tao, PetscContainer *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
 
 #endif

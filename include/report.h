@@ -62,6 +62,7 @@ typedef struct {
   PetscInt             substeps, cuts;            /* solves of equilibrium in this load step; how often it was cut */
   PetscInt             contact_updates;           /* linearizations of the gap in the last solve */
   PetscInt             regularizations;           /* Newton systems whose matrix was not positive definite */
+  PetscBool            factored;                  /* MUMPS has taken the place of AMG: its applications are solves with the factors */
   PetscInt             systems, filtered_systems; /* condensed systems; those solved with the filter, the others needed the AMG alone */
   TaoIPFilterFallbacks linear;                    /* linear solves that took more than the Krylov method by itself */
   PetscReal            energy;                    /* elastic, from the elements [force length] */

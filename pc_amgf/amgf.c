@@ -12,6 +12,7 @@ static PetscErrorCode PCReset_AMGF(PC pc)
   PetscCall(PCAMGFResetGalerkin_Private(amgf));
   PetscCall(PCAMGFResetSubspace_Private(amgf));
   PetscCall(PCAMGFLagReset_Private(&amgf->lag));
+  PetscCall(PCAMGFFactorReset_Private(&amgf->factor));
   PetscCall(ISDestroy(&amgf->file_is));
   PetscCall(ISDestroy(&amgf->detected_is));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(amgf->w); i++) PetscCall(VecDestroy(&amgf->w[i]));
@@ -45,7 +46,10 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
 .  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the prefix `amgf_filter_`
--  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
+.  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
+.  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says
+                                      that it is the cheaper
+-  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
 
    Level: intermediate
 
@@ -81,7 +85,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
-          `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCCOMPOSITE`, `PCDEFLATION`
+          `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
 {
@@ -89,11 +93,12 @@ PetscErrorCode PCCreate_AMGF(PC pc)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&amgf));
-  pc->data        = amgf;
-  amgf->cycle     = PC_AMGF_FBF;
-  amgf->active    = PETSC_TRUE;
-  amgf->lag.every = AMGF_LAG_UNSET;
-  amgf->lag.ratio = 1.5;
+  pc->data           = amgf;
+  amgf->cycle        = PC_AMGF_FBF;
+  amgf->active       = PETSC_TRUE;
+  amgf->lag.every    = AMGF_LAG_UNSET;
+  amgf->lag.ratio    = 1.5;
+  amgf->factor.share = 0.4;
   PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amgf->amg));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)amgf->amg, (PetscObject)pc, 1));
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)pc), &amgf->filter));

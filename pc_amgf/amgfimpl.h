@@ -40,6 +40,24 @@ typedef struct {
   PetscInt  history;  /* length of the residual history when the solve began */
 } AMGFLag;
 
+/* B as a factorization of the operator in place of the AMG */
+typedef struct {
+  PCAMGFFactorUse use;
+  PetscBool       on;     /* B is the factorization */
+  PetscBool       failed; /* the last one did */
+  PetscReal       share;  /* of the machine's memory that it may take where it is chosen */
+  Mat             F;
+  AMGFStamp       analysed;               /* the operator that MUMPS has analysed, and its estimates: */
+  PetscReal       flops, entries, memory; /* of the factors; [bytes] */
+  char            why[160];               /* the last choice */
+} AMGFFactor;
+
+/* Estimates [s] */
+typedef struct {
+  PetscReal factor, solve; /* by factorization */
+  PetscReal setup, apply;  /* by AMG */
+} AMGFCosts;
+
 /* The subspace range(P): either unknowns (rows) or a general interpolation P */
 typedef struct {
   AMGFSource source;
@@ -79,7 +97,8 @@ typedef struct {
   Vec          rc, ec, wc; /* n_c */
   Vec          w[2];       /* n */
 
-  AMGFLag lag;
+  AMGFLag    lag;
+  AMGFFactor factor;
 } PC_AMGF;
 
 /* The files of this folder, each after those it builds on, and what they define for others */
@@ -112,6 +131,12 @@ PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
 PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
+/* factor.c */
+PETSC_INTERN PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *);
+PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
+PETSC_INTERN PetscErrorCode PCAMGFExpect_AMGF(PC, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *, const char *[]);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */

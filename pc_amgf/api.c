@@ -127,13 +127,17 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCounts_C", PCAMGFGetCounts_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFactor_C", PCAMGFSetFactor_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFExpect_C", PCAMGFExpect_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFactored_C", PCAMGFGetFactored_AMGF));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
   static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C"};
+                                      "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C", "PCAMGFSetFactor_C",
+                                      "PCAMGFExpect_C", "PCAMGFGetFactored_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));

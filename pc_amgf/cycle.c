@@ -27,7 +27,8 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
     if (hypre) adjoint = PETSC_FALSE;
   }
-  if (adjoint) {
+  if (amgf->factor.on) PetscCall(MatSolve(amgf->factor.F, r, z));
+  else if (adjoint) {
     PetscCall(CycleConjugate(r));
     PetscCall(PCApplyTranspose(amgf->amg, r, z));
     PetscCall(CycleConjugate(r));

@@ -66,4 +66,17 @@ static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *
   PetscFunctionReturn(0);
 }
 
+static inline PetscErrorCode AMGFMumpsGetRinfog(Mat F, PetscInt rinfog, PetscReal *value)
+{
+  PetscFunctionBegin;
+#if defined(AMGF_HAVE_MUMPS)
+  PetscCall(MatMumpsGetRinfog(F, rinfog, value));
+#else
+  (void)F;
+  (void)rinfog;
+  *value = 0.0;
+#endif
+  PetscFunctionReturn(0);
+}
+
 #endif

@@ -21,11 +21,12 @@ static PetscErrorCode LagFromString(PC pc, const char string[])
 
 PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
 {
-  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
-  PCAMGFCycle cycle;
-  PetscReal   detect = amgf->detect;
-  char        file[PETSC_MAX_PATH_LEN], lag[32];
-  PetscBool   flg;
+  PC_AMGF        *amgf = (PC_AMGF *)pc->data;
+  PCAMGFCycle     cycle;
+  PetscReal       detect = amgf->detect;
+  char            file[PETSC_MAX_PATH_LEN], lag[32];
+  PetscBool       flg;
+  PCAMGFFactorUse use;
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "AMG with filter options");
@@ -44,6 +45,10 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
   if (flg) PetscCall(LagFromString(pc, lag));
   PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild", "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
   PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
+  PetscCall(PetscOptionsEnum("-pc_amgf_factor", "A factorization in place of the AMG", "PCAMGFSetFactor", PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
+  if (flg) PetscCall(PCAMGFSetFactor(pc, use));
+  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "auto: share of the machine's memory that the factors may take", "PCAMGFSetFactor", amgf->factor.share, &amgf->factor.share, NULL));
+  PetscCheck(amgf->factor.share >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.share);
   PetscOptionsHeadEnd();
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,4 @@
-/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG where it is due */
+/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG or the factorization in its place where it is due */
 #include "amgfimpl.h"
 
 static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
@@ -56,26 +56,41 @@ static PetscErrorCode SetUpFilter(PC pc)
 
 static PetscErrorCode SetUpAMG(PC pc)
 {
-  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
-  PetscBool rebuild;
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
+  if (pc->dm) PetscCall(PCSetDM(amgf->amg, pc->dm));
+  PetscCall(PCSetErrorIfFailure(amgf->amg, pc->erroriffailure));
+  PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
+  PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
+  PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
+  PetscCall(PCSetUp(amgf->amg));
+  /* PCApply() must not rebuild it behind our back when the operator changes in place */
+  PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* B, where it is due */
+static PetscErrorCode SetUpWhole(PC pc)
+{
+  PC_AMGF    *amgf   = (PC_AMGF *)pc->data;
+  AMGFFactor *factor = &amgf->factor;
+  PetscBool   rebuild;
+
+  PetscFunctionBegin;
+  if (factor->use == PC_AMGF_FACTOR_TRUE) factor->on = PETSC_TRUE;
   PetscCall(PCAMGFLagDecide_Private(pc, &rebuild));
   if (rebuild) {
     PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
-    if (pc->dm) PetscCall(PCSetDM(amgf->amg, pc->dm));
-    PetscCall(PCSetErrorIfFailure(amgf->amg, pc->erroriffailure));
-    PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
-    PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
-    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
-    PetscCall(PCSetUp(amgf->amg));
-    /* PCApply() must not rebuild it behind our back when the operator changes in place */
-    PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
+    if (factor->on) PetscCall(PCAMGFFactorSetUp_Private(pc));
+    if (factor->failed && factor->use == PC_AMGF_FACTOR_AUTO) factor->on = PETSC_FALSE;
+    if (!factor->on) PetscCall(SetUpAMG(pc));
     PetscCall(PetscLogEventEnd(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
     PetscCall(PCAMGFLagRebuilt_Private(pc));
     amgf->counts.amg_setups++;
   }
-  PetscCall(SetUpCheckInner(pc, amgf->amg));
+  if (!factor->on) PetscCall(SetUpCheckInner(pc, amgf->amg));
+  else if (factor->failed) PetscCall(PCSetFailedReason(pc, PC_FACTOR_OTHER));
   PetscFunctionReturn(0);
 }
 
@@ -90,7 +105,7 @@ PetscErrorCode PCSetUp_AMGF(PC pc)
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   PetscCall(PCAMGFConfigureInner_Private(pc));
   PetscCall(SetUpFilter(pc));
-  PetscCall(SetUpAMG(pc));
+  PetscCall(SetUpWhole(pc));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(amgf->w); i++) {
     if (!amgf->w[i]) PetscCall(MatCreateVecs(pc->pmat, &amgf->w[i], NULL));
   }

@@ -42,9 +42,11 @@ PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
   PetscCall(ViewFilter(pc, viewer));
   PetscCall(ViewLag(amgf, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  so far: %" PetscInt_FMT " AMG set-ups, %" PetscInt_FMT " AMG applications, %" PetscInt_FMT " filter set-ups, %" PetscInt_FMT " filter solves\n", counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG:\n"));
+  if (amgf->factor.why[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "  chosen: %s\n", amgf->factor.why));
+  PetscCall(PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization in place of the AMG:\n" : "  AMG:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(PCView(amgf->amg, viewer));
+  if (!amgf->factor.on) PetscCall(PCView(amgf->amg, viewer));
+  else if (amgf->factor.F) PetscCall(MatView(amgf->factor.F, viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   if (amgf->active && amgf->sub.n) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter solver:\n"));

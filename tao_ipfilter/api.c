@@ -167,6 +167,7 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 

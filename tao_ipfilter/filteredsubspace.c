@@ -366,6 +366,24 @@ static PetscBool FilteredProgresses(IPFiltered *f, PetscReal error)
   return (PetscBool)(f->nfutile <= patience);
 }
 
+/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left */
+static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possible)
+{
+  TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
+  const PetscInt  n = ip->rec.napplications, every = 8;
+  const PetscReal error = IPBothErrors(ip), least = 0.5;
+  PetscReal       gained, left;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  if (n == 0) ip->filtered.begin = error;
+  if (n == 0 || n % every) PetscFunctionReturn(0);
+  gained = PetscLog10Real(ip->filtered.begin / error);
+  left   = PetscLog10Real(PetscMax(error / ip->tol, 1.0));
+  PetscCall(IPKeptReconsider(tao, kept, n * left / PetscMax(gained, least), possible));
+  PetscFunctionReturn(0);
+}
+
 /* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it led; *done is false
    where neither is possible, or helps */
 PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
@@ -387,6 +405,7 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   PetscCall(FilteredResidual(tao, r, &exact));
   f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
+  if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
   if (*done && exact) PetscCall(FilteredExtend(tao, kept, r, done));
   else if (*done) PetscCall(FilteredCentre(tao, &kept->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
@@ -452,7 +471,14 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
 /* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the constraints is not */
 PetscErrorCode IPFilteredEnd(Tao tao)
 {
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPKept       *kept;
+
   PetscFunctionBegin;
+  if (ip->filtered.on) {
+    PetscCall(IPKeptGet(tao, &kept));
+    kept->napplications = ip->rec.napplications;
+  }
   PetscCall(IPFilteredDestroy(&((TAO_IPFILTER *)tao->data)->filtered));
   PetscFunctionReturn(0);
 }

@@ -99,10 +99,11 @@ typedef struct {
 
 /* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
 typedef struct {
-  Vec slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
-  Vec warm_s, warm_z;          /* starting slacks and multipliers, */
-  Vec warm_y;                  /* multipliers of the equality constraints, */
-  Vec warm_lower, warm_upper;  /* and of the bounds */
+  Vec      slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
+  Vec      warm_s, warm_z;          /* starting slacks and multipliers, */
+  Vec      warm_y;                  /* multipliers of the equality constraints, */
+  Vec      warm_lower, warm_upper;  /* and of the bounds */
+  PetscInt solves_to_come;          /* with the same Hessian, the next one included; 0: not said */
 } IPGiven;
 
 /* Layouts of scratch vectors: unknowns, inequality and equality constraints */
@@ -434,8 +435,10 @@ typedef struct {
 
 /* What a filtered subspace keeps from one solve to the next */
 typedef struct {
-  PC               pc;   /* the Krylov method's, set up with K alone, */
-  PetscBool        held; /* or with K + J^T D J, for bodies that only the constraints hold */
+  PC               pc;            /* the Krylov method's, set up with K alone, */
+  PetscBool        held;          /* or with K + J^T D J, for bodies that only the constraints hold */
+  PetscBool        changing;      /* K has changed since it was first seen */
+  PetscInt         napplications; /* of the preconditioner in the last solve */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
@@ -453,6 +456,7 @@ typedef struct {
   PetscInt       ncentred;            /* steps in a row without a new direction */
   PetscInt       nfutile;             /* steps since the KKT error has last been halved, */
   PetscReal      halved;              /* and what it was then */
+  PetscReal      begin;               /* KKT error of the first reduced problem's solution */
 } IPFiltered;
 
 /* What a TaoSolve() did */
@@ -761,7 +765,9 @@ PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Ve
 PETSC_INTERN PetscErrorCode IPKeptGet(Tao, IPKept **);
 PETSC_INTERN PetscErrorCode IPKeptReset(IPKept *);
 PETSC_INTERN PetscErrorCode IPKeptHold(Tao, IPKept *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPKeptReconsider(Tao, IPKept *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPKeptUpdate(Tao, IPKept *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao, PetscInt);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);
 

@@ -56,8 +56,35 @@ static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
   PetscFunctionReturn(0);
 }
 
+/*
+   Tells PCAMGF, which has K for its operator, how often it will be applied: in this solve so often beyond what it was, and in those that are
+   to come with the same K. Nothing is known before the first one.
+*/
+static PetscErrorCode KeptExpect(Tao tao, IPKept *kept, PetscReal left)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal later = 0.7, factored = 10.0; /* applications of a later solve against a first one's, and solves with factors */
+  const PetscReal n = ip->rec.napplications + left, solves = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFExpect(kept->pc, left + later * n * solves, PetscMin(factored, left) + PetscMin(factored, n) * solves));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
+{
+  PetscBool   factored;
+  const char *why;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGetFactored(pc, &factored, &why));
+  if (!((TAO_IPFILTER *)tao->data)->opt.monitor || !why[0]) PetscFunctionReturn(0);
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "%s: %s\n", factored ? "MUMPS in place of AMG" : "AMG", why));
+  PetscFunctionReturn(0);
+}
+
 /* B: the Krylov method's preconditioner of A without a filter. It then knows A as K, so that A takes no memory. */
-static PetscErrorCode KeptSetUpPC(IPKept *kept, Mat A, Mat K, PetscBool *possible)
+static PetscErrorCode KeptSetUpPC(Tao tao, IPKept *kept, Mat A, Mat K, PetscBool *possible)
 {
   PC             pc = kept->pc, amg;
   PetscBool      amgf;
@@ -73,6 +100,7 @@ static PetscErrorCode KeptSetUpPC(IPKept *kept, Mat A, Mat K, PetscBool *possibl
   if (amgf) {
     PetscCall(PCAMGFGetAMGPC(pc, &amg));
     PetscCall(PCSetOperators(amg, K, K));
+    PetscCall(KeptSayChoice(tao, pc));
   }
   PetscCall(PCSetOperators(pc, K, K));
   PetscCall(PCGetFailedReason(pc, &failed));
@@ -82,17 +110,37 @@ static PetscErrorCode KeptSetUpPC(IPKept *kept, Mat A, Mat K, PetscBool *possibl
 }
 
 /* B of K alone */
-static PetscErrorCode KeptSetUpFree(IPKept *kept, Mat K, PetscBool *possible)
+static PetscErrorCode KeptSetUpFree(Tao tao, IPKept *kept, Mat K, PetscBool *possible)
 {
-  PetscBool amgf;
-  Mat       whole;
+  const PetscReal usual = 35.0;
+  PetscBool       amgf, factored = PETSC_TRUE;
+  Mat             whole;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
-  PetscCall(KeptGetWhole(K, amgf, &whole));
-  PetscCall(KeptSetUpPC(kept, whole, K, possible));
+  PetscCall(PCSetOperators(kept->pc, K, K));
+  PetscCall(KeptExpect(tao, kept, usual));
+  if (amgf) PetscCall(PCAMGFGetFactored(kept->pc, &factored, NULL));
+  PetscCall(KeptGetWhole(K, (PetscBool)!factored, &whole));
+  PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
   PetscCall(MatDestroy(&whole));
   kept->held = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Changes from the AMG to a factorization where so many applications are still to come in this solve that it pays; no directions are lost */
+PetscErrorCode IPKeptReconsider(Tao tao, IPKept *kept, PetscReal left, PetscBool *possible)
+{
+  PetscBool amgf, before, after;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
+  if (!amgf || kept->held) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFactored(kept->pc, &before, NULL));
+  PetscCall(KeptExpect(tao, kept, left));
+  PetscCall(PCAMGFGetFactored(kept->pc, &after, NULL));
+  if (after != before) PetscCall(KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess.H, ((TAO_IPFILTER *)tao->data)->hess.H, possible));
   PetscFunctionReturn(0);
 }
 
@@ -111,9 +159,25 @@ PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
   ip->rec.nsystems  = systems; /* none of Newton's */
   ip->rec.nfiltered = filtered;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
-  PetscCall(KeptSetUpPC(kept, ip->cond.A, ip->hess.H, possible));
+  PetscCall(KeptSetUpPC(tao, kept, ip->cond.A, ip->hess.H, possible));
   PetscCall(MatDestroy(&ip->cond.A));
   kept->held = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides what no machine is short of; more than
+   the AMG itself costs so many projections a direction. */
+static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
+{
+  const PetscReal held = 4300.0, share = 0.15, spare = 64e6, direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
+  const PetscReal fewest = 80.0, limit = 160.0;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  *max = ((TAO_IPFILTER *)tao->data)->opt.subspace_max;
+  if (*max) PetscFunctionReturn(0);
+  PetscCall(VecGetSize(tao->solution, &n));
+  *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
   PetscFunctionReturn(0);
 }
 
@@ -124,22 +188,25 @@ PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
   Mat              K  = ip->hess.H;
   PC               pc;
   PetscObjectState state;
+  PetscInt         max;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
+  PetscCall(KeptRoom(tao, &max));
   PetscCall(PetscObjectStateGet((PetscObject)K, &state));
   PetscCall(KSPGetPC(tao->ksp, &pc));
-  if (kept->K_id != ((PetscObject)K)->id || kept->pc != pc || kept->basis.max != ip->opt.subspace_max) {
+  if (kept->K_id != ((PetscObject)K)->id || kept->pc != pc || kept->basis.max != max) {
     PetscCall(IPKeptReset(kept));
     PetscCall(PetscObjectReference((PetscObject)pc));
     kept->pc = pc;
-    PetscCall(IPBasisCreate(ip->opt.subspace_max, &kept->basis));
+    PetscCall(IPBasisCreate(max, &kept->basis));
   }
   if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
-    if (kept->held) PetscCall(IPKeptHold(tao, kept, possible));
-    else PetscCall(KeptSetUpFree(kept, K, possible));
+    kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
+    if (!kept->held) PetscCall(KeptSetUpFree(tao, kept, K, possible));
+    if (kept->held || !*possible) PetscCall(IPKeptHold(tao, kept, possible));
     PetscCall(IPBasisMultiply(&kept->basis, K));
-  }
+  } else PetscCall(IPKeptReconsider(tao, kept, kept->napplications, possible));
   kept->K_id    = ((PetscObject)K)->id;
   kept->K_state = state;
   if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
@@ -178,6 +245,14 @@ PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
   PetscCall(PCGetOptionsPrefix(kept->pc, &theirs));
   PetscCall(PetscStrcmp(own, theirs, &prefix));
   if (type && prefix) PetscCall(KSPSetPC(tao->ksp, kept->pc));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "There is one solve to come at least, not %" PetscInt_FMT, n);
+  ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
   PetscFunctionReturn(0);
 }
 
@@ -223,7 +298,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
-- -tao_ipfilter_subspace_max <80>                  - directions that it keeps, two vectors each
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many as 64 MB and 15 % of an AMG's memory hold
 
   Level: advanced
 
@@ -235,5 +310,30 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(space, 2);
   PetscUseMethod(tao, "TaoIPFilterGetSubspace_C", (Tao, PetscContainer *), (tao, space));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace method can choose its preconditioner
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+- n   - their number, the next one included; 1 without this call
+
+  Level: advanced
+
+  Note:
+  A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
+@*/
+PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidLogicalCollectiveInt(tao, n, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
   PetscFunctionReturn(0);
 }

@@ -82,13 +82,14 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   opt->max_soc       = 4;
   opt->acceptable_it = 15;
   opt->subspace      = IP_SUBSPACE_AUTO;
-  opt->subspace_max  = 80;
+  opt->subspace_max  = 0;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
-  IPOptions *opt = &((TAO_IPFILTER *)tao->data)->opt;
+  const PetscInt fewest = 4; /* directions that can be compressed */
+  IPOptions     *opt    = &((TAO_IPFILTER *)tao->data)->opt;
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "Interior point with a filter line search");
@@ -110,7 +111,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it", "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, opt->acceptable_it, &opt->acceptable_it, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct", "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, opt->direct_always, &opt->direct_always, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "filtered subspace method in place of the interior point method", TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
-  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max", "directions that the filtered subspace method keeps", TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 4));
+  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max", "directions that the filtered subspace method keeps; 0: by memory", TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 0));
+  PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT, fewest, opt->subspace_max);
   PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "print a line an iteration", TAOIPFILTER, opt->monitor, &opt->monitor, NULL));
   PetscOptionsHeadEnd();
   PetscCall(KSPSetFromOptions(tao->ksp));

@@ -105,10 +105,15 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat B, void *user)
 
 static PetscErrorCode CreateTao(Membrane *m, Vec x, const char subspace[], Tao *tao)
 {
+  Mat H = m->q.H; /* the objective's own, which a Hessian that changes must not be written into */
+
   PetscFunctionBeginUser;
   PetscCall(ProblemCreateSolver(&m->q, x, tao));
   PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, Gradient, m));
-  PetscCall(TaoSetHessian(*tao, m->q.H, m->q.H, Hessian, m));
+  if (m->quartic == 0.0) PetscCall(PetscObjectReference((PetscObject)H));
+  else PetscCall(MatDuplicate(H, MAT_COPY_VALUES, &H));
+  PetscCall(TaoSetHessian(*tao, H, H, Hessian, m));
+  PetscCall(MatDestroy(&H));
   PetscCall(TaoSetTolerances(*tao, 1e-10, 0.0, 0.0));
   PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_subspace", subspace));
   PetscCall(TaoSetFromOptions(*tao));

@@ -80,6 +80,9 @@ BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycl
 TUNED = (BUILT_IN[THRESHOLD], "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
 PUBLISHED = ("0.5", "l1scaled-SOR/Jacobi", "l1scaled-SOR/Jacobi")
 LONG = (IP + "ksp_max_it", "20000")
+# the knobs of a Newton system turn something in the interior point method alone, those of the AMG where no factorization takes its place
+INTERIOR = (IP + "subspace", "false")
+BY_AMG = (IP + "pc_amgf_factor", "false")
 TOLERANCES = ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10")
 
 
@@ -93,14 +96,14 @@ def few(size, problems):
     return problems if size == "full" else problems[:2]
 
 
-def turn(size, problems, variants, careful=None, work=1.0, meshes=MESHES):
-    """Panels of one line each: the variants (value, options[, body keys]) on the mesh of every problem"""
+def turn(size, problems, variants, careful=None, work=1.0, meshes=MESHES, always=()):
+    """Panels of one line each: the variants (value, options[, body keys]) on the mesh of every problem; always: options of them all"""
     panels = []
     for problem in problems:
         level = meshes[size].get(problem)
         if level is None:
             continue
-        points = [(variant[0], Case(problem, level, tuple(variant[1]), tuple(variant[2]) if len(variant) > 2 else (), work=work)) for variant in variants]
+        points = [(variant[0], Case(problem, level, (*always, *variant[1]), tuple(variant[2]) if len(variant) > 2 else (), work=work)) for variant in variants]
         panels.append(Panel(problem, level, [Series("", points)], Case(problem, level, careful) if careful is not None else None))
     return panels
 
@@ -122,9 +125,9 @@ def algebraic_studies(size):
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
     yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, ("hertz_cylinder", *three), values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
-    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5), default="adaptive")
+    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5, always=INTERIOR), default="adaptive")
     reduce = values(IP + "forcing_reduce", "0.5", "0.7", "1", *(("2",) if size == "full" else ()))
-    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, few(size, (*three, "beam_sphere_neo_hookean")), reduce, work=1.5), default=BUILT_IN[IP + "forcing_reduce"])
+    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, few(size, (*three, "beam_sphere_neo_hookean")), reduce, work=1.5, always=INTERIOR), default=BUILT_IN[IP + "forcing_reduce"])
 
 
 def path_studies(size):
@@ -158,12 +161,20 @@ def preconditioner_studies(size):
         ("GAMG", (AMG + "pc_type", "gamg", *AIJ)),
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
-    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two if size == "full" else two[:1], amg, work=2), costs=all_costs, default="tuned l1-GS")
+    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two if size == "full" else two[:1], amg, work=2, always=BY_AMG), costs=all_costs, default="tuned l1-GS")
     thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9", also=(ELASTIC_THRESHOLD,))
-    panels = turn(size, few(size, ("hertz_sphere", "two_block", "beam_sphere_linear")), thresholds, work=1.5) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED)
+    panels = turn(size, few(size, ("hertz_sphere", "two_block", "beam_sphere_linear")), thresholds, work=1.5, always=BY_AMG) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED, always=(*BY_AMG, "-elasticity_pc_amgf_factor", "false"))
     yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", panels, costs=all_costs, default=BUILT_IN[THRESHOLD])
-    yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5), default=BUILT_IN[IP + "pc_amgf_cycle"])
-    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
+    yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5, always=INTERIOR), default=BUILT_IN[IP + "pc_amgf_cycle"])
+    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5, always=INTERIOR), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
+
+
+def subspace_studies(size):
+    problems = few(size, ("two_block", "hertz_sphere", "beam_sphere_linear"))
+    ways = [("chosen", ()), ("AMG", BY_AMG), ("MUMPS", (IP + "pc_amgf_factor", "true")), ("interior point", INTERIOR)]
+    yield Study("subspace", "Filtered subspace by AMG and by a factorization, against the interior point method", "method", turn(size, problems, ways, work=2), costs=("time", "applications", "memory"), default="chosen")
+    directions = values(IP + "subspace_max", "20", "40", "80", *(("160", "320") if size == "full" else ()))
+    yield Study("directions", "Directions that the filtered subspace method keeps", "directions", turn(size, problems, directions, work=1.5, always=BY_AMG), costs=("time", "applications", "memory"))
 
 
 def rank_study(size):
@@ -197,6 +208,7 @@ def accuracy_study(size):
 # name: options and how many times the default's time they may take
 BASELINES = {
     "defaults": ((), 1),
+    "interior point": (INTERIOR, 3),
     "published configuration": (("-options_file", "published.opts"), 20),
     "MUMPS Cholesky": (("-options_file", "direct.opts"), 4),
     "AMG-PCG": ((IP + "pc_type", "hypre", *boomeramg(IP, *TUNED), *LONG), 10),
@@ -219,7 +231,7 @@ def baseline_study(size):
     meshes = {"tiny": [("two_block", "1", dict.fromkeys(every, 10))], "quick": [("two_block", "1", dict.fromkeys(every, 15))]}
     meshes["full"] = [
         ("two_block", "2", dict.fromkeys(every, 120)),
-        ("two_block", "4", dict.fromkeys(every[:3], 1200)),
+        ("two_block", "4", dict.fromkeys(every[:4], 1200)),
         ("ironing", "2", dict.fromkeys(filtered, 500)),
         ("beam_sphere_linear", "1", dict.fromkeys((name for name in every if name != "published configuration"), 60) | {"MUMPS Cholesky": 300}),
         ("beam_sphere_linear", "2", dict.fromkeys(filtered, 900)),
@@ -245,11 +257,11 @@ def growth_study(size):
 def roofline_study(size):
     levels = {"tiny": ("1",), "quick": ("2", "3"), "full": ("2", "4", "6")}[size]
     cycles = ("fbf", "bfb", "additive")[: 3 if size == "full" else 2]
-    lines = [Series(cycle, [(level, Case("two_block", level, values(IP + "pc_amgf_cycle", cycle)[0][1], log=True)) for level in (levels if cycle == "fbf" else levels[:1])]) for cycle in cycles]
+    lines = [Series(cycle, [(level, Case("two_block", level, (*INTERIOR, *values(IP + "pc_amgf_cycle", cycle)[0][1]), log=True)) for level in (levels if cycle == "fbf" else levels[:1])]) for cycle in cycles]
     yield Study("roofline", "Share of the memory bandwidth", "mesh", [Panel("two_block", "", lines)], kind="roofline")
 
 
-MAKERS = (mesh_studies, algebraic_studies, path_studies, formulation_studies, preconditioner_studies, rank_study, accuracy_study, baseline_study, growth_study, roofline_study)
+MAKERS = (mesh_studies, algebraic_studies, path_studies, formulation_studies, preconditioner_studies, subspace_studies, rank_study, accuracy_study, baseline_study, growth_study, roofline_study)
 
 
 def studies(size):

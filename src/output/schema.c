@@ -96,6 +96,7 @@ static const ReportField step_fields[] = {
         .columns = {COLUMN(TABLE_WORK, "pcg", "its", 6, .shown = SHOWN_SUM), COLUMN(TABLE_WORK, "pcg/ip", "", 6, .format = "%.1f", .shown = SHOWN_MEAN)}),
   FIELD(StepReport, amg_applications, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "applic", 6)}),
   FIELD(StepReport, amg_setups, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "set-ups", 7)}),
+  FIELD(StepReport, factored, FIELD_BOOL, ""),
   FIELD(StepReport, substeps, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "solves", "", 6)}),
   FIELD(StepReport, cuts, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "cuts", "", 5)}),
   FIELD(StepReport, contact_updates, FIELD_INT, "", .columns = {COLUMN(TABLE_TRUTH, "gap", "updates", 8)}),

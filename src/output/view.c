@@ -54,6 +54,19 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Load steps whose column of AMG applications counts solves with factors */
+static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt n = 0, first = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    if (report->steps[s].factored && !n++) first = report->steps[s].step;
+  }
+  if (n) PetscCall(PetscViewerASCIIPrintf(viewer, "MUMPS in place of AMG, from load step %" PetscInt_FMT " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n", first));
+  PetscFunctionReturn(0);
+}
+
 /* How wrong the energy is, by the solver's doing and by the mesh's */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
@@ -150,6 +163,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
   PetscCall(ViewSteps(report, TABLE_WORK, 2, viewer));
+  PetscCall(ViewFactored(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));

@@ -2,9 +2,78 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
+/* Solves with a factorization are worth an iteration or two each */
+static const PetscReal factored_iterations = 2.0;
+
+/* The KSP's own convergence test, and what ends a run that a factorization will finish sooner */
+typedef struct {
+  PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
+  PetscErrorCode (*destroy)(void *);
+  void     *ctx;
+  PetscReal first; /* residual */
+  PetscInt  later; /* solves with the same matrix */
+  PetscBool left;  /* for the factorization */
+} LinearPatience;
+
+/* Now and then, what is to come at the rate so far */
+static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
+{
+  LinearPatience *p     = (LinearPatience *)ctx;
+  const PetscInt  every = 10;
+  PetscReal       rtol, gained, digits, all;
+  PetscBool       before, after;
+  PC              pc;
+
+  PetscFunctionBegin;
+  PetscCall((*p->test)(ksp, it, norm, reason, p->ctx));
+  if (!it) p->first = norm;
+  if (!it || it % every || *reason || !(norm > 0.0)) PetscFunctionReturn(0);
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPGetTolerances(ksp, &rtol, NULL, NULL, NULL));
+  gained = PetscMax(PetscLog10Real(p->first / norm), 0.5);
+  digits = PetscMax(-PetscLog10Real(rtol), gained);
+  all    = (PetscReal)it * digits / gained;
+  PetscCall(PCAMGFGetFactored(pc, &before, NULL));
+  PetscCall(PCAMGFExpect(pc, all - (PetscReal)it + all * (PetscReal)p->later, factored_iterations * (PetscReal)(1 + p->later)));
+  PetscCall(PCAMGFGetFactored(pc, &after, NULL));
+  p->left = (PetscBool)(after != before);
+  if (p->left) *reason = KSP_CONVERGED_ITS;
+  PetscFunctionReturn(0);
+}
+
+/* KSPSolve(), which goes on from the iterate attained where a factorization takes the place of the AMG; *its: of both together */
+static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, Vec b, Vec x, PetscInt *its)
+{
+  LinearPatience patience = {.left = PETSC_FALSE};
+  PetscInt       more     = 0;
+  PetscBool      amgf;
+  PC             pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  PetscCall(PathSolvesToCome(sim, &patience.later));
+  patience.later--;
+  PetscCall(KSPGetAndClearConvergenceTest(ksp, &patience.test, &patience.ctx, &patience.destroy));
+  PetscCall(KSPSetConvergenceTest(ksp, amgf ? LinearTest : patience.test, amgf ? (void *)&patience : patience.ctx, NULL));
+  PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPSetConvergenceTest(ksp, patience.test, patience.ctx, patience.destroy));
+  PetscCall(KSPGetIterationNumber(ksp, its));
+  if (!patience.left) PetscFunctionReturn(0);
+  PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE));
+  PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_FALSE));
+  PetscCall(KSPGetIterationNumber(ksp, &more));
+  *its += more;
+  PetscFunctionReturn(0);
+}
+
+/* By AMG or, where that is estimated to be the cheaper for the load steps to come, by a factorization */
 static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 {
-  PC pc;
+  const PetscReal usual = 35.0; /* iterations with an AMG */
+  PetscInt        solves, its = 0;
+  PC              pc;
 
   PetscFunctionBegin;
   if (!sim->ksp) {
@@ -15,11 +84,15 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
     PetscCall(KSPGetPC(sim->ksp, &pc));
     PetscCall(PCSetType(pc, PCAMGF));
     PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
+    PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
     PetscCall(KSPSetFromOptions(sim->ksp));
     PetscCall(KSPGetTolerances(sim->ksp, &sim->tolerances.linear, NULL, NULL, NULL));
     PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));
     PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
-  }
+  } else PetscCall(KSPGetIterationNumber(sim->ksp, &its));
+  PetscCall(KSPGetPC(sim->ksp, &pc));
+  PetscCall(PathSolvesToCome(sim, &solves));
+  PetscCall(PCAMGFExpect(pc, (PetscReal)solves * (its ? (PetscReal)its : usual), factored_iterations * (PetscReal)solves));
   *ksp = sim->ksp;
   PetscFunctionReturn(0);
 }
@@ -38,13 +111,12 @@ PetscErrorCode LinearSolve(StepProblem *p, Vec u, StepReport *report)
   PetscCall(LinearGetKSP(p->sim, &ksp));
   PetscCall(ReportGetCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
-  PetscCall(KSPSolve(ksp, p->force, p->w));
+  PetscCall(LinearSolvePatiently(p->sim, ksp, p->force, p->w, &its));
   PetscCall(PetscTime(&t1));
   report->solve_time += t1 - t0;
   PetscCall(VecWAXPY(u, -1.0, p->w, p->base));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), KSPConvergedReasons[reason]));
-  PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(ReportIterations(report, 1, &its));
   PetscCall(ReportPreconditioner(ksp, &before, report));
   PetscCall(QuadraticEnergy(p, u, &report->potential));

@@ -17,6 +17,7 @@ static PetscErrorCode OptimizerKnowBothNames(void)
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
   Simulation sim = p->sim;
+  PetscInt   solves;
   KSP        ksp;
   Vec        c;
 
@@ -49,6 +50,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
+  PetscCall(PathSolvesToCome(sim, &solves));
+  PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
   PetscFunctionReturn(0);
 }

@@ -69,3 +69,17 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
   *u                      = oldest;
   PetscFunctionReturn(0);
 }
+
+/* Solves with the present stiffness until the end of the load program, this one included: where the gap is updated, one update a load step at least */
+PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
+{
+  const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;
+  PetscReal       steps   = PetscMax((PetscReal)sim->scene->nsteps - sim->path.time, 1.0);
+  PetscBool       linear;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  if (!linear) steps = 1.0;
+  *n = (PetscInt)(updates * steps);
+  PetscFunctionReturn(0);
+}

@@ -168,6 +168,7 @@ PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 /* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
 PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
+PETSC_INTERN PetscErrorCode PathSolvesToCome(Simulation, PetscInt *);
 PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 
 /* interrupt.c */

@@ -1,0 +1,329 @@
+/*
+   B by a Cholesky factorization of the operator in place of the AMG: what that would take, by MUMPS's analysis, whether it is the cheaper of
+   the two for what is said to come, and the factorization itself. The estimates are of counts, not of clocks, so that a run does the same twice.
+*/
+#include "amgfimpl.h"
+#include "mumps.h"
+#include <petscblaslapack.h>
+#include <time.h>
+#include <unistd.h>
+
+const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUse", "PC_AMGF_FACTOR_", NULL};
+
+PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&f->F));
+  f->analysed = (AMGFStamp){.id = 0};
+  f->on       = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* The operator as MUMPS takes a symmetric matrix; NULL where nothing of the kind is there. A copy may be said to be positive definite. */
+static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
+{
+  PetscBool baij, mumps;
+  MatType   type;
+
+  PetscFunctionBegin;
+  *taken = NULL;
+  if (PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  if (baij) {
+    PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, taken));
+    PetscCall(MatSetOption(*taken, MAT_SPD, PETSC_TRUE));
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *taken = A;
+  }
+  PetscCall(MatGetType(*taken, &type));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_CHOLESKY, &mumps));
+  if (!mumps) PetscCall(MatDestroy(taken));
+  PetscFunctionReturn(0);
+}
+
+/* Analysis of the pattern, with its estimates; failed ones are infinite */
+static PetscErrorCode FactorAnalyse(PC pc, Mat A)
+{
+  AMGFFactor    *f = &((PC_AMGF *)pc->data)->factor;
+  MatFactorInfo  info;
+  MatFactorError error;
+  const char    *prefix;
+  PetscInt       entries, memory;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&f->F));
+  PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &f->F));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(MatSetOptionsPrefix(f->F, prefix));
+  PetscCall(MatAppendOptionsPrefix(f->F, "amgf_factor_"));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatCholeskyFactorSymbolic(f->F, A, NULL, &info));
+  PetscCall(MatFactorGetError(f->F, &error));
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
+  PetscCall(AMGFMumpsGetRinfog(f->F, 1, &f->flops));
+  PetscCall(AMGFMumpsGetInfog(f->F, 20, &entries));
+  PetscCall(AMGFMumpsGetInfog(f->F, 17, &memory));
+  f->entries = entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS counts large ones in millions, with a minus */
+  f->memory  = 1e6 * memory;
+  if (error) f->flops = f->entries = f->memory = PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
+/* What the machine has, of which all ranks are taken to share one */
+static PetscReal FactorMachineMemory(void)
+{
+  return (PetscReal)sysconf(_SC_PHYS_PAGES) * (PetscReal)sysconf(_SC_PAGESIZE);
+}
+
+/* Whether BLAS is one that was written for the processor: the reference implementation takes ten times as long for a product of matrices */
+static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
+{
+  const PetscBLASInt n   = 192;
+  const PetscScalar  one = 1.0, zero = 0.0;
+  const PetscReal    threshold = 4e9, tuned = 2.7e10, reference = 1.2e9; /* flops a second */
+  PetscScalar       *a, *c;
+  PetscReal          best = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(n * n, &a, n * n, &c));
+  for (PetscInt k = 0; k < 4; k++) {
+    const clock_t start = clock();
+
+    PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &n, &n, &n, &one, a, &n, a, &n, &zero, c, &n));
+    best = PetscMax(best, 2.0 * n * n * n * CLOCKS_PER_SEC / PetscMax((PetscReal)(clock() - start), 1.0));
+  }
+  PetscCall(PetscFree2(a, c));
+  *rate = best > threshold ? tuned : reference;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rate, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)pc)));
+  PetscFunctionReturn(0);
+}
+
+/* Seconds of either solver on one core, as measured on elastic bodies of 2,000 to 200,000 unknowns; ranks share the work alike */
+static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
+{
+  const AMGFFactor *f        = &((PC_AMGF *)pc->data)->factor;
+  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* an entry of the matrix */
+  const PetscReal   cached       = 2e6;                          /* entries; of far more an application takes twice as long */
+  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9;         /* an entry of the factors */
+  MatInfo           info;
+  PetscReal         rate;
+  PetscBool         half;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetInfo(pc->pmat, MAT_GLOBAL_SUM, &info));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, &half, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  if (half) info.nz_used *= 2.0;
+  PetscCall(FactorFindRate(pc, &rate));
+  costs->factor = analysis * info.nz_used + factor_entry * f->entries + f->flops / rate;
+  costs->solve  = solve * f->entries;
+  costs->setup  = built ? 0.0 : setup * info.nz_used;
+  costs->apply  = apply * info.nz_used * (1.0 + info.nz_used / (info.nz_used + cached));
+  PetscFunctionReturn(0);
+}
+
+/* What -pc_amgf_factor auto goes by: whether the factorization fits, and takes less than the AMG for as many applications as are to come */
+static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal solves, PetscBool *cheaper)
+{
+  PC_AMGF        *amgf  = (PC_AMGF *)pc->data;
+  AMGFFactor     *f     = &amgf->factor;
+  const PetscReal room  = f->share * FactorMachineMemory();
+  AMGFCosts       costs = {0.0, 0.0, 0.0, 0.0};
+  PetscReal       factor, amg;
+
+  PetscFunctionBegin;
+  PetscCall(FactorEstimate(pc, amgf->lag.built, &costs));
+  factor   = costs.factor + solves * costs.solve;
+  amg      = costs.setup + applications * costs.apply;
+  *cheaper = (PetscBool)(f->memory < room && factor < amg);
+  if (f->memory >= room) PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "a factorization would take %.0f MB, more than %g of the machine's memory", (double)(f->memory / 1e6), (double)f->share));
+  else PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "for %.0f solves a factorization of %.0f MB is estimated at %.2g s, %.0f applications of AMG at %.2g s", (double)solves, (double)(f->memory / 1e6), (double)factor, (double)applications, (double)amg));
+  PetscFunctionReturn(0);
+}
+
+/* Chooses B for what is to come with the operator that is set: so many applications of an AMG, or so many solves with factors */
+static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solves)
+{
+  PC_AMGF        *amgf    = (PC_AMGF *)pc->data;
+  AMGFFactor     *f       = &amgf->factor;
+  const PetscReal largest = 5e5; /* unknowns: the analysis alone takes minutes and as much memory as the AMG */
+  AMGFStamp       now;
+  PetscInt        n;
+  Mat             A;
+
+  PetscFunctionBegin;
+  if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed) PetscFunctionReturn(0);
+  PetscCall(MatGetSize(pc->pmat, &n, NULL));
+  if (n > largest) PetscFunctionReturn(0);
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
+  if (!AMGFStampSamePattern(&now, &f->analysed)) {
+    PetscCall(FactorTakeMatrix(pc->pmat, &A));
+    if (!A) PetscFunctionReturn(0);
+    PetscCall(FactorAnalyse(pc, A));
+    PetscCall(MatDestroy(&A));
+  }
+  PetscCall(FactorCompare(pc, applications, solves, &f->on));
+  if (!f->on) PetscCall(MatDestroy(&f->F)); /* of which the estimates are kept */
+  else amgf->lag.built = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Numerical factorization, with more work space each time that MUMPS finds its own estimate too small */
+static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
+{
+  const PetscInt first = 20, limit = 320; /* per cent */
+  MatFactorInfo  info;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  *error = MAT_FACTOR_OUTMEMORY;
+  for (PetscInt relaxation = first; *error == MAT_FACTOR_OUTMEMORY && relaxation <= limit; relaxation *= 2) {
+    PetscCall(AMGFMumpsSetIcntl(F, 14, relaxation));
+    PetscCall(MatCholeskyFactorNumeric(F, A, &info));
+    PetscCall(MatFactorGetError(F, error));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)A)));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFFactorSetUp_Private - factors the operator; f->failed says that it cannot be
+*/
+PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
+{
+  PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
+  AMGFFactor    *f     = &amgf->factor;
+  MatFactorError error = MAT_FACTOR_OTHER;
+  AMGFStamp      now;
+  Mat            A;
+
+  PetscFunctionBegin;
+  PetscCall(PCReset(amgf->amg));
+  PetscCall(FactorTakeMatrix(pc->pmat, &A));
+  PetscCheck(A, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "-pc_amgf_factor needs real scalars, MUMPS, and an operator of type AIJ, BAIJ or SBAIJ");
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
+  if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
+  if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
+  PetscCall(PetscInfo(pc, "Cholesky factorization in place of the AMG: error %d\n", (int)error));
+  f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
+{
+  AMGFFactor *f = &((PC_AMGF *)pc->data)->factor;
+
+  PetscFunctionBegin;
+  if (f->on && use == PC_AMGF_FACTOR_FALSE) {
+    PetscCall(PCAMGFFactorReset_Private(f));
+    ((PC_AMGF *)pc->data)->lag.built = PETSC_FALSE;
+  }
+  if (use != f->use) pc->setupcalled = 0;
+  f->use = use;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves)
+{
+  AMGFFactor     *f  = &((PC_AMGF *)pc->data)->factor;
+  const PetscBool on = f->on;
+
+  PetscFunctionBegin;
+  PetscCall(FactorExpect(pc, applications, solves));
+  if (f->on != on) pc->setupcalled = 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *why[])
+{
+  AMGFFactor *f = &((PC_AMGF *)pc->data)->factor;
+
+  PetscFunctionBegin;
+  *factored = f->on;
+  if (why) *why = f->why;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator, by MUMPS, takes the place of the AMG
+
+  Logically Collective
+
+  Input Parameters:
++ pc  - the preconditioner
+- use - `PC_AMGF_FACTOR_FALSE` (default), `PC_AMGF_FACTOR_TRUE` or `PC_AMGF_FACTOR_AUTO`
+
+  Options Database Keys:
++ -pc_amgf_factor <false>     - `false`, `true` or `auto`
+- -pc_amgf_factor_share <0.4> - auto: share of the machine's memory, taken to be that of all ranks, which the factors may take by MUMPS's estimate
+
+  Level: intermediate
+
+  Notes:
+  Real scalars only. Where the factorization fails so does the preconditioner.
+
+  With `auto` the AMG is taken until `PCAMGFExpect()` tells how much is to come.
+
+.seealso: `PCAMGF`, `PCAMGFFactorUse`, `PCAMGFExpect()`, `PCAMGFGetFactored()`
+@*/
+PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveEnum(pc, use, 2);
+  PetscTryMethod(pc, "PCAMGFSetFactor_C", (PC, PCAMGFFactorUse), (pc, use));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFExpect - tells how often the preconditioner of the present operator will be applied, so that `PC_AMGF_FACTOR_AUTO` can choose
+
+  Collective
+
+  Input Parameters:
++ pc           - the preconditioner, with its operators
+. applications - applications of an AMG that are to come
+- solves       - solves that would be to come with a factorization in its place
+
+  Level: advanced
+
+  Notes:
+  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the AMG by the entries of the operator. Call it before the
+  first `PCSetUp()`, and again when more is known: a change from the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the
+  pattern of the operator stays. Operators of more than 500,000 unknowns keep the AMG.
+
+.seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
+@*/
+PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscTryMethod(pc, "PCAMGFExpect_C", (PC, PetscReal, PetscReal), (pc, applications, solves));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  PCAMGFGetFactored - gets whether a factorization takes the place of the AMG
+
+  Not Collective
+
+  Input Parameter:
+. pc - the preconditioner, of type `PCAMGF`
+
+  Output Parameters:
++ factored - whether it does
+- why      - a sentence on the last choice, empty without one; pass `NULL` if it is not needed
+
+  Level: intermediate
+
+.seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFExpect()`
+@*/
+PetscErrorCode PCAMGFGetFactored(PC pc, PetscBool *factored, const char *why[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(factored, 2);
+  PetscUseMethod(pc, "PCAMGFGetFactored_C", (PC, PetscBool *, const char **), (pc, factored, why));
+  PetscFunctionReturn(0);
+}
