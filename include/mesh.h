@@ -42,19 +42,19 @@ PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, Pet
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
-/* Where a point is in a mesh: a cell, and the values there of its vertices' shape functions, in tensor order */
+/* Where a point is in a mesh: a cell, and the values there of its nodes' shape functions, in tensor order */
 typedef struct {
   PetscReal distance; /* of the point from the cell [length] */
   PetscReal size;     /* of the cell: diagonal of its box [length] */
-  PetscInt  cell;
-  PetscReal N[8];
+  PetscInt  cell, n;  /* nodes of the cell: 8 or 27 */
+  PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
 /* In which cells of a mesh are points? Of any cells, which need not be those of a DM */
 typedef struct _n_MeshLocator *MeshLocator;
 PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[]);
 PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *);
-PETSC_EXTERN PetscErrorCode    MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscReal X[8][3]);
+PETSC_EXTERN PetscErrorCode    MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3]);
 PETSC_EXTERN PetscErrorCode    MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
 PETSC_EXTERN PetscErrorCode    MeshLocatorDestroy(MeshLocator *);
 /* The points of a scene's probes; an error where one is in no body */

@@ -1,4 +1,4 @@
-static char help[] = "Manufactured solution on a cube, of cubes, of distorted or of curved cells: order of convergence in displacement and gradient.\n\n";
+static char help[] = "Manufactured solution on a cube, of cubes, of distorted or of curved cells: order of convergence in displacement and gradient, and\nhow far the error estimate is from the true error.\n\n";
 
 #include "elasticity_problem.h"
 #include "elasticity_point.h"
@@ -85,10 +85,15 @@ static PetscErrorCode CellLoad(const Material *material, const PointCell *cell, 
   PetscFunctionReturn(0);
 }
 
-/* Adds its squared errors against the exact solution */
-static PetscErrorCode CellErrors(const PointCell *cell, const PetscScalar u[], PetscReal errors[2])
+/* Adds its squared errors against the exact solution: of the displacement, of its gradient, and in the energy norm of full integration */
+static PetscErrorCode CellErrors(const Material *material, const PointCell *cell, const PetscScalar u[], PetscReal errors[3])
 {
+  const MaterialLaw *law;
+  PetscReal          lambda, mu, A[81];
+
   PetscFunctionBeginUser;
+  PetscCall(MaterialGetLaw(material, &law));
+  PetscCall(MaterialGetLame(material, &lambda, &mu));
   for (PetscInt q = 0; q < POINTS * POINTS * POINTS; ++q) {
     Point     p;
     PetscReal value[3], H[3][3];
@@ -96,6 +101,7 @@ static PetscErrorCode CellErrors(const PointCell *cell, const PetscScalar u[], P
     PetscCall(PointGet(cell, q, &p));
     Exact(p.x, value);
     ExactGradient(p.x, H);
+    PetscCheck(law->tangent(lambda, mu, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
     for (PetscInt a = 0; a < cell->n; ++a) {
       for (PetscInt i = 0; i < 3; ++i) {
         value[i] -= p.N[a] * PetscRealPart(u[cell->offset[a] + i]);
@@ -106,12 +112,13 @@ static PetscErrorCode CellErrors(const PointCell *cell, const PetscScalar u[], P
       errors[0] += p.weight * value[i] * value[i];
       for (PetscInt j = 0; j < 3; ++j) errors[1] += p.weight * H[i][j] * H[i][j];
     }
+    for (PetscInt k = 0; k < 81; ++k) errors[2] += p.weight * H[k / 27][k / 9 % 3] * A[k] * H[k % 9 / 3][k % 3];
   }
   PetscFunctionReturn(0);
 }
 
-/* Over all cells: the load vector of a material where load is given, the L2 and H1-seminorm errors of u where that is */
-static PetscErrorCode Integrate(DM dm, const Material *material, Vec load, Vec u, PetscReal errors[2])
+/* Over all cells: the load vector of a material where load is given, the squared errors of u where that is */
+static PetscErrorCode Integrate(DM dm, const Material *material, Vec load, Vec u, PetscReal errors[3])
 {
   Vec                coordinates, local;
   const PetscScalar *x;
@@ -130,12 +137,12 @@ static PetscErrorCode Integrate(DM dm, const Material *material, Vec load, Vec u
     PointCell cell;
 
     PetscCall(PointCellGet(dm, c, x, &cell));
-    if (u) PetscCall(CellErrors(&cell, l, errors));
+    if (u) PetscCall(CellErrors(material, &cell, l, errors));
     else PetscCall(CellLoad(material, &cell, l));
   }
   PetscCall(VecRestoreArray(local, &l));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
-  if (u) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, errors, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  if (u) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, errors, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   else PetscCall(DMLocalToGlobal(dm, local, ADD_VALUES, load));
   PetscCall(DMRestoreLocalVector(dm, &local));
   PetscFunctionReturn(0);
@@ -242,13 +249,14 @@ int main(int argc, char **argv)
   SceneBody       cube;
   MaterialType    type    = MATERIAL_LINEAR;
   ElementType     element = ELEMENT_FULL;
-  PetscReal       values[3], gradients[3], distance = 0, above = 0.1, scale = 1;
+  PetscReal       values[3], gradients[3], distance = 0, above = 0.1, scale = 1, effectivity = 0;
   PetscBool       curved = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(ProblemOptions(&type, &element));
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-distance", &distance, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-effectivity", &effectivity, NULL));
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-above", &above, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-curved", &curved, NULL));
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-amplitude", &scale, NULL)); /* Saint Venant-Kirchhoff is stable at moderate strain only */
@@ -259,16 +267,20 @@ int main(int argc, char **argv)
     DM         dm;
     Elasticity e;
     Vec        u;
-    PetscReal  errors[2] = {0, 0};
+    PetscReal  errors[3] = {0, 0, 0}, estimate;
 
     PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &cube, level + (cube.order == 2 ? 0 : 1), &dm));
     if (distance > 0) PetscCall(Distort(dm, distance));
     if (curved) PetscCall(ProblemMapNodes(dm, Bend));
     PetscCall(ElasticityCreate(dm, 1, &materials[type], &element, &e));
     PetscCall(Solve(dm, e, &materials[type], &u));
-    PetscCall(Integrate(dm, NULL, NULL, u, errors));
+    PetscCall(Integrate(dm, &materials[type], NULL, u, errors));
     values[level]    = PetscSqrtReal(errors[0]);
     gradients[level] = PetscSqrtReal(errors[1]);
+    if (effectivity > 0 && level == 2) {
+      PetscCall(ElasticityEstimateError(e, u, &estimate, NULL));
+      PetscCall(ProblemReport("effectivity of the estimate: distance from 1", PetscAbsReal(PetscSqrtReal(estimate / errors[2]) - 1), effectivity));
+    }
     PetscCall(VecDestroy(&u));
     PetscCall(ElasticityDestroy(&e));
     PetscCall(DMDestroy(&dm));
@@ -311,6 +323,19 @@ int main(int argc, char **argv)
       test:
          suffix: saint_venant
          args: -material saint_venant -amplitude 0.3 -pc_type pbjacobi
+
+   testset:
+      args: -pc_type pbjacobi -effectivity 0.2
+      nsize: {{1 3}}
+      test:
+         suffix: estimate
+         args: -curved -material {{linear neohookean}}
+      test:
+         suffix: estimate_order2
+         args: -curved -order 2 -material {{linear neohookean}}
+      test:
+         suffix: estimate_distorted
+         args: -distance 0.15 -order 2
 
    testset:
       args: -order 2 -pc_type pbjacobi

@@ -5,6 +5,7 @@
 #define ELASTICITYIMPL_H
 
 #include <elasticity.h>
+#include <mesh.h>
 #include <petscsf.h>
 
 /*
@@ -211,6 +212,17 @@ PETSC_INTERN PetscErrorCode SpringsAddEnergy(Elasticity, Vec u, PetscReal *energ
 PETSC_INTERN PetscErrorCode SpringsAddForce(Elasticity, Vec u, Vec force);
 PETSC_INTERN PetscErrorCode SpringsAddTangent(Elasticity, PetscBool all, const PetscInt global[], Mat);
 
+/* facet.c: a facet of a face, of 4 or 9 nodes: where they stand in local vectors, and where they are; shape functions on [0,1]^2 */
+#define FACET_MAX_NODES MESH_MAX_FACET_NODES
+
+typedef struct {
+  PetscInt  n, offset[FACET_MAX_NODES];
+  PetscReal X[FACET_MAX_NODES][3];
+} Facet;
+
+PETSC_INTERN void           FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[]);
+PETSC_INTERN PetscErrorCode FacetGet(Elasticity, PetscInt point, const PetscScalar x[], Facet *);
+
 /* force.c, stress.c, loads.c, faces.c: loops over the cells and facets, all of them public */
 
 /* constant.c: the bodies whose tangent is constant, and which of them are kept when a tangent is assembled again */
@@ -228,10 +240,14 @@ typedef struct {
 } RecoveredNode;
 
 PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
+PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *values);
 PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c: the error estimate, public, and which bodies can be recovered together */
-PETSC_INTERN PetscErrorCode ElasticitySelectApart(Elasticity, PetscSF, PetscBool remaining[], PetscBool selected[], PetscBool *more);
+/* recovery_order2.c */
+PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
+
+/* estimate.c: the error estimate, public, and the recovery of bodies that remain, as many as can be recovered together */
+PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[], PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
 
 /* principal.c, fields.c, elasticity.c: fields to look at, and the object's life, public */
 

@@ -58,7 +58,7 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
    Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first at all of
    their nodes
 */
-PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
+static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
 {
   PetscInt *first, *second;
 
@@ -90,6 +90,20 @@ PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaini
     if (remaining[b]) *more = PETSC_TRUE;
   }
   PetscCall(PetscFree2(first, second));
+  PetscFunctionReturn(0);
+}
+
+/* Selects bodies that remain, takes them off, and recovers them; more: whether others remain */
+PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[], PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
+{
+  PetscBool second = (PetscBool)(e->basis[1] != NULL);
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
+  PetscCall(ElasticitySelectApart(e, sf, remaining, selected, more));
+  PetscCall(PetscArrayzero(recovered, e->nnodes));
+  PetscCall(ElasticityRecover(e, sf, selected, x, u, recovered));
+  if (second) PetscCall(ElasticityRecoverOrder2(e, sf, selected, x, u, recovered));
   PetscFunctionReturn(0);
 }
 
@@ -129,12 +143,10 @@ PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], 
   Vec                local;
   const PetscScalar *ul, *x;
   PetscSF            sf;
-  PetscBool         *remaining, *selected, more = PETSC_TRUE, second = (PetscBool)(e->basis[1] != NULL);
+  PetscBool         *remaining, *selected, more = PETSC_TRUE;
   RecoveredNode     *recovered;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
-  PetscCheck(!second, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_SUP, "The discretization error of bodies of order 2 is not estimated");
   PetscCall(PetscLogEventBegin(ELASTICITY_Error, u, 0, 0, 0));
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   PetscCall(ElasticityCreateNodeSF(e, &sf));
@@ -145,9 +157,7 @@ PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], 
     remaining[b] = PETSC_TRUE;
   }
   while (more) {
-    PetscCall(ElasticitySelectApart(e, sf, remaining, selected, &more));
-    PetscCall(PetscArrayzero(recovered, e->nnodes));
-    PetscCall(ElasticityRecover(e, sf, selected, x, ul, recovered));
+    PetscCall(ElasticityRecoverNext(e, sf, x, ul, remaining, selected, recovered, &more));
     ElasticityAddErrors(e, selected, x, ul, recovered, bodies, cells ? *cells : NULL);
   }
   PetscCall(PetscFree3(remaining, selected, recovered));

@@ -1,39 +1,34 @@
 /* Integrals over faces, all from one quadrature: tractions, what a face measures, springs */
 #include "elasticityimpl.h"
-#include <mesh.h>
 
-/* The facets of a face on this rank: where their vertices stand in local vectors, and where they are */
+/* The facets of a face on this rank */
 typedef struct {
   PetscInt n;
-  PetscInt (*offset)[4];
-  PetscReal (*X)[4][3];
+  Facet   *facets;
 } Face;
 
 typedef struct {
-  PetscReal N[4], x[3], area; /* shape functions, place, weight times area */
+  PetscReal N[FACET_MAX_NODES], x[3], area; /* shape functions, place, weight times area */
 } FacePoint;
 
 #define FACE_POINTS 9
 
 static PetscErrorCode FaceCreate(Elasticity e, const char name[], Face *face)
 {
-  IS              facets;
-  PetscSection    section;
-  const PetscInt *f;
+  IS                 facets;
+  Vec                coordinates;
+  const PetscInt    *f;
+  const PetscScalar *x;
 
   PetscFunctionBegin;
   PetscCall(MeshGetFacets(e->dm, name, &facets));
-  PetscCall(DMGetLocalSection(e->dm, &section));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(ISGetLocalSize(facets, &face->n));
   PetscCall(ISGetIndices(facets, &f));
-  PetscCall(PetscMalloc2(face->n, &face->offset, face->n, &face->X));
-  for (PetscInt i = 0; i < face->n; ++i) {
-    PetscInt vertices[4];
-
-    PetscCall(MeshGetFacetVertices(e->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(e->dm, 4, vertices, face->X[i]));
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(PetscSectionGetOffset(section, vertices[a], &face->offset[i][a]));
-  }
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(PetscMalloc1(face->n, &face->facets));
+  for (PetscInt i = 0; i < face->n; ++i) PetscCall(FacetGet(e, f[i], x, &face->facets[i]));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
@@ -42,29 +37,27 @@ static PetscErrorCode FaceCreate(Elasticity e, const char name[], Face *face)
 static PetscErrorCode FaceDestroy(Face *face)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(face->offset, face->X));
+  PetscCall(PetscFree(face->facets));
   PetscFunctionReturn(0);
 }
 
-/* 3 x 3 Gauss points of a bilinear facet: exact where it is plane */
-static void FaceGetPoints(PetscReal X[4][3], FacePoint points[FACE_POINTS])
+/* 3 x 3 Gauss points of a facet: exact where it is plane */
+static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
 {
   const PetscReal gauss[3] = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)}, weight[3] = {5. / 18, 8. / 18, 5. / 18};
 
   for (int q = 0; q < FACE_POINTS; ++q) {
-    const PetscReal s = gauss[q % 3], t = gauss[q / 3];
-    const PetscReal N[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}, Ns[4] = {t - 1, 1 - t, t, -t}, Nt[4] = {s - 1, -s, s, 1 - s};
-    PetscReal       xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0;
+    PetscReal Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0;
 
+    FacetShape(facet->n, gauss[q % 3], gauss[q / 3], points[q].N, Ns, Nt);
     for (int d = 0; d < 3; ++d) {
       points[q].x[d] = 0;
-      for (int a = 0; a < 4; ++a) {
-        points[q].x[d] += N[a] * X[a][d];
-        xs[d] += Ns[a] * X[a][d];
-        xt[d] += Nt[a] * X[a][d];
+      for (PetscInt a = 0; a < facet->n; ++a) {
+        points[q].x[d] += points[q].N[a] * facet->X[a][d];
+        xs[d] += Ns[a] * facet->X[a][d];
+        xt[d] += Nt[a] * facet->X[a][d];
       }
     }
-    for (int a = 0; a < 4; ++a) points[q].N[a] = N[a];
     for (int d = 0; d < 3; ++d) square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
     points[q].area = weight[q % 3] * weight[q / 3] * PetscSqrtReal(square);
   }
@@ -85,13 +78,13 @@ static PetscErrorCode FaceAddField(Elasticity e, const char name[], void (*field
   for (PetscInt i = 0; i < face.n; ++i) {
     FacePoint points[FACE_POINTS];
 
-    FaceGetPoints(face.X[i], points);
+    FaceGetPoints(&face.facets[i], points);
     for (int q = 0; q < FACE_POINTS; ++q) {
       PetscReal value[3];
 
       field(points[q].x, ctx, value);
-      for (int a = 0; a < 4; ++a) {
-        for (int d = 0; d < 3; ++d) l[face.offset[i][a] + d] += points[q].area * points[q].N[a] * value[d];
+      for (PetscInt a = 0; a < face.facets[i].n; ++a) {
+        for (int d = 0; d < 3; ++d) l[face.facets[i].offset[a] + d] += points[q].area * points[q].N[a] * value[d];
       }
     }
   }
@@ -109,7 +102,7 @@ static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3
 }
 
 /*@
-  ElasticityAddFaceField - Adds the integral over a face of each vertex's shape function times a constant: a dead traction's load, or the stiffness of springs
+  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead traction's load, or the stiffness of springs
 
   Collective
 
@@ -160,7 +153,7 @@ static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscRe
   for (PetscInt i = 0; i < face.n; ++i) {
     FacePoint points[FACE_POINTS];
 
-    FaceGetPoints(face.X[i], points);
+    FaceGetPoints(&face.facets[i], points);
     for (int q = 0; q < FACE_POINTS; ++q) {
       PetscReal r[3];
 

@@ -71,9 +71,7 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
   PetscCall(PetscCalloc1(e->nnodes, &n));
   for (PetscInt b = 0; b < e->nbodies; ++b) remaining[b] = PETSC_TRUE;
   while (more) {
-    PetscCall(ElasticitySelectApart(e, sf, remaining, selected, &more));
-    PetscCall(PetscArrayzero(recovered, e->nnodes));
-    PetscCall(ElasticityRecover(e, sf, selected, x, ul, recovered));
+    PetscCall(ElasticityRecoverNext(e, sf, x, ul, remaining, selected, recovered, &more));
     PetscCall(FieldsAddNodes(e, selected, recovered, n, *stress));
   }
   for (PetscInt i = 0; i < 6 * e->nnodes; ++i) (*stress)[i] /= PetscMax(1, n[i / 6]);

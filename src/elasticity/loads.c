@@ -89,30 +89,6 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Shape functions of a facet on [0,1]^2 and their derivatives, of 4 nodes around it, or of 9: then of its edges, and of its middle */
-static void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
-{
-  static const PetscInt place[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
-  const PetscReal       at[2]       = {s, t};
-  PetscReal             L[2][3], D[2][3];
-
-  for (PetscInt d = 0; d < 2; ++d) {
-    const PetscReal x = at[d];
-
-    L[d][0] = n == 4 ? 1 - x : (1 - x) * (1 - 2 * x);
-    L[d][1] = 4 * x * (1 - x);
-    L[d][2] = n == 4 ? x : x * (2 * x - 1);
-    D[d][0] = n == 4 ? -1 : 4 * x - 3;
-    D[d][1] = 4 - 8 * x;
-    D[d][2] = n == 4 ? 1 : 4 * x - 1;
-  }
-  for (PetscInt a = 0; a < n; ++a) {
-    N[a]  = L[0][place[a][0]] * L[1][place[a][1]];
-    Ns[a] = D[0][place[a][0]] * L[1][place[a][1]];
-    Nt[a] = L[0][place[a][0]] * D[1][place[a][1]];
-  }
-}
-
 /* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
    are exact, or 3 x 3 */
 static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
@@ -124,7 +100,7 @@ static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3
   for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
   for (PetscInt q = 0; q < npoints * npoints; ++q) {
     const PetscReal *gauss = n == 4 ? two : three, *w = n == 4 ? halves : eighteenths, weight = w[q % npoints] * w[q / npoints];
-    PetscReal        N[MESH_MAX_FACET_NODES], Ns[MESH_MAX_FACET_NODES], Nt[MESH_MAX_FACET_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0};
+    PetscReal        N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0};
 
     FacetShape(n, gauss[q % npoints], gauss[q / npoints], N, Ns, Nt);
     for (PetscInt a = 0; a < n; ++a) {
@@ -163,7 +139,6 @@ static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3
 PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
 {
   IS                 facets;
-  PetscSection       section;
   Vec                coordinates, local;
   const PetscInt    *f;
   const PetscScalar *x;
@@ -172,7 +147,6 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 
   PetscFunctionBegin;
   PetscCall(MeshGetFacets(e->dm, face, &facets));
-  PetscCall(DMGetLocalSection(e->dm, &section));
   PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
   PetscCall(DMGetLocalVector(e->dm, &local));
   PetscCall(VecZeroEntries(local));
@@ -181,17 +155,13 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  nnodes, nodes[MESH_MAX_FACET_NODES], offset[MESH_MAX_FACET_NODES];
-    PetscReal X[MESH_MAX_FACET_NODES][3], F[MESH_MAX_FACET_NODES][3];
+    Facet     facet;
+    PetscReal F[FACET_MAX_NODES][3];
 
-    PetscCall(MeshGetFacetNodes(e->dm, f[i], &nnodes, nodes));
-    for (PetscInt a = 0; a < nnodes; ++a) {
-      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset[a]));
-      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(x[offset[a] + d]);
-    }
-    ElasticityFacetNormals(nnodes, X, F);
-    for (PetscInt a = 0; a < nnodes; ++a) {
-      for (PetscInt d = 0; d < 3; ++d) l[offset[a] + d] -= pressure * F[a][d];
+    PetscCall(FacetGet(e, f[i], x, &facet));
+    ElasticityFacetNormals(facet.n, facet.X, F);
+    for (PetscInt a = 0; a < facet.n; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] -= pressure * F[a][d];
     }
   }
   PetscCall(ISRestoreIndices(facets, &f));

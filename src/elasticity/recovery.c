@@ -156,8 +156,8 @@ PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
   PetscFunctionReturn(0);
 }
 
-/* Sums records of n reals a node over the ranks, and gives every rank the sums */
-static PetscErrorCode ElasticitySumNodes(PetscSF sf, size_t n, PetscReal *values)
+/* Sums records of n reals over the ranks, and gives every rank the sums */
+PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
 {
   MPI_Datatype record;
 
@@ -179,12 +179,12 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
     CellState  state;
     CellSample cell;
 
-    if (!selected[e->cellbody[c]]) continue;
+    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 8) continue;
     ElasticityGetCell(e, c, x, u, &state);
     CellSampleAverages(&state, &cell);
     for (int a = 0; a < 8; ++a) NodeSumsAdd(&patches[state.nodes[a]].sums, state.X, a, &cell);
   }
-  PetscCall(ElasticitySumNodes(sf, sizeof(NodePatch) / sizeof(PetscReal), (PetscReal *)patches));
+  PetscCall(ElasticitySumRecords(sf, sizeof(NodePatch) / sizeof(PetscReal), (PetscReal *)patches));
   for (PetscInt v = 0; v < e->nnodes; ++v) NodePatchFit(&patches[v]);
   PetscFunctionReturn(0);
 }
@@ -207,7 +207,7 @@ static void CellContinue(const NodePatch patches[], const PetscInt nodes[8], Pet
   }
 }
 
-/* Values at the nodes of the selected bodies, of which no two share a node. recovered is zero on entry */
+/* Values at the nodes of the selected bodies' cells of order 1, of which no two share a node. recovered is zero on entry */
 PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[])
 {
   NodePatch *patches;
@@ -218,11 +218,11 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   for (PetscInt c = 0; c < e->ncells; ++c) {
     CellState state;
 
-    if (!selected[e->cellbody[c]]) continue;
+    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 8) continue;
     ElasticityGetCell(e, c, x, u, &state);
     CellContinue(patches, state.nodes, state.X, recovered);
   }
-  PetscCall(ElasticitySumNodes(sf, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)recovered));
+  PetscCall(ElasticitySumRecords(sf, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)recovered));
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     const PetscReal n = recovered[v].n;
 

@@ -1,6 +1,6 @@
 /*
    Which cell is a point in? Points are sorted into the bins of a grid; each cell looks at those in the bins about it, and the point's place in the
-   cell is where the trilinear map takes it, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+   cell is where the cell's map takes it, trilinear or triquadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
 */
 #include "meshimpl.h"
 
@@ -64,33 +64,44 @@ static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
   PetscFunctionReturn(0);
 }
 
-/* The trilinear shape functions at a place of the reference cube, and their derivatives */
-static void LocateShape(const PetscReal xi[3], PetscReal N[8], PetscReal dN[3][8])
+/* Shape functions of a line on [-1, 1] with 2 or 3 nodes, and their slopes */
+static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s[3])
 {
-  for (PetscInt a = 0; a < 8; ++a) {
-    PetscReal L[3], s[3];
+  L[0]         = width == 2 ? 0.5 - 0.5 * xi : 0.5 * xi * (xi - 1);
+  L[1]         = (1 - xi) * (1 + xi);
+  L[width - 1] = width == 2 ? 0.5 + 0.5 * xi : 0.5 * xi * (xi + 1);
+  s[0]         = width == 2 ? -0.5 : xi - 0.5;
+  s[1]         = -2 * xi;
+  s[width - 1] = width == 2 ? 0.5 : xi + 0.5;
+}
 
-    for (PetscInt d = 0; d < 3; ++d) {
-      s[d] = (a >> d & 1) ? 0.5 : -0.5;
-      L[d] = 0.5 + s[d] * xi[d];
-    }
-    N[a]     = L[0] * L[1] * L[2];
-    dN[0][a] = s[0] * L[1] * L[2];
-    dN[1][a] = L[0] * s[1] * L[2];
-    dN[2][a] = L[0] * L[1] * s[2];
+/* The shape functions of n nodes at a place of the reference cube, and their derivatives */
+static void LocateShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
+{
+  const PetscInt width = n == 8 ? 2 : 3;
+  PetscReal      L[3][3], s[3][3];
+
+  for (PetscInt d = 0; d < 3; ++d) LocateLine(width, xi[d], L[d], s[d]);
+  for (PetscInt a = 0; a < n; ++a) {
+    const PetscInt i = a % width, j = a / width % width, k = a / (width * width);
+
+    N[a]     = L[0][i] * L[1][j] * L[2][k];
+    dN[0][a] = s[0][i] * L[1][j] * L[2][k];
+    dN[1][a] = L[0][i] * s[1][j] * L[2][k];
+    dN[2][a] = L[0][i] * L[1][j] * s[2][k];
   }
 }
 
 /* Vector from X(xi) to the point, and dX_d/dxi_k */
-static void LocateDifference(PetscReal X[8][3], const PetscReal point[3], const PetscReal xi[3], PetscReal N[8], PetscReal r[3], PetscReal J[3][3])
+static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3], PetscReal N[], PetscReal r[3], PetscReal J[3][3])
 {
-  PetscReal dN[3][8];
+  PetscReal dN[3][MESH_MAX_NODES];
 
-  LocateShape(xi, N, dN);
+  LocateShape(n, xi, N, dN);
   for (PetscInt d = 0; d < 3; ++d) {
     r[d] = point[d];
     for (PetscInt k = 0; k < 3; ++k) J[d][k] = 0;
-    for (PetscInt a = 0; a < 8; ++a) {
+    for (PetscInt a = 0; a < n; ++a) {
       r[d] -= N[a] * X[a][d];
       for (PetscInt k = 0; k < 3; ++k) J[d][k] += dN[k][a] * X[a][d];
     }
@@ -117,14 +128,14 @@ static PetscReal LocateNorm(const PetscReal r[3])
 }
 
 /* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the distance */
-static PetscReal LocateInCell(PetscReal X[8][3], const PetscReal point[3], PetscReal N[8])
+static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
 {
   PetscReal xi[3] = {0, 0, 0}, r[3], J[3][3], step[3];
 
   for (PetscInt it = 0; it < 30; ++it) {
     PetscReal change = 0;
 
-    LocateDifference(X, point, xi, N, r, J);
+    LocateDifference(n, X, point, xi, N, r, J);
     LocateSolve(J, r, step);
     for (PetscInt k = 0; k < 3; ++k) {
       const PetscReal next = PetscMax(-2.0, PetscMin(2.0, xi[k] + step[k]));
@@ -135,18 +146,18 @@ static PetscReal LocateInCell(PetscReal X[8][3], const PetscReal point[3], Petsc
     if (!(change > 8 * PETSC_MACHINE_EPSILON)) break;
   }
   for (PetscInt k = 0; k < 3; ++k) xi[k] = PetscMax(-1.0, PetscMin(1.0, xi[k]));
-  LocateDifference(X, point, xi, N, r, J);
+  LocateDifference(n, X, point, xi, N, r, J);
   return LocateNorm(r);
 }
 
-/* Of a cell's vertices, with a margin all round */
-static PetscReal LocateBox(PetscReal X[8][3], PetscReal lower[3], PetscReal upper[3])
+/* Of a cell's nodes, with a margin all round */
+static PetscReal LocateBox(PetscInt n, PetscReal X[][3], PetscReal lower[3], PetscReal upper[3])
 {
   PetscReal diagonal[3], size;
 
   for (PetscInt d = 0; d < 3; ++d) {
     lower[d] = upper[d] = X[0][d];
-    for (PetscInt a = 1; a < 8; ++a) {
+    for (PetscInt a = 1; a < n; ++a) {
       lower[d] = PetscMin(lower[d], X[a][d]);
       upper[d] = PetscMax(upper[d], X[a][d]);
     }
@@ -199,12 +210,12 @@ PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const 
 }
 
 /* A place in the cell is taken where it is nearer than any before */
-static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal size, PetscReal X[8][3])
+static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal size, PetscInt n, PetscReal X[][3])
 {
-  MeshPlace place = {.cell = cell, .size = size};
+  MeshPlace place = {.cell = cell, .size = size, .n = n};
 
   if (locator->places[i].distance <= 1e-14 * size) return; /* in a cell: none is nearer */
-  place.distance = LocateInCell(X, locator->points[i], place.N);
+  place.distance = LocateInCell(n, X, locator->points[i], place.N);
   if (place.distance < locator->places[i].distance) locator->places[i] = place;
 }
 
@@ -217,7 +228,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal
 + locator - the locator
 . cell    - a number for the cell
 . body    - its body
-- X       - its vertices in tensor order [length]
+. n       - its nodes: 8, or 27
+- X       - where they are, in tensor order [length]
 
   Level: developer
 
@@ -227,11 +239,11 @@ static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
-PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscReal X[8][3])
+PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3])
 {
   const LocateBins *bins = &locator->bins;
   PetscReal         lower[3], upper[3];
-  const PetscReal   size = LocateBox(X, lower, upper);
+  const PetscReal   size = LocateBox(n, X, lower, upper);
   PetscInt          from[3], to[3];
 
   PetscFunctionBegin;
@@ -249,7 +261,7 @@ PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt b
         PetscBool        near  = (PetscBool)(locator->body[i] == PETSC_DECIDE || locator->body[i] == body);
 
         for (PetscInt d = 0; d < 3; ++d) near = (PetscBool)(near && point[d] >= lower[d] && point[d] <= upper[d]);
-        if (near) LocatorTry(locator, i, cell, size, X);
+        if (near) LocatorTry(locator, i, cell, size, n, X);
       }
     }
   }
@@ -346,22 +358,36 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
 @*/
 PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
 {
-  MeshLocator      locator;
-  const MeshPlace *found;
-  DMLabel          label;
-  PetscInt         cstart, cend, b, vertices[8];
-  PetscReal        X[8][3];
+  MeshLocator        locator;
+  const MeshPlace   *found;
+  DMLabel            label;
+  PetscSection       section;
+  Vec                coordinates;
+  const PetscScalar *x;
+  PetscInt           cstart, cend;
 
   PetscFunctionBegin;
   PetscCall(MeshLocatorCreate(n, points, body, &locator));
   PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(VecGetArrayRead(coordinates, &x));
   for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  b, nnodes, nodes[MESH_MAX_NODES];
+    PetscReal X[MESH_MAX_NODES][3];
+
     PetscCall(DMLabelGetValue(label, c, &b));
-    PetscCall(MeshGetCellVertices(dm, c, vertices));
-    PetscCall(MeshGetVertexCoordinates(dm, 8, vertices, X));
-    PetscCall(MeshLocatorAddCell(locator, c, b, X));
+    PetscCall(MeshGetCellNodes(dm, c, &nnodes, nodes));
+    for (PetscInt a = 0; a < nnodes; ++a) {
+      PetscInt offset;
+
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
+      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(x[offset + d]);
+    }
+    PetscCall(MeshLocatorAddCell(locator, c, b, nnodes, X));
   }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscCall(MeshLocatorGetPlaces(locator, &found));
   PetscCall(PetscArraycpy(places, found, n));
   PetscCall(MeshLocatorDestroy(&locator));

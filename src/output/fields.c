@@ -1,10 +1,10 @@
-/* Mesh and fields as HDF5 datasets: vertices in the order of the DM's global vectors, cells rank by rank */
+/* Mesh and fields as HDF5 datasets: nodes in the order of the DM's global vectors, cells rank by rank */
 #include "outputimpl.h"
 #include <mesh.h>
 #include <rankerror.h>
 #include <math.h>
 
-/* Number of a local vertex among all, whoever owns it */
+/* Number of a local node among all, whoever owns it */
 static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, PetscInt *number)
 {
   PetscInt offset;
@@ -15,12 +15,12 @@ static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Of the vertices of this rank, each of which has a cell here */
+/* Of the nodes of this rank, each of which has a cell here */
 static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
 {
   PetscSection global;
   DMLabel      label;
-  PetscInt     cstart, cend, vertices[8], number = 0, b;
+  PetscInt     cstart, cend, n, nodes[MESH_MAX_NODES], number = 0, b;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
@@ -28,9 +28,9 @@ static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
   PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscCall(DMLabelGetValue(label, c, &b));
-    PetscCall(MeshGetCellVertices(output->dm, c, vertices));
-    for (PetscInt i = 0; i < 8; ++i) {
-      PetscCall(FieldsGetVertex(global, vertices[i], &number));
+    PetscCall(MeshGetCellNodes(output->dm, c, &n, nodes));
+    for (PetscInt i = 0; i < n; ++i) {
+      PetscCall(FieldsGetVertex(global, nodes[i], &number));
       if (number >= output->first && number < output->first + output->nowned) body[number - output->first] = b;
     }
   }
@@ -40,31 +40,15 @@ static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
 /* Undeformed; body: of each, or NULL */
 PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
 {
-  PetscSection       global, csection;
-  Vec                coordinates;
-  const PetscScalar *x;
-  PetscScalar       *values;
-  PetscInt           vstart, vend;
+  Vec coordinates, global;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(output->dm, &global));
-  PetscCall(DMGetCoordinateSection(output->dm, &csection));
-  PetscCall(DMGetCoordinatesLocal(output->dm, &coordinates));
-  PetscCall(DMPlexGetDepthStratum(output->dm, 0, &vstart, &vend));
+  PetscCall(MeshGetNodeCoordinates(output->dm, &coordinates));
+  PetscCall(DMGetGlobalVector(output->dm, &global));
+  PetscCall(DMLocalToGlobal(output->dm, coordinates, INSERT_VALUES, global));
   PetscCall(DatasetCreate(output->comm, "vertices", output->nowned, 3, field));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  PetscCall(VecGetArray(*field, &values));
-  for (PetscInt v = vstart; v < vend; ++v) {
-    PetscInt number = 0, offset, from;
-
-    PetscCall(PetscSectionGetOffset(global, v, &offset));
-    if (offset < 0) continue;
-    PetscCall(FieldsGetVertex(global, v, &number));
-    PetscCall(PetscSectionGetOffset(csection, v, &from));
-    for (PetscInt d = 0; d < 3; ++d) values[3 * (number - output->first) + d] = x[from + d];
-  }
-  PetscCall(VecRestoreArray(*field, &values));
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(VecCopy(global, *field));
+  PetscCall(DMRestoreGlobalVector(output->dm, &global));
   if (body) PetscCall(FieldsGetBodies(output, body));
   PetscFunctionReturn(0);
 }
@@ -97,21 +81,24 @@ static PetscErrorCode FieldsWriteIndices(Output output, const char name[], Petsc
 
 static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
 {
-  static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6}; /* of the tensor order: around the bottom, around the top */
-  PetscSection          global;
-  DMLabel               label;
-  PetscInt              cstart, cend, *cells, *bodies, vertices[8];
+  PetscSection global;
+  DMLabel      label;
+  PetscInt     cstart, cend, *cells, *bodies, at = 0;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
   PetscCall(DMGetLabel(output->dm, MESH_BODY_LABEL, &label));
   PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
-  PetscCall(PetscMalloc1(8 * (cend - cstart), &cells));
-  PetscCall(PetscMalloc1(cend - cstart, &bodies));
+  PetscCall(PetscMalloc1(8 * output->ncellslocal, &cells));
+  PetscCall(PetscMalloc1(output->ncellslocal, &bodies));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscCall(MeshGetCellVertices(output->dm, c, vertices));
-    for (PetscInt i = 0; i < 8; ++i) PetscCall(FieldsGetVertex(global, vertices[vtk[i]], &cells[8 * (c - cstart) + i]));
-    PetscCall(DMLabelGetValue(label, c, &bodies[c - cstart]));
+    PetscInt n, pieces[8][8];
+
+    PetscCall(OutputGetPieces(output, c, &n, pieces));
+    for (PetscInt p = 0; p < n; ++p, ++at) {
+      for (PetscInt i = 0; i < 8; ++i) PetscCall(FieldsGetVertex(global, pieces[p][i], &cells[8 * at + i]));
+      PetscCall(DMLabelGetValue(label, c, &bodies[at]));
+    }
   }
   PetscCall(FieldsWriteIndices(output, "cells", 8, cells, viewer));
   PetscCall(FieldsWriteIndices(output, "body", 1, bodies, viewer));
@@ -149,7 +136,7 @@ static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, P
   PetscFunctionReturn(0);
 }
 
-/* Fields of contact at vertices: the same of all pairs, and of each alone where there are several */
+/* Fields of contact at nodes: the same of all pairs, and of each alone where there are several */
 typedef struct {
   Vec          pressure, gap, area, status, force;
   PetscScalar *p, *g, *a, *s, *f;

@@ -1,11 +1,11 @@
 /* How the mesh of an output is laid out */
 #include "outputimpl.h"
 
-/* Vertices are numbered as the DM's global vectors are */
+/* Nodes are numbered as the DM's global vectors are */
 static PetscErrorCode OutputCount(Output output)
 {
   Vec      global;
-  PetscInt n, N, start, cstart, cend;
+  PetscInt n, N, start;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(output->dm, &global));
@@ -13,11 +13,10 @@ static PetscErrorCode OutputCount(Output output)
   PetscCall(VecGetSize(global, &N));
   PetscCall(VecGetOwnershipRange(global, &start, NULL));
   PetscCall(DMRestoreGlobalVector(output->dm, &global));
-  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
-  output->nowned      = n / 3;
-  output->nvertices   = N / 3;
-  output->first       = start / 3;
-  output->ncellslocal = cend - cstart;
+  output->nowned    = n / 3;
+  output->nvertices = N / 3;
+  output->first     = start / 3;
+  PetscCall(OutputCountPieces(output, &output->ncellslocal));
   PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);
 }

@@ -36,7 +36,7 @@ struct _n_Output {
   PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
   char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
-  PetscInt    nowned, ncellslocal, first; /* vertices and cells of this rank; number of its first vertex */
+  PetscInt    nowned, ncellslocal, first; /* nodes and cells of this rank; number of its first node. A cell of order 2 counts as 8 */
   PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
   PetscBool   begun;                      /* a step has been written */
@@ -48,6 +48,10 @@ struct _n_Output {
 /* names.c */
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
+
+/* cells.c: the cells of the mesh as hexahedra of 8 nodes, one each, or those that the nodes of order 2 cut it into */
+PETSC_INTERN PetscErrorCode OutputCountPieces(Output, PetscInt *npieces);
+PETSC_INTERN PetscErrorCode OutputGetPieces(Output, PetscInt cell, PetscInt *n, PetscInt pieces[8][8]);
 
 /* dataset.c: n records of this rank; written and destroyed */
 PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);
@@ -61,7 +65,7 @@ PETSC_INTERN PetscErrorCode StressWriteQuadrature(Output, const StepState *, Pet
 /* layout.c: an output that only knows its mesh */
 PETSC_INTERN PetscErrorCode OutputCreateMesh(DM, Output *);
 
-/* fields.c: the mesh of an output into an open file, its vertices on this rank with their bodies; its files */
+/* fields.c: the mesh of an output into an open file, its nodes on this rank with their bodies; its files */
 PETSC_INTERN PetscErrorCode FieldsGetVertices(Output, Vec *vertices, PetscInt body[]);
 PETSC_INTERN PetscErrorCode FieldsWriteMesh(PetscViewer, void *output);
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);

@@ -190,7 +190,7 @@ static PetscErrorCode RestartLocate(Restart *r)
     for (PetscInt a = 0; a < 8; ++a) {
       for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(r->mesh.x[3 * RestartCellVertex(&r->mesh, c, a) + d]);
     }
-    PetscCall(MeshLocatorAddCell(r->locator, c, r->mesh.b[c], X));
+    PetscCall(MeshLocatorAddCell(r->locator, c, r->mesh.b[c], 8, X));
   }
   PetscCall(MeshLocatorGetPlaces(r->locator, &places));
   for (PetscInt i = 0; i < r->output->nowned; ++i) lost += places[i].cell < 0;

@@ -1,5 +1,6 @@
 /* Stress and strain energy as datasets of a load step's file */
 #include "outputimpl.h"
+#include <mesh.h>
 
 /* n values of a record in the dataset's order, from records of `stride` */
 static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
@@ -23,12 +24,32 @@ static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* XDMF's xx xy xz yy yz zz of
 static const int mises[]    = {6};
 static const int highest[]  = {7, 8, 9};
 
+/* As StressWriteValues(), from records of the mesh's cells, whose pieces all have them */
+static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
+{
+  PetscReal *pieces;
+  PetscInt   cstart, cend, at = 0;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  PetscCall(PetscMalloc1(stride * output->ncellslocal, &pieces));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt n, of[8][8];
+
+    PetscCall(OutputGetPieces(output, c, &n, of));
+    for (PetscInt p = 0; p < n; ++p, ++at) PetscCall(PetscArraycpy(pieces + stride * at, values + stride * (c - cstart), stride));
+  }
+  PetscCall(StressWriteValues(output, name, output->ncellslocal, components, order, stride, pieces, viewer));
+  PetscCall(PetscFree(pieces));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode StressWriteCells(Output output, const StepState *state, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(StressWriteValues(output, "stress", output->ncellslocal, 6, tensor6, 7, state->stress, viewer));
-  PetscCall(StressWriteValues(output, "von_mises", output->ncellslocal, 1, mises, 7, state->stress, viewer));
-  if (state->density) PetscCall(StressWriteValues(output, "strain_energy_density", output->ncellslocal, 1, identity, 1, state->density, viewer));
+  PetscCall(StressWritePieces(output, "stress", 6, tensor6, 7, state->stress, viewer));
+  PetscCall(StressWritePieces(output, "von_mises", 1, mises, 7, state->stress, viewer));
+  if (state->density) PetscCall(StressWritePieces(output, "strain_energy_density", 1, identity, 1, state->density, viewer));
   PetscFunctionReturn(0);
 }
 

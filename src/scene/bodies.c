@@ -12,6 +12,10 @@ static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, ElementTypes, &element));
   body->element = (ElementType)element;
+  body->order   = 1;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_order", body->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseInt(keys, key, text, &body->order));
   PetscFunctionReturn(0);
 }
 

@@ -7,35 +7,32 @@
 
 /* A body as it is meshed, of all ranks */
 typedef struct {
-  PetscInt  ncells, nvertices;
+  PetscInt  ncells, nnodes;
   PetscReal lower[3], upper[3]; /* [length] */
 } BodyMesh;
 
-/* Vertices are counted where they are owned; bodies share none */
-static PetscErrorCode BodyMeshAddCell(DM dm, Vec coordinates, PetscInt cell, PetscBT met, BodyMesh *mesh)
+/* Nodes are counted where they are owned; bodies share none */
+static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cell, PetscBT met, BodyMesh *mesh)
 {
-  PetscInt           vertices[8], vstart, offset;
-  PetscSection       global, section;
-  const PetscScalar *x;
+  PetscInt     n, nodes[MESH_MAX_NODES], first, offset;
+  PetscSection global, section;
 
   PetscFunctionBegin;
   mesh->ncells++;
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, NULL));
+  PetscCall(DMPlexGetChart(dm, &first, NULL));
   PetscCall(DMGetGlobalSection(dm, &global));
-  PetscCall(DMGetCoordinateSection(dm, &section));
-  PetscCall(MeshGetCellVertices(dm, cell, vertices));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  for (PetscInt a = 0; a < 8; ++a) {
-    if (PetscBTLookupSet(met, vertices[a] - vstart)) continue;
-    PetscCall(PetscSectionGetOffset(global, vertices[a], &offset));
-    if (offset >= 0) mesh->nvertices++;
-    PetscCall(PetscSectionGetOffset(section, vertices[a], &offset));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetCellNodes(dm, cell, &n, nodes));
+  for (PetscInt a = 0; a < n; ++a) {
+    if (PetscBTLookupSet(met, nodes[a] - first)) continue;
+    PetscCall(PetscSectionGetOffset(global, nodes[a], &offset));
+    if (offset >= 0) mesh->nnodes++;
+    PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
     for (PetscInt i = 0; i < 3; ++i) {
       mesh->lower[i] = PetscMin(mesh->lower[i], PetscRealPart(x[offset + i]));
       mesh->upper[i] = PetscMax(mesh->upper[i], PetscRealPart(x[offset + i]));
     }
   }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscFunctionReturn(0);
 }
 
@@ -52,28 +49,31 @@ static void BodyMeshCleanBounds(BodyMesh *mesh)
 
 static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshes[])
 {
-  MPI_Comm comm = PetscObjectComm((PetscObject)dm);
-  PetscInt start, end, vstart, vend, body;
-  PetscBT  met;
-  Vec      coordinates;
+  MPI_Comm           comm = PetscObjectComm((PetscObject)dm);
+  PetscInt           start, end, first, last, body;
+  PetscBT            met;
+  Vec                coordinates;
+  const PetscScalar *x;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) meshes[b] = (BodyMesh){0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(PetscBTCreate(vend - vstart, &met));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMPlexGetChart(dm, &first, &last));
+  PetscCall(PetscBTCreate(last - first, &met));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, &x));
   for (PetscInt c = start; c < end; ++c) {
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &body));
-    PetscCall(BodyMeshAddCell(dm, coordinates, c, met, &meshes[body]));
+    PetscCall(BodyMeshAddCell(dm, x, c, met, &meshes[body]));
   }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscCall(PetscBTDestroy(&met));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscInt counts[2] = {meshes[b].ncells, meshes[b].nvertices};
+    PetscInt counts[2] = {meshes[b].ncells, meshes[b].nnodes};
 
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
-    meshes[b].ncells    = counts[0];
-    meshes[b].nvertices = counts[1];
+    meshes[b].ncells = counts[0];
+    meshes[b].nnodes = counts[1];
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
     BodyMeshCleanBounds(&meshes[b]);
@@ -84,7 +84,7 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
 static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
 {
   BodyMesh *meshes;
-  PetscInt  ncells = 0, nvertices = 0;
+  PetscInt  ncells = 0, nnodes = 0, order = 1;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &meshes));
@@ -96,11 +96,12 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " cells, %" PetscInt_FMT " vertices, %" PetscInt_FMT " unknowns\n", mesh->ncells, mesh->nvertices, 3 * mesh->nvertices));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " cells%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, body->order > 1 ? " of order 2" : "", mesh->nnodes, body->order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
+    order = PetscMax(order, body->order);
     ncells += mesh->ncells;
-    nvertices += mesh->nvertices;
+    nnodes += mesh->nnodes;
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " vertices, %" PetscInt_FMT " unknowns\n", ncells, nvertices, 3 * nvertices));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes, order > 1 ? "nodes" : "vertices", 3 * nnodes));
   PetscCall(PetscFree(meshes));
   PetscFunctionReturn(0);
 }
@@ -286,6 +287,11 @@ static PetscBool DescribeIsIncompatible(const SceneBody *body)
   return body->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
 }
 
+static PetscBool DescribeIsOrder2(const SceneBody *body)
+{
+  return body->order > 1 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
 {
   PetscFunctionBegin;
@@ -308,6 +314,7 @@ static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
   if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
   PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, "no element is bbar"));
   PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, "no element is incompatible"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, "every body has order 1"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));

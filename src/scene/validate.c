@@ -18,6 +18,8 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
     PetscCall(MeshCheckBody(comm, body));
     SceneRequire(E > 0, "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)E);
     SceneRequire(nu > -1 && nu < 0.5, "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file, body->name, (double)nu);
+    SceneRequire(body->order == 1 || body->order == 2, "%s: body \"%s\" has order = %" PetscInt_FMT ", which must be 1 or 2", file, body->name, body->order);
+    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->order == 1, "%s: body \"%s\" has element incompatible with order 2; incompatible modes are what cells of order 1 lack, so it takes full or bbar", file, body->name);
     SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->material.type == MATERIAL_LINEAR, "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable under compression, so it takes full or bbar", file, body->name, MaterialTypes[body->material.type]);
     SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT, "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to average; use material neohookean near incompressibility, or element full", file, body->name);
   }
@@ -53,6 +55,22 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
   PetscFunctionReturn(0);
 }
 
+/* The gap knows of bilinear facets alone */
+static PetscErrorCode SceneValidateContactOrder(MPI_Comm comm, const char file[], Scene scene, const char pair[], const char face[])
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body = &scene->bodies[b];
+    PetscBool        same;
+    size_t           length;
+
+    PetscCall(PetscStrlen(body->name, &length));
+    PetscCall(PetscStrncmp(face, body->name, length, &same));
+    SceneRequire(!same || face[length] != '.' || body->order == 1, "%s: contact pair \"%s\" has the face \"%s\" of a body of order 2; contact takes bodies of order 1", file, pair, face);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -62,6 +80,8 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
+    PetscCall(SceneValidateContactOrder(comm, file, scene, here->name, here->mortar));
+    PetscCall(SceneValidateContactOrder(comm, file, scene, here->name, here->nonmortar));
     SceneRequire(here->distance >= 0, "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the faces", file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name, here->mortar);

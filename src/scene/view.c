@@ -22,6 +22,7 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
     PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
+  if (body->order > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "order: %" PetscInt_FMT "\n", body->order));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);

@@ -9,6 +9,7 @@ typedef enum {
   EFFECT_FINITE_STRAIN,
   EFFECT_BBAR,
   EFFECT_INCOMPATIBLE,
+  EFFECT_ORDER2,
   EFFECT_PRESSURE,
   EFFECT_TRACTION,
   EFFECT_BODY_FORCE,
@@ -27,6 +28,7 @@ static const char *const EffectNames[] = {
   [EFFECT_FINITE_STRAIN] = "finite strain",
   [EFFECT_BBAR]          = "mean dilatation",
   [EFFECT_INCOMPATIBLE]  = "incompatible modes",
+  [EFFECT_ORDER2]        = "order 2",
   [EFFECT_PRESSURE]      = "pressure",
   [EFFECT_TRACTION]      = "traction",
   [EFFECT_BODY_FORCE]    = "body force",
@@ -57,13 +59,14 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, mean = 0, modes = 0;
+  PetscInt finite = 0, mean = 0, modes = 0, second = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (scene->bodies[b].material.type != MATERIAL_LINEAR) ++finite;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
+    if (scene->bodies[b].order > 1) ++second;
   }
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
@@ -74,6 +77,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
                                                                                                                                                                                                   : ", true energy"));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
+  PetscCall(EffectSet(report, EFFECT_ORDER2, (PetscBool)(second > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of order 2", second, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures", scene->npressures));
   PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0), "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
   PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces", scene->nsprings));

@@ -84,17 +84,17 @@ static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
   PetscFunctionReturn(0);
 }
 
-/* Sum over the vertices of a cell; n values a vertex, which stand at n times its number */
-static void ProbeInterpolate(const MeshPlace *place, const PetscInt vertex[8], PetscInt n, const PetscScalar values[], PetscReal result[])
+/* Sum over the nodes of a cell; n values a node, which stand at n times its number */
+static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[], PetscReal result[])
 {
   for (PetscInt i = 0; i < n; ++i) {
     result[i] = 0.0;
-    for (PetscInt a = 0; a < 8; ++a) result[i] += place->N[a] * PetscRealPart(values[n * vertex[a] + i]);
+    for (PetscInt a = 0; a < place->n; ++a) result[i] += place->N[a] * PetscRealPart(values[n * node[a] + i]);
   }
 }
 
-/* Fields of contact are those of faces: of a point all of whose vertices are in a pair */
-static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt vertex[8], ProbeReport *report)
+/* Fields of contact are those of faces: of a point all of whose nodes are in a pair */
+static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[], ProbeReport *report)
 {
   const PetscScalar *values, *paired;
   PetscReal          v[3], on[3];
@@ -102,8 +102,8 @@ static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPl
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(contact->values, &values));
   PetscCall(VecGetArrayRead(contact->paired, &paired));
-  ProbeInterpolate(place, vertex, 3, values, v);
-  ProbeInterpolate(place, vertex, 3, paired, on);
+  ProbeInterpolate(place, node, 3, values, v);
+  ProbeInterpolate(place, node, 3, paired, on);
   PetscCall(VecRestoreArrayRead(contact->paired, &paired));
   PetscCall(VecRestoreArrayRead(contact->values, &values));
   if (on[0] < 1.0 - PETSC_SQRT_MACHINE_EPSILON) PetscFunctionReturn(0);
@@ -116,14 +116,14 @@ static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPl
 static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const ProbeContact *contact, const MeshPlace *place, ProbeReport *report)
 {
   PetscSection section;
-  PetscInt     vertices[8], node[8];
+  PetscInt     n, points[MESH_MAX_NODES], node[MESH_MAX_NODES];
   PetscReal    stress[6], values[STRESS_VALUES];
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(MeshGetCellVertices(sim->dm, place->cell, vertices));
-  for (PetscInt a = 0; a < 8; ++a) {
-    PetscCall(PetscSectionGetOffset(section, vertices[a], &node[a]));
+  PetscCall(MeshGetCellNodes(sim->dm, place->cell, &n, points));
+  for (PetscInt a = 0; a < n; ++a) {
+    PetscCall(PetscSectionGetOffset(section, points[a], &node[a]));
     node[a] /= 3;
   }
   ProbeInterpolate(place, node, 3, u, report->displacement);

@@ -16,12 +16,12 @@ PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRES
   PetscFunctionReturn(0);
 }
 
-/* Those of the vertices that this rank owns, in the order of the global vectors */
+/* Those of the nodes that this rank owns, in the order of the global vectors */
 static PetscErrorCode ResultsPickOwned(Simulation sim)
 {
   Results     *results = &sim->results;
   PetscSection local, global;
-  PetscInt     vstart, vend, rstart, n;
+  PetscInt     pstart, pend, rstart, n;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(sim->path.u, &n));
@@ -29,12 +29,13 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3), &results->nodal));
   PetscCall(DMGetLocalSection(sim->dm, &local));
   PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(DMPlexGetDepthStratum(sim->dm, 0, &vstart, &vend));
-  for (PetscInt v = vstart; v < vend; ++v) {
-    PetscInt from, to;
+  PetscCall(PetscSectionGetChart(local, &pstart, &pend));
+  for (PetscInt v = pstart; v < pend; ++v) {
+    PetscInt from, to, ndofs;
 
+    PetscCall(PetscSectionGetDof(local, v, &ndofs));
     PetscCall(PetscSectionGetOffset(global, v, &to));
-    if (to < 0) continue;
+    if (!ndofs || to < 0) continue;
     PetscCall(PetscSectionGetOffset(local, v, &from));
     PetscCall(ResultsComplete(results->recovered + 6 * (from / 3), results->nodal + STRESS_VALUES * ((to - rstart) / 3)));
   }

@@ -1,0 +1,268 @@
+/*
+   Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8 samples a cell, at the
+   2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, fitted by quadratic polynomials over the cells around a
+   vertex: second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of their cells'
+   interior vertices. Where a body has none, about one layer of cells, polynomials about its surface serve. Terms that the samples do
+   not determine are left out, as the square across one layer of cells.
+*/
+#include "elasticityimpl.h"
+
+#define TERMS   10 /* 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
+#define SAMPLES 8
+
+/* Least squares about a vertex: sums over the samples around it */
+typedef struct {
+  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* then the polynomial's coefficients */
+  PetscReal normal[3], area;                            /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+} QuadraticPatch;
+
+/* The polynomials about vertices inside the body, and about those on its surface */
+typedef struct {
+  RecoveredNode inside, surface;
+} QuadraticNode;
+
+typedef struct {
+  PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3]; /* places, values; int grad N of the vertices */
+} QuadraticCell;
+
+/* The vertices i + 2 j + 4 k among the 27 nodes */
+static const PetscInt quadratic_corner[8] = {0, 2, 6, 8, 18, 20, 24, 26};
+
+static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
+{
+  t[0] = 1;
+  for (int i = 0; i < 3; ++i) {
+    t[1 + i] = d[i];
+    t[4 + i] = d[i] * d[i];
+    t[7 + i] = d[i] * d[(i + 1) % 3];
+  }
+}
+
+/* Weights that take values at 3 Gauss points of a line to its two superconvergent ones */
+static void QuadraticLine(PetscReal weight[2][3])
+{
+  const PetscReal gauss = PetscSqrtReal(0.6), at[2] = {-PetscSqrtReal(1. / 3), PetscSqrtReal(1. / 3)};
+
+  for (int s = 0; s < 2; ++s) {
+    const PetscReal t = at[s] / gauss;
+
+    weight[s][0] = 0.5 * t * (t - 1);
+    weight[s][1] = (1 - t) * (1 + t);
+    weight[s][2] = 0.5 * t * (t + 1);
+  }
+}
+
+static void QuadraticSample(CellState *state, QuadraticCell *cell)
+{
+  const CellBasis *basis = state->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES], line[2][3];
+
+  *cell = (QuadraticCell){0};
+  QuadraticLine(line);
+  state->body->element->strains(basis, &state->body->material, state->X, state->U, w, H);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    PetscReal x[3] = {0, 0, 0};
+
+    (void)CellGradients((int)state->n, basis, q, state->X, G);
+    for (int d = 0; d < 3; ++d) {
+      for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
+      for (int c = 0; c < 8; ++c) cell->B[c][d] += w[q] * G[d][quadratic_corner[c]];
+    }
+    for (int s = 0; s < SAMPLES; ++s) {
+      const PetscReal weight = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
+
+      for (int d = 0; d < 3; ++d) cell->x[s][d] += weight * x[d];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight * H[q][k];
+    }
+  }
+}
+
+static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const PetscReal at[3], QuadraticPatch *patch)
+{
+  PetscReal length = 0;
+
+  for (int s = 0; s < SAMPLES; ++s) {
+    const PetscReal d[3] = {cell->x[s][0] - at[0], cell->x[s][1] - at[1], cell->x[s][2] - at[2]};
+    PetscReal       t[TERMS];
+
+    QuadraticTerms(d, t);
+    for (int i = 0; i < TERMS; ++i) {
+      for (int j = 0; j < TERMS; ++j) patch->A[i][j] += t[i] * t[j];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) patch->b[i][k] += t[i] * cell->s[s][k];
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    patch->normal[d] += cell->B[corner][d];
+    length += PetscSqr(cell->B[corner][d]);
+  }
+  patch->area += PetscSqrtReal(length);
+}
+
+/* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before, which are left out */
+static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], PetscReal L[TERMS][TERMS])
+{
+  for (int i = 0; i < TERMS; ++i) {
+    scale[i] = A[i][i] > 0 ? 1 / PetscSqrtReal(A[i][i]) : 0;
+    for (int j = 0; j <= i; ++j) {
+      L[i][j] = scale[i] * A[i][j] * scale[j];
+      for (int k = 0; k < j; ++k) L[i][j] -= L[i][k] * L[j][k];
+      if (j < i) L[i][j] /= L[j][j];
+    }
+    if (L[i][i] > PETSC_SQRT_MACHINE_EPSILON) {
+      L[i][i] = PetscSqrtReal(L[i][i]);
+    } else {
+      for (int j = 0; j < i; ++j) L[i][j] = 0;
+      L[i][i]  = 1;
+      scale[i] = 0;
+    }
+  }
+}
+
+/* The coefficients, in the place of b: of a quadratic polynomial as far as the samples determine it */
+static void QuadraticPatchFit(QuadraticPatch *patch)
+{
+  PetscReal L[TERMS][TERMS], scale[TERMS];
+
+  QuadraticFactor(patch->A, scale, L);
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+    for (int i = 0; i < TERMS; ++i) {
+      patch->b[i][k] *= scale[i];
+      for (int j = 0; j < i; ++j) patch->b[i][k] -= L[i][j] * patch->b[j][k];
+      patch->b[i][k] /= L[i][i];
+    }
+    for (int i = TERMS - 1; i >= 0; --i) {
+      for (int j = i + 1; j < TERMS; ++j) patch->b[i][k] -= L[j][i] * patch->b[j][k];
+      patch->b[i][k] /= L[i][i];
+    }
+    for (int i = 0; i < TERMS; ++i) patch->b[i][k] *= scale[i];
+  }
+}
+
+static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
+{
+  const PetscReal open = PetscSqrtReal(PetscSqr(patch->normal[0]) + PetscSqr(patch->normal[1]) + PetscSqr(patch->normal[2]));
+
+  return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
+}
+
+static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], RecoveredNode *node)
+{
+  PetscReal t[TERMS];
+
+  QuadraticTerms(d, t);
+  node->n += 1;
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+    for (int i = 0; i < TERMS; ++i) node->value[k] += t[i] * patch->b[i][k];
+  }
+}
+
+/* Adds the polynomials of the cell's vertices at its nodes; a vertex inside takes its own */
+static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[], QuadraticNode recovered[])
+{
+  for (PetscInt a = 0; a < state->n; ++a) {
+    const PetscBool vertex = (PetscBool)(number[state->nodes[a]] >= 0 && QuadraticPatchIsInside(&patches[number[state->nodes[a]]]));
+
+    for (int c = 0; c < 8; ++c) {
+      const PetscInt        b     = quadratic_corner[c];
+      const QuadraticPatch *patch = &patches[number[state->nodes[b]]];
+      const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b], state->X[2][a] - state->X[2][b]};
+
+      if (vertex && a != b) continue;
+      QuadraticNodeAdd(patch, d, QuadraticPatchIsInside(patch) ? &recovered[state->nodes[a]].inside : &recovered[state->nodes[a]].surface);
+    }
+  }
+}
+
+/* Numbers the vertices of the cells of order 2; -1: another node. And shares them as the nodes are shared */
+static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt number[], PetscInt *n, PetscSF *vertices)
+{
+  PetscInt           nleaves, nshared = 0, *theirs, *leaf;
+  const PetscInt    *local;
+  const PetscSFNode *remote;
+  PetscSFNode       *root;
+
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt v = 0; v < e->nnodes; ++v) number[v] = -1;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    for (int k = 0; e->cellstart[c + 1] - e->cellstart[c] == 27 && k < 8; ++k) {
+      PetscInt *v = &number[e->cellnodes[e->cellstart[c] + quadratic_corner[k]]];
+
+      if (*v < 0) *v = (*n)++;
+    }
+  }
+  PetscCall(PetscMalloc1(e->nnodes, &theirs));
+  PetscCall(PetscArraycpy(theirs, number, e->nnodes));
+  PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, number, theirs, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, number, theirs, MPI_REPLACE));
+  PetscCall(PetscSFGetGraph(nodes, NULL, &nleaves, &local, &remote));
+  PetscCall(PetscMalloc1(nleaves, &leaf));
+  PetscCall(PetscMalloc1(nleaves, &root));
+  for (PetscInt i = 0; i < nleaves; ++i) {
+    const PetscInt v = local ? local[i] : i;
+
+    if (number[v] < 0) continue;
+    leaf[nshared]   = number[v];
+    root[nshared++] = (PetscSFNode){.rank = remote[i].rank, .index = theirs[v]};
+  }
+  PetscCall(PetscSFCreate(PetscObjectComm((PetscObject)e->dm), vertices));
+  PetscCall(PetscSFSetGraph(*vertices, *n, nshared, leaf, PETSC_OWN_POINTER, root, PETSC_OWN_POINTER));
+  PetscCall(PetscFree(theirs));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const PetscInt number[], PetscInt n, QuadraticPatch patches[])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState     state;
+    QuadraticCell cell;
+
+    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
+    ElasticityGetCell(e, c, x, u, &state);
+    QuadraticSample(&state, &cell);
+    for (int k = 0; k < 8; ++k) {
+      const PetscInt  a     = quadratic_corner[k];
+      const PetscReal at[3] = {state.X[0][a], state.X[1][a], state.X[2][a]};
+
+      QuadraticPatchAdd(&cell, k, at, &patches[number[state.nodes[a]]]);
+    }
+  }
+  PetscCall(ElasticitySumRecords(sf, sizeof(QuadraticPatch) / sizeof(PetscReal), (PetscReal *)patches));
+  for (PetscInt v = 0; v < n; ++v) QuadraticPatchFit(&patches[v]);
+  PetscFunctionReturn(0);
+}
+
+/* Values at the nodes of the selected bodies' cells of order 2; those of other nodes stay */
+PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[])
+{
+  QuadraticPatch *patches;
+  QuadraticNode  *sums;
+  PetscInt       *number, n;
+  PetscSF         vertices;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->nnodes, &number));
+  PetscCall(QuadraticNumber(e, nodes, number, &n, &vertices));
+  PetscCall(PetscCalloc1(n, &patches));
+  PetscCall(PetscCalloc1(e->nnodes, &sums));
+  PetscCall(QuadraticFitPatches(e, vertices, selected, x, u, number, n, patches));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState state;
+
+    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
+    ElasticityGetCell(e, c, x, u, &state);
+    QuadraticContinue(&state, number, patches, sums);
+  }
+  PetscCall(ElasticitySumRecords(nodes, sizeof(QuadraticNode) / sizeof(PetscReal), (PetscReal *)sums));
+  for (PetscInt v = 0; v < e->nnodes; ++v) {
+    const RecoveredNode *from = sums[v].inside.n > 0 ? &sums[v].inside : &sums[v].surface;
+
+    for (int k = 0; from->n > 0 && k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = from->value[k] / from->n;
+  }
+  PetscCall(PetscFree(sums));
+  PetscCall(PetscFree(patches));
+  PetscCall(PetscFree(number));
+  PetscCall(PetscSFDestroy(&vertices));
+  PetscFunctionReturn(0);
+}
