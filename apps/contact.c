@@ -93,12 +93,29 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
   return error->traceback && !error->silent ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL) : n;
 }
 
+/* HDF5 closes its files when MPI ends, prints pages and crashes over one that it could not write: nobody is to hear of it, and the exit code stays */
+static int app_end;
+
+static void AppLeaveAtOnce(int sig)
+{
+  (void)sig;
+  _Exit(app_end);
+}
+
+static void AppLeaveFiles(int end)
+{
+  fflush(NULL);
+  app_end = end;
+  signal(SIGSEGV, AppLeaveAtOnce);
+  signal(SIGABRT, AppLeaveAtOnce);
+  if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _Exit(end);
+}
+
 /*
    The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone the others wait for it in
    the midst of their work, for ever if it does not end them. PETSc's traceback takes the same ten seconds for it.
 
-   Objects are left as they are; PetscFinalize() would complain about them, and HDF5 would crash at the exit closing a file that it could
-   not write.
+   Objects are left as they are; PetscFinalize() would complain about them.
 */
 static void AppLeave(const AppError *error)
 {
@@ -118,6 +135,7 @@ static void AppLeave(const AppError *error)
     fflush(NULL);
     MPI_Abort(PETSC_COMM_WORLD, error->end);
   }
+  if (error->end == RUN_OUTPUT_LOST) AppLeaveFiles(error->end);
   MPI_Finalize();
   fflush(NULL);
   _Exit(error->end);
@@ -235,6 +253,14 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode AppGetCheckpointFile(const AppOptions *app, Scene scene, char file[PETSC_MAX_PATH_LEN])
+{
+  PetscFunctionBeginUser;
+  if (app->checkpoint[0]) PetscCall(PetscStrncpy(file, app->checkpoint, PETSC_MAX_PATH_LEN));
+  else PetscCall(PetscSNPrintf(file, PETSC_MAX_PATH_LEN, "%s_checkpoint.h5", app->write ? app->output : scene->name));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Simulation sim)
 {
   Checkpoint checkpoint;
@@ -242,8 +268,7 @@ static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Sim
   char       file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBeginUser;
-  if (app->checkpoint[0]) PetscCall(PetscStrncpy(file, app->checkpoint, sizeof(file)));
-  else PetscCall(PetscSNPrintf(file, sizeof(file), "%s_checkpoint.h5", app->write ? app->output : scene->name));
+  PetscCall(AppGetCheckpointFile(app, scene, file));
   PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(SimulationGetCheckpoint(sim, &checkpoint));
   PetscCall(CheckpointWrite(checkpoint, scene, dm, file));
@@ -329,13 +354,25 @@ static PetscErrorCode AppSayNext(const Accuracy *accuracy, Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* Before there is anything to lose */
+static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
+{
+  char file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBeginUser;
+  if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
+  PetscCall(AppGetCheckpointFile(app, scene, file));
+  if (app->checkpoint_every) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, file));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
   Accuracy  accuracy;
   PetscBool again;
 
   PetscFunctionBeginUser;
-  if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
+  PetscCall(AppCheckFiles(app, scene));
   PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
   PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
   PetscCall(SimulationCatchSignals());

@@ -71,7 +71,7 @@ pid=$!
 for i in $(seq 900); do [ -f full.h5 ] && break; sleep 0.1; done
 prlimit --pid $pid --fsize=16384
 wait $pid
-echo "full disk: exit $([ $? -eq 0 ] && echo 0 || echo 'not 0'), $(grep 'contact: error' err | sed 's/full? .*/full?/')"
+echo "full disk: exit $?, $(sed 's/full? .*/full?/' err)"
 "$PYTHON" -c '
 import h5py
 with h5py.File("full.h5") as file:

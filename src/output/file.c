@@ -18,12 +18,32 @@ static PetscErrorCode FileGetPartName(const char file[], char part[], size_t len
   PetscFunctionReturn(0);
 }
 
-/* error is the first rank's errno */
-static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], int error)
+/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then PETSC_ERR_FILE_WRITE */
+static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
-  PetscCheck(!error, comm, PETSC_ERR_FILE_OPEN, "cannot write \"%s\": %s", file, strerror(error));
+  PetscCheck(!error, comm, code, "cannot write \"%s\": %s", file, strerror(error));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FileTry(MPI_Comm comm, const char file[], PetscErrorCode code)
+{
+  char        part[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  PetscBool   renamed;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE *stream = fopen(part, renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
+
+    if (!stream) error = errno;
+    else if (fclose(stream) || (renamed && remove(part))) error = errno;
+  }
+  PetscCall(FileRaise(comm, file, code, error));
   PetscFunctionReturn(0);
 }
 
@@ -44,21 +64,8 @@ static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], int error)
 @*/
 PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
 {
-  char        part[PETSC_MAX_PATH_LEN];
-  PetscMPIInt rank;
-  PetscBool   renamed;
-  int         error = 0;
-
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) {
-    FILE *stream = fopen(part, renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
-
-    if (!stream) error = errno;
-    else if (fclose(stream) || (renamed && remove(part))) error = errno;
-  }
-  PetscCall(FileRaise(comm, file, error));
+  PetscCall(FileTry(comm, file, PETSC_ERR_FILE_OPEN));
   PetscFunctionReturn(0);
 }
 
@@ -102,7 +109,7 @@ static PetscErrorCode FileCommit(MPI_Comm comm, const char file[], PetscBool saf
     if (!error && rename(part, file)) error = errno;
     if (!error && safe) PetscCall(FileSyncFolder(file, &error));
   }
-  PetscCall(FileRaise(comm, file, error));
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
   PetscFunctionReturn(0);
 }
 
@@ -121,14 +128,17 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscBool safe, P
   PetscViewer    viewer;
   PetscBool      renamed;
   PetscErrorCode ierr;
+  Mute           mute;
 
   PetscFunctionBegin;
-  PetscCall(OutputCheckWritable(comm, file));
+  PetscCall(FileTry(comm, file, PETSC_ERR_FILE_WRITE));
   PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCall(PetscPushErrorHandler(FileKeepComplaint, complaint));
+  MuteBegin(&mute);
   ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
+  MuteEnd(&mute);
   PetscCall(PetscPopErrorHandler());
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
   if (ierr && renamed) (void)remove(part);
@@ -165,7 +175,7 @@ PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (
       if (error && truncate(file, length)) error = errno;
     }
   }
-  PetscCall(FileRaise(comm, file, error));
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
   PetscFunctionReturn(0);
 }
 
@@ -188,7 +198,7 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
       if (error && renamed) (void)remove(part);
     }
   }
-  PetscCall(FileRaise(comm, file, error));
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
   PetscCall(FileCommit(comm, file, PETSC_FALSE));
   PetscFunctionReturn(0);
 }

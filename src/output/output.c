@@ -26,13 +26,14 @@
    the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
    first step is written, the files of later steps that an older run of the same name left are removed.
 
-   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written.
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written; PETSC_ERR_FILE_WRITE where there is no room.
 
 .seealso: `OutputWrite()`, `OutputDestroy()`
 @*/
 PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames[], const char basename[], Output *output)
 {
   Output o;
+  char   file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(OutputCreateMesh(dm, &o));
@@ -40,6 +41,8 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   o->nbodies = nbodies;
   PetscCall(PetscMalloc1(nbodies, &o->bodynames));
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
+  PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
+  PetscCall(OutputCheckWritable(o->comm, file));
   PetscCall(OutputWriteMesh(o));
   PetscCall(OutputWriteXDMF(o));
   *output = o;

@@ -10,6 +10,14 @@
 #include <rankerror.h>
 #include <petscviewerhdf5.h>
 
+/* mute.c: standard output and error lead nowhere between the two */
+typedef struct {
+  int kept[2]; /* descriptors; negative: none was free, and the stream stays as it is */
+} Mute;
+
+PETSC_INTERN void MuteBegin(Mute *);
+PETSC_INTERN void MuteEnd(Mute *);
+
 /*
    file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
    names the file.

@@ -53,6 +53,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
+  PetscCall(TaoSetMonitor(*tao, ProgressMonitorOptimizer, sim, NULL));
   PetscFunctionReturn(0);
 }
 

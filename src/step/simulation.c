@@ -28,6 +28,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   (*sim)->warm       = PETSC_TRUE;
   (*sim)->estimate   = PETSC_TRUE;
   (*sim)->maxcuts    = 5;
+  (*sim)->progress   = (Progress){.every = 10.0};
   (*sim)->tolerances = (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
   PetscFunctionReturn(0);
 }
@@ -130,6 +131,7 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one; default true
 .  -load_max_cuts <5>         - how often a load step that fails is halved
 .  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
+.  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 .  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
 .  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one linearization
@@ -148,12 +150,14 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
   PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsReal("-progress_every", "Seconds after which the run says again how far it is, 0: never", "SimulationStep", sim->progress.every, &sim->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
   PetscCall(PetscOptionsReal("-contact_gap_tol", "Change of the gap, relative to the largest displacement, beyond which a load step has not converged", "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
   PetscOptionsEnd();
   PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
+  PetscCheck(sim->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->progress.every), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g", (double)sim->progress.every);
   PetscFunctionReturn(0);
 }
 

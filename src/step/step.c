@@ -94,6 +94,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscFunctionBegin;
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
+  PetscCall(ProgressBegin(sim));
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 
@@ -106,6 +107,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
     if (report->converged) {
       ++report->substeps;
+      PetscCall(ProgressReach(sim));
       increment *= 2.0;
     } else PetscCall(SimulationCut(sim, report, &increment, &again));
     sim->increment = increment;

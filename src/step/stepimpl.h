@@ -123,6 +123,14 @@ typedef struct {
   PetscInt nweak;           /* bodies that they hold */
 } Springs;
 
+/* When a run has said how far it is, and what it knows of that; of the clock [s] */
+typedef struct {
+  PetscReal      every;    /* 0: never */
+  PetscReal      first;    /* time of the load program at the beginning of this run */
+  PetscReal      residual; /* the first of a linear solve */
+  PetscLogDouble begun, reached, said;
+} Progress;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -155,6 +163,7 @@ struct _n_Simulation {
   PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
   PetscBool            estimate;    /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;     /* of one load step */
+  Progress             progress;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;
@@ -175,6 +184,12 @@ PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
 PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
 PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
+
+/* progress.c */
+PETSC_INTERN PetscErrorCode ProgressBegin(Simulation);
+PETSC_INTERN PetscErrorCode ProgressReach(Simulation);
+PETSC_INTERN PetscErrorCode ProgressMonitorOptimizer(Tao, void *);
+PETSC_INTERN PetscErrorCode ProgressMonitorLinear(KSP, PetscInt, PetscReal, void *);
 
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
