@@ -8,18 +8,6 @@
 */
 #include "ipfilterimpl.h"
 
-PetscErrorCode IPFilteredDestroy(IPFiltered *f)
-{
-  PetscFunctionBegin;
-  PetscCall(IPReducedDestroy(&f->reduced));
-  PetscCall(VecDestroy(&f->centre));
-  PetscCall(VecDestroy(&f->gradient));
-  PetscCall(VecDestroy(&f->c));
-  PetscCall(PetscFree2(f->pg, f->y));
-  f->on = PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
 /* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which then serves all solves */
 static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
 {
@@ -62,47 +50,6 @@ static PetscErrorCode FilteredIsThin(Tao tao, PetscBool *thin)
   PetscCall(ISGetSize(ip->cond.filter, &nw));
   PetscCall(VecGetSize(tao->solution, &n));
   *thin = (PetscBool)(nw > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || nw <= fraction * n));
-  PetscFunctionReturn(0);
-}
-
-/* The rows that begin as active: where the caller's multipliers outweigh the slacks, or without them where a constraint is violated */
-static PetscErrorCode FilteredGuess(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           s, z;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &s));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
-  if (ip->given.warm_s) {
-    PetscCall(VecCopy(ip->given.warm_s, s));
-    PetscCall(VecCopy(ip->given.warm_z, z));
-    PetscCall(IPRowScalePair(tao, s, z, PETSC_FALSE));
-    PetscCall(VecPointwiseDivide(z, z, ip->stiff.rho));
-    PetscCall(VecAXPY(z, -1.0, s));
-  } else PetscCall(VecAXPBY(z, -1.0, 0.0, ip->at.c));
-  PetscCall(IPReducedGuess(&ip->filtered.reduced, z));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &s));
-  PetscFunctionReturn(0);
-}
-
-/* The reduced problem counts from the present point on, with all directions there are */
-static PetscErrorCode FilteredCentre(Tao tao, const IPBasis *basis)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
-
-  PetscFunctionBegin;
-  PetscCall(VecCopy(tao->solution, f->centre));
-  PetscCall(VecCopy(tao->gradient, f->gradient));
-  PetscCall(VecCopy(ip->at.c, f->c));
-  f->f = ip->at.f;
-  if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, f->pg));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -163,27 +110,6 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscFunctionReturn(0);
 }
 
-/* Multipliers force / M, and the slacks that the constraints have */
-static PetscErrorCode FilteredSetPairs(Tao tao, Vec force)
-{
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
-  PetscScalar  *s, *z;
-  PetscInt      n;
-
-  PetscFunctionBegin;
-  PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
-  PetscCall(VecCopy(slack->z, ip->at.lambda));
-  PetscCall(VecCopy(ip->at.c, slack->t));
-  PetscCall(VecGetLocalSize(slack->t, &n));
-  PetscCall(VecGetArray(slack->t, &s));
-  PetscCall(VecGetArray(slack->z, &z));
-  for (PetscInt i = 0; i < n; i++) s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
-  PetscCall(VecRestoreArray(slack->z, &z));
-  PetscCall(VecRestoreArray(slack->t, &s));
-  PetscFunctionReturn(0);
-}
-
 /* To x = centre + v, with the forces of the constraints there. Back again, and *moved is false, where the problem is not quadratic. */
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
@@ -198,7 +124,7 @@ static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
   PetscCall(FilteredEvaluate(tao));
   PetscCall(FilteredIsQuadratic(tao, v, f->f, f->c, moved));
   if (*moved) {
-    PetscCall(FilteredSetPairs(tao, force));
+    PetscCall(IPFilteredSetPairs(tao, force));
     PetscCall(VecAXPY(x, -1.0, tao->solution));
     PetscCall(VecNorm(x, NORM_INFINITY, &ip->dir.norm));
   } else {
@@ -213,125 +139,38 @@ static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 /* Solves the reduced problem and moves to its solution */
 static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscBool *solved)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
-  Vec           v, force;
+  Vec v, force;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(VecSet(v, 0.0));
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, solved));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  if (*solved) {
-    ip->rec.nreduced++;
-    ip->rec.npivots += f->reduced.nsteps;
-    if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
-    PetscCall(FilteredMove(tao, v, force, solved));
-  }
+  PetscCall(IPFilteredSolve(tao, basis, v, force, solved));
+  if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
   PetscFunctionReturn(0);
 }
 
-/* d = B r for a residual that is zero on W; *definite is false where B is not */
-static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
+/* The reduced problem counts from the present point on */
+static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   rd;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterApply, tao, r, d, NULL));
-  PetscCall(PCApply(pc, r, d));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterApply, tao, r, d, NULL));
-  PetscCall(IPFixedZero(tao, d));
-  PetscCall(VecDot(r, d, &rd));
-  *definite = (PetscBool)(PetscRealPart(rd) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(rd)));
-  ip->rec.napplications++;
-  ip->rec.ksp_iterations[ip->rec.nksp - 1]++;
-  tao->ksp_its++;
-  tao->ksp_tot_its++;
+  ip->filtered.f = ip->at.f;
+  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->gradient, ip->at.c));
   PetscFunctionReturn(0);
 }
 
-/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so answers most to other
-   constraints and gaps. What the solution has of the rest stays in the centre. */
-static PetscErrorCode FilteredMakeRoom(Tao tao, IPBasis *basis)
+/* A direction from the residual, with room made for it where there is none */
+static PetscErrorCode FilteredAddDirection(Tao tao, IPKept *kept, Vec r, PetscBool *added)
 {
-  IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
-  const PetscInt last = basis->max / 8, best = basis->max / 2;
-  PetscReal     *E;
-
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(&f->reduced, E));
-  PetscCall(IPBasisCompress(basis, best, last, E));
-  PetscCall(PetscFree(E));
-  PetscCall(IPReducedForget(&f->reduced));
-  PetscCall(FilteredCentre(tao, basis));
-  PetscFunctionReturn(0);
-}
-
-/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual */
-static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
-{
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal rounding = 1e-11;
-  PetscScalar     energy, size;
-  Vec             Kd;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
-  PetscCall(MatMult(ip->hess.H, d, Kd));
-  PetscCall(VecDot(d, Kd, &energy));
-  PetscCall(VecPointwiseMult(Kd, d, ip->stiff.hdiag));
-  PetscCall(VecDot(d, Kd, &size));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
-  *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
-  PetscFunctionReturn(0);
-}
-
-/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a solve, and where it fails */
-static PetscErrorCode FilteredPrecondition(Tao tao, IPKept *kept, Vec r, Vec d, PetscBool *definite)
-{
-  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  PetscBool     singular = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
-  if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
-  PetscCall(FilteredIsSingular(tao, d, &singular));
-  if (!singular) PetscFunctionReturn(0);
-  PetscCall(IPKeptHold(tao, kept, definite));
-  if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
-  PetscFunctionReturn(0);
-}
-
-/* A direction from the residual r = -ip->rx, zero on W */
-static PetscErrorCode FilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *extended)
-{
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f     = &ip->filtered;
-  IPBasis      *basis = &kept->basis;
-  Vec           d;
-
-  PetscFunctionBegin;
-  if (basis->n == basis->max) PetscCall(FilteredMakeRoom(tao, basis));
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
-  PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
-  PetscCall(VecISSet(d, ip->cond.filter, 0.0));
-  if (*extended) {
-    PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
-    PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
-    PetscCall(PetscLogEventEnd(TAO_IPFilterAppend, tao, d, NULL, NULL));
+  if (kept->basis.n == kept->basis.max) {
+    PetscCall(IPFilteredMakeRoom(tao, &kept->basis));
+    PetscCall(FilteredCentreHere(tao, &kept->basis));
   }
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
-  if (!*extended) PetscFunctionReturn(0);
-  PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPFilteredExtend(tao, kept, r, added));
   PetscFunctionReturn(0);
 }
 
@@ -406,33 +245,12 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
   if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
-  if (*done && exact) PetscCall(FilteredExtend(tao, kept, r, done));
-  else if (*done) PetscCall(FilteredCentre(tao, &kept->basis));
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, done));
+  else if (*done) PetscCall(FilteredCentreHere(tao, &kept->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   if (*done) PetscCall(FilteredSolveReduced(tao, &kept->basis, done));
   if (*done) tao->niter++;
   else PetscCall(IPKeptReset(kept));
-  PetscFunctionReturn(0);
-}
-
-/* What this solve alone has; *possible is false where K_WW is not positive definite */
-static PetscErrorCode FilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
-
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  if (*possible) {
-    PetscCall(VecDuplicate(tao->solution, &f->centre));
-    PetscCall(VecDuplicate(tao->solution, &f->gradient));
-    PetscCall(VecDuplicate(ip->at.c, &f->c));
-    PetscCall(PetscMalloc2(basis->max, &f->pg, basis->max, &f->y));
-    PetscCall(FilteredGuess(tao));
-    PetscCall(FilteredCentre(tao, basis));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -453,10 +271,11 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
   }
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPKeptUpdate(tao, kept, begun));
-  if (*begun) PetscCall(FilteredSetUp(tao, &kept->basis, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
   f->nfutile = f->ncentred = 0;
   f->halved                = PETSC_INFINITY;
   ip->mu                   = 0.0;
+  if (*begun) PetscCall(FilteredCentreHere(tao, &kept->basis));
   if (*begun) PetscCall(FilteredSolveReduced(tao, &kept->basis, begun));
   f->on = *begun;
   if (f->on) PetscCall(IPKrylovRecord(tao, 0));

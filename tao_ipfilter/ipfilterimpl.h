@@ -17,7 +17,7 @@
      measure  stiffness, scale, worth, kkt
      system   rows, operator, assemble, subspace, condense
      linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
-     space    basis, compliance, activeset, reduced, kept, filteredsubspace
+     space    basis, compliance, activeset, reduced, kept, filteredspace, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
      driver   reason, degenerate, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
@@ -771,11 +771,19 @@ PETSC_INTERN PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao, PetscInt);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);
 
+/* filteredspace.c */
+PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, const IPBasis *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
+PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
+PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
+PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPKept *, Vec r, PetscBool *extended);
+
 /* filteredsubspace.c */
 PETSC_INTERN PetscErrorCode IPFilteredBegin(Tao, PetscBool *begun);
 PETSC_INTERN PetscErrorCode IPFilteredStep(Tao, PetscBool *done);
 PETSC_INTERN PetscErrorCode IPFilteredEnd(Tao);
-PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 
 /* ---- step ---- */
 
