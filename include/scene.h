@@ -175,7 +175,7 @@ typedef struct {
   SceneTraction     *tractions;
   PetscInt           nsprings;
   SceneSpring       *springs;
-  PetscBool          weak_springs; /* bodies that move freely are held by springs that carry next to nothing */
+  PetscReal          weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube root of the volume; 0: they are not */
   PetscInt           nforces;
   SceneBodyForce    *forces;
   PetscInt           npairs;

@@ -23,6 +23,7 @@ SCENES = {
     + "displacements:\n  - floor: {face: bottom.zmin, value: [0, 0, 0]}\npressures:\n  - load: {face: top.zmax, value: 1}\n"
     + "contact:\n  - lower: {mortar: middle.zmin, nonmortar: bottom.zmax}\n  - upper: {mortar: middle.zmax, nonmortar: top.zmin}\nweak_springs: true\n",
 }
+SCENES["soft"] = SCENES["stack"].replace("1e5", "100")
 
 
 def near(a, b, size):
@@ -46,6 +47,9 @@ def judge_bars(title, end):
     forces = {pair["name"]: pair["force"] for pair in step["stack"]["pairs"]}
     say(title + "stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
     say(title + "stack: weak springs carry less than 1e-6 of the load", 0 < step["stack"]["weak_spring_force"] < 4e-6, step["stack"]["weak_spring_force"])
+    forces = {pair["name"]: pair["force"] for pair in step["soft"]["pairs"]}
+    say(title + "soft stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
+    say(title + "soft stack: weak springs carry less than 1e-6 of the load", 0 < step["soft"]["weak_spring_force"] < 4e-6, step["soft"]["weak_spring_force"])
 
 
 if sys.argv[1] == "write":

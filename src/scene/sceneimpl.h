@@ -83,6 +83,7 @@ PETSC_INTERN PetscErrorCode SceneReadPressures(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadBodyForces(SceneKeys, Scene);
 
 /* tractions.c: dead loads on faces, springs */
+#define SCENE_WEAK_SPRINGS 1e-7 /* weak_springs: true */
 PETSC_INTERN PetscErrorCode SceneReadTractions(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadSprings(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewTractions(Scene, PetscViewer);

@@ -50,6 +50,22 @@ PetscErrorCode SceneReadTractions(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* true, false, or how stiff; a body that is held by more than a hundredth of its own stiffness is not held weakly */
+static PetscErrorCode SceneParseWeakSprings(SceneKeys keys, const char text[], PetscReal *stiffness)
+{
+  PetscBool yes, no;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcasecmp(text, "true", &yes));
+  PetscCall(PetscStrcasecmp(text, "false", &no));
+  if (yes) *stiffness = SCENE_WEAK_SPRINGS;
+  else if (!no) {
+    PetscCall(SceneParseReal(keys, "weak_springs", text, stiffness));
+    if (!(*stiffness > 0 && *stiffness <= 0.01)) PetscCall(SceneKeysComplain(keys, "weak_springs is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01", text));
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneReadSprings(SceneKeys keys, Scene scene)
 {
   char      **names;
@@ -57,7 +73,7 @@ PetscErrorCode SceneReadSprings(SceneKeys keys, Scene scene)
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "weak_springs"));
-  if (text) PetscCall(SceneParseAnswer(keys, "weak_springs", text, &scene->weak_springs));
+  if (text) PetscCall(SceneParseWeakSprings(keys, text, &scene->weak_springs));
   PetscCall(SceneGetNames(keys, "springs", PETSC_FALSE, &scene->nsprings, &names));
   PetscCall(PetscCalloc1(scene->nsprings, &scene->springs));
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
@@ -108,7 +124,12 @@ PetscErrorCode SceneViewTractions(Scene scene, PetscViewer viewer)
     PetscCall(SceneViewList(viewer, 3, scene->springs[s].value));
     PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   }
-  if (scene->weak_springs) PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: true\n"));
+  if (scene->weak_springs == SCENE_WEAK_SPRINGS) PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: true\n"));
+  else if (scene->weak_springs > 0) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: "));
+    PetscCall(SceneViewReal(viewer, scene->weak_springs));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
   PetscFunctionReturn(0);
 }
 

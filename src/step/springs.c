@@ -2,12 +2,9 @@
 #include "stepimpl.h"
 
 /*
-   Of Young's modulus times the cube root of the volume: what a weakly held body's springs are worth in all. They take as little
-   from its deformation as this, and from the forces on it what is out of balance.
+   At the vertices of the bodies that are not held: their share of the volume. The springs take as little from the bodies' deformation as they
+   are worth, and from the forces on them what is out of balance. mass: of unit density
 */
-static const PetscReal weak_stiffness = 1e-9;
-
-/* At the vertices of the bodies that are not held: their share of the volume. mass: of unit density */
 static PetscErrorCode SpringsCreateWeak(Simulation sim)
 {
   Scene              scene = sim->scene;
@@ -30,7 +27,7 @@ static PetscErrorCode SpringsCreateWeak(Simulation sim)
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = sim->places.body[i / 3];
 
-    k[i] = unheld[b] ? weak_stiffness * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b] : 0.0;
+    k[i] = unheld[b] ? scene->weak_springs * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b] : 0.0;
   }
   PetscCall(VecRestoreArrayWrite(sim->springs.weak, &k));
   PetscCall(VecRestoreArrayRead(sim->mass, &m));

@@ -1,0 +1,54 @@
+/* Weak springs that carry a load: nothing else holds the body, and what they make of it is no answer. */
+#include "stepimpl.h"
+
+/* Of a body's dead loads, the sizes at its vertices summed */
+static const PetscReal loose_share = 0.01;
+
+/* carried[4 body]: the weak springs' resultant on each body, and the sum of the sizes of the loads at its vertices */
+static PetscErrorCode LooseMeasure(Simulation sim, Vec u, Vec load, PetscReal carried[])
+{
+  const PetscScalar *v, *k, *f;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(carried, 4 * sim->scene->nbodies));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(u, &v));
+  PetscCall(VecGetArrayRead(sim->springs.weak, &k));
+  PetscCall(VecGetArrayRead(load, &f));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal *body = &carried[4 * sim->places.body[i / 3]], square = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      body[d] -= PetscRealPart(k[i + d] * v[i + d]);
+      square += PetscSqr(PetscRealPart(f[i + d]));
+    }
+    body[3] += PetscSqrtReal(square);
+  }
+  PetscCall(VecRestoreArrayRead(load, &f));
+  PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, carried, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* A solve has not converged where a body under load hangs on its weak springs */
+PetscErrorCode LooseTest(const StepProblem *p, Vec u, StepReport *report)
+{
+  Scene      scene = p->sim->scene;
+  PetscReal *carried;
+
+  PetscFunctionBegin;
+  if (!p->sim->springs.weak || !p->load || !report->converged) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(4 * scene->nbodies, &carried));
+  PetscCall(LooseMeasure(p->sim, u, p->load, carried));
+  for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
+    const PetscReal *c = &carried[4 * b], force = PetscSqrtReal(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+    char             reason[256];
+
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; something real must hold it, or stiffer ones, as weak_springs: 1e-5", scene->bodies[b].name, (double)force, (double)c[3]));
+    if (force > loose_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  PetscCall(PetscFree(carried));
+  PetscFunctionReturn(0);
+}
