@@ -5,9 +5,10 @@
 #include <petscsys.h>
 
 typedef enum {
-  MATERIAL_LINEAR,      /* small strain, isotropic */
-  MATERIAL_NEOHOOKEAN,  /* compressible neo-Hookean, finite strain */
-  MATERIAL_SAINT_VENANT /* Saint Venant-Kirchhoff, large rotations at moderate strain */
+  MATERIAL_LINEAR,       /* small strain, isotropic */
+  MATERIAL_NEOHOOKEAN,   /* compressible neo-Hookean, finite strain */
+  MATERIAL_SAINT_VENANT, /* Saint Venant-Kirchhoff, large rotations at moderate strain */
+  MATERIAL_RIGID         /* no strain: every displacement of the body is prescribed */
 } MaterialType;
 PETSC_EXTERN const char *const MaterialTypes[];
 
@@ -43,6 +44,8 @@ typedef struct {
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
 } MaterialLaw;
 
+/* Whether strains are finite */
+PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);

@@ -73,6 +73,7 @@ static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement 
     const PetscInt *f;
     PetscInt        nfacets;
 
+    if (displacements[k].moves) continue;
     PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
     PetscCall(ISGetLocalSize(facets, &nfacets));
     PetscCall(ISGetIndices(facets, &f));

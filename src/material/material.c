@@ -1,7 +1,7 @@
 /* Parameters of materials and the table of laws */
 #include "materialimpl.h"
 
-const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "MaterialType", "MATERIAL_", NULL};
+const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "rigid", "MaterialType", "MATERIAL_", NULL};
 
 /*@
   MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))
@@ -34,6 +34,11 @@ PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, Pets
   PetscFunctionReturn(0);
 }
 
+PetscBool MaterialIsFinite(const Material *material)
+{
+  return (PetscBool)(material->type == MATERIAL_NEOHOOKEAN || material->type == MATERIAL_SAINT_VENANT);
+}
+
 /*@
   MaterialGetLaw - Gets the functions that evaluate a material's energy density, stress and tangent at a point
 
@@ -61,6 +66,9 @@ PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
     break;
   case MATERIAL_SAINT_VENANT:
     *law = &MaterialLawSaintVenant;
+    break;
+  case MATERIAL_RIGID:
+    *law = &MaterialLawRigid;
     break;
   default:
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Unknown material type %d", (int)material->type);

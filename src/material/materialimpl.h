@@ -10,5 +10,6 @@
 PETSC_INTERN const MaterialLaw MaterialLawLinear;
 PETSC_INTERN const MaterialLaw MaterialLawNeoHookean;
 PETSC_INTERN const MaterialLaw MaterialLawSaintVenant;
+PETSC_INTERN const MaterialLaw MaterialLawRigid;
 
 #endif

@@ -128,6 +128,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
     PetscCall(MeshDistribute(dm, &curves));
   }
   PetscCall(MeshRefine(dm, refine - before));
+  PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
   PetscCall(MeshSetSection(*dm, bodies));
   PetscCall(MeshCreateNodes(*dm, nbodies, bodies));
   PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));

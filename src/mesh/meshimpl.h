@@ -189,6 +189,9 @@ PETSC_INTERN PetscErrorCode MeshFaceLabelName(const char body[], const char face
 PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
 PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first);
 
+/* rigid.c: a label of all that moves with a rigid body, after the last refinement */
+PETSC_INTERN PetscErrorCode MeshLabelRigid(DM, PetscInt nbodies, const SceneBody[]);
+
 /* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
 typedef struct {
   PetscInt64 ncells, nvertices;

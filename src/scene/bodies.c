@@ -8,14 +8,28 @@ static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
   PetscInt    element = ELEMENT_FULL;
 
   PetscFunctionBegin;
+  body->order = 1;
+  if (body->material.type == MATERIAL_RIGID) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_element", body->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, ElementTypes, &element));
   body->element = (ElementType)element;
-  body->order   = 1;
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_order", body->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseInt(keys, key, text, &body->order));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const SceneBody *body)
+{
+  static const char *const elastic[] = {"young", "poisson", "element", "order"};
+  const char              *text;
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(elastic); ++i) {
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "bodies_%s_%s", body->name, elastic[i]));
+    if (text) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -37,10 +51,27 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, MaterialTypes, &type));
   body->material.type = (MaterialType)type;
+  if (type == MATERIAL_RIGID) {
+    PetscCall(SceneRefuseOfRigid(keys, body));
+    PetscFunctionReturn(0);
+  }
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(constants); ++i) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_%s", body->name, constants[i].name));
     PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
     if (text) PetscCall(SceneParseReal(keys, key, text, constants[i].value));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Its rows of the matrix are to be as large as those of the others */
+static PetscErrorCode SceneScaleRigid(Scene scene)
+{
+  PetscReal young = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) young = PetscMax(young, scene->bodies[b].material.young);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (scene->bodies[b].material.type == MATERIAL_RIGID) scene->bodies[b].material.young = young > 0 ? young : 1;
   }
   PetscFunctionReturn(0);
 }
@@ -60,6 +91,7 @@ PetscErrorCode SceneReadBodies(SceneKeys keys, Scene scene)
     PetscCall(SceneReadMaterial(keys, body));
     PetscCall(SceneReadElement(keys, body));
   }
+  PetscCall(SceneScaleRigid(scene));
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }

@@ -95,7 +95,8 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
     const BodyMesh  *mesh = &meshes[b];
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
+    if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " cells%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, body->order > 1 ? " of order 2" : "", mesh->nnodes, body->order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
     order = PetscMax(order, body->order);
     ncells += mesh->ncells;
@@ -166,6 +167,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
     for (PetscInt i = 0; i < 3; ++i) {
       if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
     }
+    if (SceneRotates(here)) PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)", (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0], (double)here->center[1], (double)here->center[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }
   for (PetscInt p = 0; p < scene->npressures; ++p) {
@@ -274,7 +276,7 @@ static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const 
 
 static PetscBool DescribeIsFinite(const SceneBody *body)
 {
-  return body->material.type == MATERIAL_LINEAR ? PETSC_FALSE : PETSC_TRUE;
+  return MaterialIsFinite(&body->material);
 }
 
 static PetscBool DescribeIsBbar(const SceneBody *body)

@@ -27,8 +27,7 @@ static PetscErrorCode SceneReadComponents(SceneKeys keys, SceneDisplacement *dis
 
 PetscErrorCode SceneReadDisplacements(SceneKeys keys, Scene scene)
 {
-  char      **names;
-  const char *text;
+  char **names;
 
   PetscFunctionBegin;
   PetscCall(SceneGetNames(keys, "displacements", PETSC_FALSE, &scene->ndisplacements, &names));
@@ -37,9 +36,9 @@ PetscErrorCode SceneReadDisplacements(SceneKeys keys, Scene scene)
     SceneDisplacement *displacement = &scene->displacements[d];
 
     displacement->name = names[d];
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "displacements_%s_face", displacement->name));
-    PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
+    PetscCall(SceneReadTarget(keys, scene, displacement));
     PetscCall(SceneReadComponents(keys, displacement));
+    PetscCall(SceneReadRotation(keys, displacement));
     PetscCall(SceneReadRampName(keys, scene, "displacements", displacement->name, &displacement->ramp));
   }
   PetscCall(PetscFree(names));

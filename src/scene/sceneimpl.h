@@ -72,6 +72,15 @@ PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer);
 /* Collective; what and owner name the thing that refers to the face, as in: displacement "bottom" */
 PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[], const char name[]);
 
+/* motions.c: rigid motions of faces and of rigid bodies */
+PETSC_INTERN PetscBool      SceneRotates(const SceneDisplacement *);
+PETSC_INTERN PetscBool      SceneIsWholeBody(const char face[]);
+PETSC_INTERN PetscErrorCode SceneReadTarget(SceneKeys, Scene, SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneReadRotation(SceneKeys, SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneViewMotion(PetscViewer, const SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *, const SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);
+
 /* displacements.c */
 PETSC_INTERN PetscErrorCode SceneReadDisplacements(SceneKeys, Scene);
 

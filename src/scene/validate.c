@@ -34,13 +34,15 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     const SceneDisplacement *here = &scene->displacements[d];
 
-    PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
+    if (!SceneIsWholeBody(here->face)) PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
     SceneRequire(here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 
       PetscCall(PetscStrcmp(here->face, other->face, &same));
-      for (PetscInt i = 0; i < 3; ++i) SceneRequire(!same || !here->fixed[i] || !other->fixed[i], "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name, "xyz"[i], here -> face);
+      if (same && (here->moves || other->moves)) PetscCall(SceneValidateMotions(comm, file, other, here));
+      else
+        for (PetscInt i = 0; i < 3; ++i) SceneRequire(!same || !here->fixed[i] || !other->fixed[i], "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name, "xyz"[i], here -> face);
     }
   }
   PetscFunctionReturn(0);
@@ -106,6 +108,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file, scene->contact_updates);
   PetscCall(SceneValidateBodies(comm, file, scene));
   PetscCall(SceneValidateDisplacements(comm, file, scene));
+  PetscCall(SceneValidateRigid(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
   PetscFunctionReturn(0);

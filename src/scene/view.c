@@ -1,6 +1,7 @@
 /* A scene as the YAML that SceneLoad() reads */
 #include "sceneimpl.h"
 #include <petscviewer.h>
+#include <string.h>
 
 static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
@@ -14,14 +15,14 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(SceneViewShape(body, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
-  for (PetscInt i = 0; i < 2; ++i) {
+  for (PetscInt i = 0; i < 2 && body->material.type != MATERIAL_RIGID; ++i) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", labels[i]));
     PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
     PetscCall(SceneViewReal(viewer, constants[i]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
+  if (body->material.type != MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
   if (body->order > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "order: %" PetscInt_FMT "\n", body->order));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
@@ -42,7 +43,8 @@ static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, Pet
   const SceneDisplacement *displacement = &scene->displacements[d];
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: [", displacement->name, displacement->face));
+  if (SceneIsWholeBody(displacement->face)) PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {body: %.*s, value: [", displacement->name, (int)(strlen(displacement->face) - strlen(SCENE_WHOLE_BODY)), displacement->face));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: [", displacement->name, displacement->face));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   for (PetscInt i = 0; i < 3; ++i) {
     if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
@@ -50,6 +52,7 @@ static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, Pet
     else PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  PetscCall(SceneViewMotion(viewer, displacement));
   PetscCall(SceneViewRampName(scene, viewer, displacement->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);

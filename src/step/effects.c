@@ -7,6 +7,7 @@ typedef enum {
   EFFECT_UPDATES,
   EFFECT_FILTER,
   EFFECT_FINITE_STRAIN,
+  EFFECT_RIGID,
   EFFECT_BBAR,
   EFFECT_INCOMPATIBLE,
   EFFECT_ORDER2,
@@ -26,6 +27,7 @@ static const char *const EffectNames[] = {
   [EFFECT_UPDATES]       = "contact updates",
   [EFFECT_FILTER]        = "AMG filter",
   [EFFECT_FINITE_STRAIN] = "finite strain",
+  [EFFECT_RIGID]         = "rigid bodies",
   [EFFECT_BBAR]          = "mean dilatation",
   [EFFECT_INCOMPATIBLE]  = "incompatible modes",
   [EFFECT_ORDER2]        = "order 2",
@@ -59,11 +61,12 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, mean = 0, modes = 0, second = 0;
+  PetscInt finite = 0, rigid = 0, mean = 0, modes = 0, second = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    if (scene->bodies[b].material.type != MATERIAL_LINEAR) ++finite;
+    if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
+    if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
     if (scene->bodies[b].order > 1) ++second;
@@ -75,6 +78,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0), scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
   PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law of finite strain%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
                                                                                                                                                                                                   : ", true energy"));
+  PetscCall(EffectSet(report, EFFECT_RIGID, (PetscBool)(rigid > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_ORDER2, (PetscBool)(second > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of order 2", second, scene->nbodies));

@@ -1,24 +1,42 @@
 /* Prescribed displacements: from faces and components of the scene to owned global rows and values. */
 #include "stepimpl.h"
 
-static PetscErrorCode PrescribedCollect(DM dm, PetscInt n, const SceneDisplacement d[], PetscInt *count, PetscInt *rows, PrescribedValue *values)
+/* At factor 1 of its ramp, or of a motion so that it leads to its factors */
+static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt component)
 {
+  const SceneDisplacement *entry  = &scene->displacements[d];
+  PetscReal                drives = 0.0;
+
+  if (!entry->moves) return (PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE};
+  for (PetscInt e = d; e < scene->ndisplacements; ++e) {
+    const SceneDisplacement *other = &scene->displacements[e];
+
+    if (MotionFindLeader(scene, e) != d) continue;
+    for (PetscInt i = 0; i < 3; ++i) drives = other->value[i] != 0.0 || other->rotation[i] != 0.0 ? 1.0 : drives;
+  }
+  return (PrescribedValue){drives, 0, d};
+}
+
+static PetscErrorCode PrescribedCollect(DM dm, Scene scene, PetscInt *count, PetscInt *rows, PrescribedValue *values)
+{
+  const SceneDisplacement *d = scene->displacements;
+
   PetscFunctionBegin;
   *count = 0;
-  for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt i = 0; i < scene->ndisplacements; ++i) {
     for (PetscInt c = 0; c < 3; ++c) {
       IS              is;
       const PetscInt *idx;
       PetscInt        nloc;
 
-      if (!d[i].fixed[c]) continue;
+      if (!d[i].fixed[c] || (d[i].moves && MotionFindLeader(scene, i) < i)) continue;
       PetscCall(MeshGetFaceDofs(dm, d[i].face, c, &is));
       PetscCall(ISGetLocalSize(is, &nloc));
       if (rows) {
         PetscCall(ISGetIndices(is, &idx));
         for (PetscInt k = 0; k < nloc; ++k) {
           rows[*count + k]   = idx[k];
-          values[*count + k] = (PrescribedValue){d[i].value[c], d[i].value[c] != 0.0 ? d[i].ramp : 0};
+          values[*count + k] = PrescribedGetValue(scene, i, c);
         }
         PetscCall(ISRestoreIndices(is, &idx));
       }
@@ -26,6 +44,47 @@ static PetscErrorCode PrescribedCollect(DM dm, PetscInt n, const SceneDisplaceme
       PetscCall(ISDestroy(&is));
     }
   }
+  PetscFunctionReturn(0);
+}
+
+/* What the rows are displaced by, in turn; factor: of each ramp */
+static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal factor[], PetscReal u[])
+{
+  const PetscScalar *x;
+  PetscInt           rstart, last = PETSC_DECIDE;
+  RigidMotion        motion;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(p->x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(p->x, &x));
+  for (PetscInt k = 0; k < p->n; ++k) {
+    const PrescribedValue *v = &p->values[k];
+    const PetscInt         i = p->rows[k] - rstart;
+
+    if (v->motion >= 0 && v->motion != last) MotionGet(p->scene, last = v->motion, factor, &motion);
+    u[k] = v->motion < 0 ? factor[v->ramp] * v->value : MotionDisplace(&motion, &x[i - i % 3], i % 3);
+  }
+  PetscCall(VecRestoreArrayRead(p->x, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Largest difference of what two faces prescribe of one row where all factors are the same; of motions beyond rounding */
+static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
+{
+  PetscReal *u, *factor, size = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(p->n, &u, p->scene->nramps, &factor));
+  for (PetscInt r = 0; r < p->scene->nramps; ++r) factor[r] = all;
+  PetscCall(PrescribedEvaluate(p, factor, u));
+  for (PetscInt k = 0; k < p->n; ++k) size = PetscMax(size, PetscAbsReal(u[k]));
+  for (PetscInt k = 1; k < p->n; ++k) {
+    const PetscReal difference = PetscAbsReal(u[k] - u[k - 1]);
+    const PetscReal rounding   = p->values[k].motion < 0 && p->values[k - 1].motion < 0 ? 0.0 : 1e-12 * size;
+
+    if (p->rows[k] == p->rows[k - 1] && difference > rounding) *worst = PetscMax(*worst, difference);
+  }
+  PetscCall(PetscFree2(u, factor));
   PetscFunctionReturn(0);
 }
 
@@ -38,9 +97,10 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
 
   PetscFunctionBegin;
   PetscCall(PetscSortIntWithDataArray(p->n, p->rows, p->values, sizeof(PrescribedValue), &work));
+  PetscCall(PrescribedDiffer(p, 1.0, &worst[0]));
+  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* of motions that end where they began */
   for (PetscInt k = 0; k < p->n; ++k) {
     if (unique && p->rows[unique - 1] == p->rows[k]) {
-      worst[0] = PetscMax(worst[0], PetscAbsReal(p->values[unique - 1].value - p->values[k].value));
       if (p->values[unique - 1].ramp != p->values[k].ramp) worst[1] = 1.0;
       continue;
     }
@@ -54,32 +114,34 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PrescribedCreate(DM dm, Scene scene, Prescribed *p)
+PetscErrorCode PrescribedCreate(DM dm, Scene scene, const VertexPlaces *places, Prescribed *p)
 {
   PetscFunctionBegin;
   p->scene = scene;
-  PetscCall(PrescribedCollect(dm, scene->ndisplacements, scene->displacements, &p->n, NULL, NULL));
+  p->x     = places->x;
+  PetscCall(PrescribedCollect(dm, scene, &p->n, NULL, NULL));
   PetscCall(PetscMalloc2(p->n, &p->rows, p->n, &p->values));
-  PetscCall(PrescribedCollect(dm, scene->ndisplacements, scene->displacements, &p->n, p->rows, p->values));
+  PetscCall(PrescribedCollect(dm, scene, &p->n, p->rows, p->values));
   PetscCall(PrescribedMerge(PetscObjectComm((PetscObject)dm), p));
   PetscFunctionReturn(0);
 }
 
-/* u = factor x value on the prescribed rows; the other rows stay */
+/* u = what the time asks for on the prescribed rows; the other rows stay */
 PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
 {
   PetscScalar *a;
   PetscInt     rstart;
-  PetscReal   *factor;
+  PetscReal   *factor, *values;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(p->scene->nramps, &factor));
+  PetscCall(PetscMalloc2(p->scene->nramps, &factor, p->n, &values));
   for (PetscInt r = 0; r < p->scene->nramps; ++r) PetscCall(SceneGetFactor(p->scene, r, time, &factor[r]));
+  PetscCall(PrescribedEvaluate(p, factor, values));
   PetscCall(VecGetOwnershipRange(u, &rstart, NULL));
   PetscCall(VecGetArray(u, &a));
-  for (PetscInt k = 0; k < p->n; ++k) a[p->rows[k] - rstart] = factor[p->values[k].ramp] * p->values[k].value;
+  for (PetscInt k = 0; k < p->n; ++k) a[p->rows[k] - rstart] = values[k];
   PetscCall(VecRestoreArray(u, &a));
-  PetscCall(PetscFree(factor));
+  PetscCall(PetscFree2(factor, values));
   PetscFunctionReturn(0);
 }
 

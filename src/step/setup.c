@@ -20,12 +20,12 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
   PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP, "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model quadratic");
-  PetscCall(PrescribedCreate(sim->dm, scene, &sim->prescribed));
+  PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
+  PetscCall(PrescribedCreate(sim->dm, scene, &sim->places, &sim->prescribed));
   PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
-  PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
   PetscCall(SpringsCreate(sim));
   PetscCall(StiffnessSetType(sim));

@@ -31,20 +31,41 @@ PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallb
 PETSC_INTERN PetscErrorCode ReportGetCounts(KSP, PCAMGFCounts *);
 PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
 
+/* places.c: where the nodes that this rank owns are, undeformed, and in which body; in the order of the global vectors */
+typedef struct {
+  Vec       x;    /* [length] */
+  PetscInt *body; /* one a node */
+} VertexPlaces;
+
+PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
+
+/* motions.c: rigid motions of faces and bodies at the factors of the ramps; the first displacement of a face or body leads the others */
+typedef struct {
+  PetscReal t[3], center[3]; /* [length] */
+  PetscReal turn[3][3];      /* rotation less identity */
+} RigidMotion;
+
+PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
+PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
+PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
+
 /* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
 typedef struct {
-  PetscReal value; /* [length] */
-  PetscInt  ramp;
+  PetscReal value;  /* [length]; of a motion 1 where it drives, else 0 */
+  PetscInt  ramp;   /* of a motion 0 */
+  PetscInt  motion; /* displacement of the scene that leads it; PETSC_DECIDE: none */
 } PrescribedValue;
 
 typedef struct {
   Scene            scene;
+  Vec              x; /* places of the nodes, borrowed */
   PetscInt         n;
   PetscInt        *rows;
   PrescribedValue *values;
 } Prescribed;
 
-PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, Prescribed *);
+PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, const VertexPlaces *, Prescribed *);
 PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
 PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
@@ -59,15 +80,6 @@ typedef struct {
 PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
-
-/* places.c: where the vertices that this rank owns are, undeformed, and in which body; in the order of the global vectors */
-typedef struct {
-  Vec       x;    /* [length] */
-  PetscInt *body; /* one a vertex */
-} VertexPlaces;
-
-PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
-PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
 
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
@@ -158,11 +170,11 @@ struct _n_Simulation {
   ContactPoint        *points;
   Results              results;
   Probes               probes;
-  StepTolerances       tolerances;  /* once a solver has read its options: those that it has */
-  PetscBool            warm;        /* later load steps start from the path and pressures of the last */
-  PetscBool            monitor;     /* say when a step is cut or the gap linearized again */
-  PetscBool            estimate;    /* of the discretization error, at the end of every load step */
-  PetscInt             maxcuts;     /* of one load step */
+  StepTolerances       tolerances; /* once a solver has read its options: those that it has */
+  PetscBool            warm;       /* later load steps start from the path and pressures of the last */
+  PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  PetscBool            estimate;   /* of the discretization error, at the end of every load step */
+  PetscInt             maxcuts;    /* of one load step */
   Progress             progress;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */

@@ -1,0 +1,46 @@
+/*
+   A body of no strain, whose displacements are all prescribed: no energy and no stress. Its tangent gives the rows of the matrix, which then
+   hold nothing but their diagonal, the scale of the young modulus that it was given.
+*/
+#include "materialimpl.h"
+
+static PetscReal MaterialEnergy_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+{
+  (void)lambda, (void)mu, (void)H;
+  return 0;
+}
+
+static PetscBool MaterialStress_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+{
+  (void)lambda, (void)mu, (void)H;
+  for (int i = 0; i < 9; ++i) P[i] = 0;
+  return PETSC_TRUE;
+}
+
+static PetscBool MaterialTangent_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+{
+  (void)lambda, (void)H;
+  for (int i = 0; i < 81; ++i) A[i] = i % 10 ? 0 : mu;
+  return PETSC_TRUE;
+}
+
+static PetscBool MaterialCauchy_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+{
+  (void)lambda, (void)mu, (void)H;
+  for (int i = 0; i < 6; ++i) sigma[i] = 0;
+  return PETSC_TRUE;
+}
+
+static PetscReal MaterialDilatation_Rigid(const PetscReal H[9], PetscReal C[9])
+{
+  (void)H;
+  for (int i = 0; i < 9; ++i) C[i] = 0;
+  return 0;
+}
+
+static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+{
+  (void)pressure, (void)H, (void)A;
+}
+
+const MaterialLaw MaterialLawRigid = {PETSC_TRUE, MaterialEnergy_Rigid, MaterialStress_Rigid, MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};

@@ -1,0 +1,103 @@
+/* Rigid motions: rotations of faces, and displacements of rigid bodies */
+#include "sceneimpl.h"
+#include <petscviewer.h>
+#include <string.h>
+
+PetscBool SceneRotates(const SceneDisplacement *d)
+{
+  return (PetscBool)(d->rotation[0] != 0 || d->rotation[1] != 0 || d->rotation[2] != 0);
+}
+
+PetscBool SceneIsWholeBody(const char face[])
+{
+  const size_t length = strlen(face), end = strlen(SCENE_WHOLE_BODY);
+
+  return (PetscBool)(length > end && !strcmp(face + length - end, SCENE_WHOLE_BODY));
+}
+
+/* face: a face, or body: a rigid body, all of it */
+PetscErrorCode SceneReadTarget(SceneKeys keys, Scene scene, SceneDisplacement *d)
+{
+  const char *face, *text;
+  char        whole[SCENE_KEY_LENGTH];
+  PetscInt    body;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "displacements_%s_body", d->name));
+  PetscCall(SceneKeysGet(keys, (PetscBool)!text, &face, "displacements_%s_face", d->name));
+  if (text && face) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
+  if (text) {
+    PetscCall(SceneReadBodyName(keys, scene, "displacements", d->name, &body));
+    if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "displacements_%s_body is \"%s\", which is not rigid: of an elastic body faces are displaced", d->name, text));
+    PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, text));
+    face     = whole;
+    d->moves = PETSC_TRUE;
+  }
+  PetscCall(PetscStrallocpy(face ? face : "", &d->face));
+  PetscFunctionReturn(0);
+}
+
+/* rotation, and the center that it is about */
+PetscErrorCode SceneReadRotation(SceneKeys keys, SceneDisplacement *d)
+{
+  const char *rotation, *center;
+  char        key[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "displacements_%s_rotation", d->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &rotation, "%s", key));
+  if (rotation) PetscCall(SceneParseReals(keys, key, rotation, 3, d->rotation));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "displacements_%s_center", d->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &center, "%s", key));
+  if (center) PetscCall(SceneParseReals(keys, key, center, 3, d->center));
+  if (SceneRotates(d)) d->moves = PETSC_TRUE;
+  if (SceneRotates(d) && !center) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
+  if (center && !SceneRotates(d)) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
+  if (d->moves && !(d->fixed[0] && d->fixed[1] && d->fixed[2])) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewMotion(PetscViewer viewer, const SceneDisplacement *d)
+{
+  PetscFunctionBegin;
+  if (!SceneRotates(d)) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", rotation: "));
+  PetscCall(SceneViewList(viewer, 3, d->rotation));
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", center: "));
+  PetscCall(SceneViewList(viewer, 3, d->center));
+  PetscFunctionReturn(0);
+}
+
+/* Two displacements of one face or body: both rigid motions, about one center */
+PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const SceneDisplacement *a, const SceneDisplacement *b)
+{
+  PetscFunctionBegin;
+  PetscCheck(a->moves && b->moves, comm, PETSC_ERR_USER_INPUT, "%s: displacement \"%s\" is a rigid motion of %s, and \"%s\" displaces the same face", file, a->moves ? a->name : b->name, a->face, a->moves ? b->name : a->name);
+  for (PetscInt i = 0; i < 3; ++i) PetscCheck(!SceneRotates(a) || !SceneRotates(b) || a->center[i] == b->center[i], comm, PETSC_ERR_USER_INPUT, "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers", file, a->name, b->name);
+  PetscFunctionReturn(0);
+}
+
+/* Every rigid body is moved as a whole, and nothing else prescribes its displacements */
+PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscInt nrigid = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body  = &scene->bodies[b];
+    PetscBool        moved = PETSC_FALSE;
+
+    if (body->material.type != MATERIAL_RIGID) continue;
+    ++nrigid;
+    for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+      const char *face = NULL;
+
+      if (SceneFindBody(scene, scene->displacements[d].face, &face) != b) continue;
+      moved = PETSC_TRUE;
+      PetscCheck(SceneIsWholeBody(scene->displacements[d].face), comm, PETSC_ERR_USER_INPUT, "%s: displacement \"%s\" names the face \"%s\" of a rigid body, which moves as a whole: - %s: {body: %s, value: [0, 0, 0]}", file, scene->displacements[d].name, scene->displacements[d].face, scene->displacements[d].name, body->name);
+    }
+    PetscCheck(moved, comm, PETSC_ERR_USER_INPUT, "%s: nothing says how the rigid body \"%s\" moves, as displacements: - %s: {body: %s, value: [0, 0, 0]} does", file, body->name, body->name, body->name);
+  }
+  PetscCheck(nrigid < scene->nbodies, comm, PETSC_ERR_USER_INPUT, "%s: every body is rigid, nothing is left to be found", file);
+  PetscFunctionReturn(0);
+}
