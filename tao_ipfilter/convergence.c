@@ -197,7 +197,7 @@ static PetscErrorCode TestLimits(Tao tao)
     else if (IPAcceptable(ip)) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)error, (double)ip->tol));
     else if (Violated(ip)) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding beside x, at constraint violation %g", (double)k->inf_pr));
     else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)error));
-  } else if (tao->niter >= tao->max_it) {
+  } else if (tao->niter - ip->rec.ndirections >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)error));
   } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)error));

@@ -262,10 +262,6 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   ip->aug.delta    = 0.0;
   ip->aug.centered = PETSC_FALSE;
   PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
-  if (!*ok || ip->shift.delta == 0.0) PetscFunctionReturn(0);
-  ip->shift.last        = ip->shift.delta;
-  ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
-  ip->rec.nregularized++;
-  ip->bar.curved = PETSC_TRUE;
+  if (*ok) IPRegularized(ip);
   PetscFunctionReturn(0);
 }

@@ -146,7 +146,8 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual */
+/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program, where it is negative, too: with the
+   constraints in it it may not be */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -162,6 +163,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscCall(VecDot(d, Kd, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
+  if (ip->filtered.newton && PetscRealPart(energy) < -rounding * PetscRealPart(size)) *singular = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -178,6 +180,28 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPKept *kept, Vec r, Vec d, 
   if (!singular) PetscFunctionReturn(0);
   PetscCall(IPKeptHold(tao, kept, definite));
   if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the KKT error still falls: by half in so many steps */
+PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
+{
+  f->nfutile++;
+  if (error <= 0.5 * f->halved) {
+    f->halved  = error;
+    f->nfutile = 0;
+  }
+  return (PetscBool)(f->nfutile <= patience);
+}
+
+/* Whether the Krylov method's limit allows another direction */
+PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
+{
+  PetscInt limit;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, NULL, &limit));
+  *allows = (PetscBool)(((TAO_IPFILTER *)tao->data)->rec.napplications < limit);
   PetscFunctionReturn(0);
 }
 

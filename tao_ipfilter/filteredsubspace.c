@@ -33,7 +33,7 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE) PetscFunctionReturn(0);
   PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
-  if (!ip->filtered.constant || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
+  if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -192,19 +192,6 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error still falls: by half in so many steps */
-static PetscBool FilteredProgresses(IPFiltered *f, PetscReal error)
-{
-  const PetscInt patience = 60;
-
-  f->nfutile++;
-  if (error <= 0.5 * f->halved) {
-    f->halved  = error;
-    f->nfutile = 0;
-  }
-  return (PetscBool)(f->nfutile <= patience);
-}
-
 /* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left */
 static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possible)
 {
@@ -229,16 +216,16 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
   IPFiltered    *f        = &ip->filtered;
-  const PetscInt in_a_row = 3;
-  PetscBool      exact    = PETSC_TRUE;
+  const PetscInt in_a_row = 3, patience = 60;
+  PetscBool      exact = PETSC_TRUE;
   IPKept        *kept;
   Vec            r;
 
   PetscFunctionBegin;
   tao->ksp_its        = 0;
   ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are the method's way */
-  /* Half of the steps there may be are left to the interior point method */
-  *done = (PetscBool)(FilteredProgresses(f, IPBothErrors(ip)) && 2 * tao->niter < tao->max_it);
+  PetscCall(IPFilteredAllows(tao, done));
+  *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
@@ -249,12 +236,33 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   else if (*done) PetscCall(FilteredCentreHere(tao, &kept->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   if (*done) PetscCall(FilteredSolveReduced(tao, &kept->basis, done));
-  if (*done) tao->niter++;
-  else PetscCall(IPKeptReset(kept));
+  if (*done) {
+    tao->niter++;
+    ip->rec.ndirections++;
+  } else PetscCall(IPKeptReset(kept));
   PetscFunctionReturn(0);
 }
 
-/* Begins where the method is wanted and the problem is of its kind: at the solution of the first reduced problem */
+/* The first point: of a quadratic program the solution of the first reduced problem, else the start with the multipliers there */
+static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = &ip->filtered;
+
+  PetscFunctionBegin;
+  f->nfutile = f->ncentred = 0;
+  f->halved                = PETSC_INFINITY;
+  ip->mu                   = 0.0;
+  f->newton                = (PetscBool)(f->linear && !f->constant);
+  if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  else {
+    PetscCall(FilteredCentreHere(tao, basis));
+    PetscCall(FilteredSolveReduced(tao, basis, found));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Begins where the method is wanted and the problem is of its kind */
 PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -272,11 +280,7 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPKeptUpdate(tao, kept, begun));
   if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
-  f->nfutile = f->ncentred = 0;
-  f->halved                = PETSC_INFINITY;
-  ip->mu                   = 0.0;
-  if (*begun) PetscCall(FilteredCentreHere(tao, &kept->basis));
-  if (*begun) PetscCall(FilteredSolveReduced(tao, &kept->basis, begun));
+  if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
   f->on = *begun;
   if (f->on) PetscCall(IPKrylovRecord(tao, 0));
   else {

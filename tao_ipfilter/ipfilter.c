@@ -118,9 +118,12 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               to the filter subspace
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
                                                               H_ii for some i; 0: always
-. -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for quadratic programs whose
-                                                              constraints touch few unknowns
-. -tao_ipfilter_subspace_max <0>                            - directions that it keeps, of two vectors each; 0: 80 to 160, by memory
+. -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for linear constraints that
+                                                              touch few unknowns
+. -tao_ipfilter_subspace_max <0>                            - directions that it keeps, of two vectors each; 0: 80 to 160, by memory,
+                                                              48 where the objective is not quadratic
+. -tao_ipfilter_ksp_max_it <10000>                          - limit of Krylov iterations in a linear solve, and of all directions
+                                                              of the filtered subspace method in a `TaoSolve()`
 . -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - there, a factorization of the Hessian in place of the AMG
 . -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with its inertia, from the start
 . -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
@@ -170,9 +173,11 @@ static PetscErrorCode DestroyType(Tao tao)
   With `-tao_ipfilter_subspace` a quadratic objective under linear inequalities that touch few unknowns W is minimized over span{e_i, i in W} + span(P), exactly,
   by an active set method on the first rank; the residual that is left, preconditioned by the `PC` of the Krylov method for H alone, is the next direction in P.
   With `-tao_ipfilter_pc_amgf_factor` auto a factorization takes the place of the AMG there once it is estimated to be the cheaper for what is to come: `PCAMGFExpect()`,
-  `TaoIPFilterSetSolvesToCome()`; false keeps the AMG.
+  `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. Another objective under such constraints is minimized by Newton's method, whose quadratic models are solved so, to a fraction of
+  the present residual; products of the directions with the new Hessian are made anew, an indefinite one is shifted, and a line search on the objective, penalized where constraints are
+  violated, takes the step. Such a step counts as an iteration; a direction counts against the limit of `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`.
   The directions serve all later solves with the same Hessian, whatever constraints and loads: `TaoIPFilterSetSubspace()`. The end is judged as ever, by the KKT error made of the caller's
-  gradient. auto takes it where the routines of Hessian and Jacobian leave their matrices alone, W is no more than half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing,
+  gradient. auto takes it where the routine of the Jacobian leaves its matrix alone, W is no more than half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing,
   or a factorization, which is then made of H, once, and nothing but the default is asked of start and measure. Where it does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
   An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no

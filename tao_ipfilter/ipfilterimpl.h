@@ -18,7 +18,7 @@
      system   rows, operator, assemble, subspace, condense
      linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
      space    basis, compliance, activeset, reduced, kept, filteredspace, filteredsubspace
-     step     filter, merit, barrier, regularize, direction, linesearch, penalty, freestep, warm, start, relax, restore
+     step     filter, merit, barrier, regularize, direction, linesearch, newtonsubspace, penalty, freestep, warm, start, relax, restore
      driver   reason, degenerate, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
 */
@@ -446,8 +446,10 @@ typedef struct {
 
 /* The filtered subspace method, while it is on */
 typedef struct {
-  PetscBool      constant; /* the routines of Hessian and Jacobian have left their matrices alone: a quadratic program */
+  PetscBool      linear;   /* the routine of the Jacobian has left its matrix alone: linear constraints, */
+  PetscBool      constant; /* and that of the Hessian too: a quadratic program */
   PetscBool      on;
+  PetscBool      newton; /* by Newton's method, as the objective is not quadratic */
   PetscContainer kept; /* an IPKept */
   IPReduced      reduced;
   Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
@@ -471,6 +473,7 @@ typedef struct {
   PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
   PetscInt             napplications;          /* of the preconditioner in the filtered subspace method, */
   PetscInt             nreduced, npivots;      /* its reduced problems, and the active sets that they took */
+  PetscInt             ndirections;            /* iterations that were a direction of it, no step of Newton's */
   PetscReal            best_error;             /* KKT error of the best iterate, */
   PetscReal            best_violation;         /* and its violation */
   char                 reason[256];
@@ -778,6 +781,8 @@ PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, V
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
+PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
+PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPKept *, Vec r, PetscBool *extended);
 
 /* filteredsubspace.c */
@@ -806,6 +811,8 @@ PETSC_INTERN PetscErrorCode IPBarrierHold(Tao, PetscInt);
 PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
 
 /* regularize.c */
+PETSC_INTERN PetscErrorCode IPRegularizeMore(Tao);
+PETSC_INTERN void           IPRegularized(TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *), PetscBool *);
 
 /* direction.c */
@@ -814,6 +821,9 @@ PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
+
+/* newtonsubspace.c */
+PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
 
 /* penalty.c */
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);

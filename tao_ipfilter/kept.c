@@ -71,14 +71,16 @@ static PetscErrorCode KeptExpect(Tao tao, IPKept *kept, PetscReal left)
   PetscFunctionReturn(0);
 }
 
+/* Said once a solve, not with every Newton step */
 static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 {
-  PetscBool   factored;
-  const char *why;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     factored;
+  const char   *why;
 
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored, &why));
-  if (!((TAO_IPFILTER *)tao->data)->opt.monitor || !why[0]) PetscFunctionReturn(0);
+  if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0))) PetscFunctionReturn(0);
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "%s: %s\n", factored ? "MUMPS in place of AMG" : "AMG", why));
   PetscFunctionReturn(0);
 }
@@ -166,15 +168,18 @@ PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
 }
 
 /* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides what no machine is short of; more than
-   the AMG itself costs so many projections a direction. */
+   the AMG itself costs so many projections a direction. Newton's steps cost a product with the new K a direction, and their Gram matrix. */
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
   const PetscReal held = 4300.0, share = 0.15, spare = 64e6, direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
   const PetscReal fewest = 80.0, limit = 160.0;
+  const PetscInt  newton = 48;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   PetscInt        n;
 
   PetscFunctionBegin;
-  *max = ((TAO_IPFILTER *)tao->data)->opt.subspace_max;
+  *max = ip->opt.subspace_max;
+  if (!*max && ip->filtered.linear && !ip->filtered.constant) *max = newton;
   if (*max) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
@@ -298,7 +303,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
-- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many as 64 MB and 15 % of an AMG's memory hold
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many as 64 MB and 15 % of an AMG's memory hold, 48 where the objective is not quadratic
 
   Level: advanced
 

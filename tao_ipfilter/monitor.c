@@ -25,7 +25,7 @@ PetscErrorCode IPMonitor(Tao tao)
 
   PetscFunctionBegin;
   if (!ip->opt.monitor) PetscFunctionReturn(0);
-  if (ip->filtered.on) {
+  if (ip->filtered.on && !ip->filtered.newton) {
     PetscCall(MonitorFiltered(tao));
     PetscFunctionReturn(0);
   }

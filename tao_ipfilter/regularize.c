@@ -29,6 +29,29 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
+/* A delta where there was none, or a larger one */
+PetscErrorCode IPRegularizeMore(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     unit = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(DeltaUnit(tao, &unit));
+  ip->shift.delta = NextDelta(ip, unit);
+  ip->rec.nretried++;
+  PetscFunctionReturn(0);
+}
+
+/* Records that a step is taken with delta */
+void IPRegularized(TAO_IPFILTER *ip)
+{
+  if (ip->shift.delta == 0.0) return;
+  ip->shift.last        = ip->shift.delta;
+  ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
+  ip->rec.nregularized++;
+  ip->bar.curved = PETSC_TRUE;
+}
+
 /* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve
    there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A matrix with an entry that is
    not a number is a failure. */

@@ -285,16 +285,17 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
 /* Goes on from the best iterate by the interior point method, where the filtered subspace does not lead to the end */
 static PetscErrorCode LeaveSubspace(Tao tao)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  const IPGiven given = ip->given;
-  Vec           s = NULL, z = NULL;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const IPGiven   given  = ip->given;
+  const PetscBool newton = ip->filtered.newton; /* whose first multipliers are none that it has found */
+  Vec             s = NULL, z = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n", (double)ip->rec.best_error));
   PetscCall(IPFilteredEnd(tao));
   ip->rec.fallbacks.subspaces++;
   PetscCall(RestoreBest(tao));
-  if (ip->rec.best_error < PETSC_INFINITY) {
+  if (ip->rec.best_error < PETSC_INFINITY && (tao->niter || !newton)) {
     PetscCall(VecDuplicate(ip->best.s, &s));
     PetscCall(VecDuplicate(ip->best.s, &z));
     PetscCall(VecCopy(ip->best.s, s));
@@ -317,7 +318,8 @@ static PetscErrorCode TakeStep(Tao tao)
 
   PetscFunctionBegin;
   if (((TAO_IPFILTER *)tao->data)->filtered.on) {
-    PetscCall(IPFilteredStep(tao, &done));
+    if (((TAO_IPFILTER *)tao->data)->filtered.newton) PetscCall(IPNewtonSubspaceStep(tao, &done));
+    else PetscCall(IPFilteredStep(tao, &done));
     if (!done) PetscCall(LeaveSubspace(tao));
   } else PetscCall(TakeNewtonStep(tao));
   PetscFunctionReturn(0);
@@ -352,6 +354,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(GetStates(tao, after));
+  ip->filtered.linear   = (PetscBool)(before[1] == after[1]);
   ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));

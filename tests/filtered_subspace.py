@@ -52,6 +52,17 @@ for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5
         spared(f"{scene}_{n}", run)
 
 
+for n in 1, 3:
+    run, interior = steps(f"neo_hookean_{n}")[0], steps("neo_hookean")[0]
+    print(f"beam_sphere at finite strain, {n} ranks")
+    energy, force = difference(run, interior)
+    verdict("  energy against the interior point method's", energy, 1e-8)
+    verdict("  forces", force, 1e-7)
+    verdict("  energy and forces against those of one rank", max(difference(run, steps("neo_hookean_1")[0])), 1e-9)
+    verdict("  AMG applications by those of the interior point method", sum(step["amg_applications"] for step in run) / sum(step["amg_applications"] for step in interior), 0.5)
+    spared(f"neo_hookean_{n}", run)
+
+
 def judge_factored(name, scene, setups):
     """What a run with factors in place of the AMG leaves, and takes"""
     interior, _ = steps(scene)

@@ -136,7 +136,7 @@ static PetscErrorCode Test(const char name[], const char text[], PetscReal strin
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsCreate(&options));
-  PetscCall(PetscOptionsInsertString(options, "-tao_ipfilter_amgf_amg_pc_type jacobi -tao_max_it 100"));
+  PetscCall(PetscOptionsInsertString(options, "-tao_ipfilter_subspace false -tao_ipfilter_amgf_amg_pc_type jacobi -tao_max_it 100"));
   PetscCall(PetscOptionsInsertString(options, text));
   PetscCall(PetscOptionsPush(options));
   PetscCall(CreateString(240, &s, &x));

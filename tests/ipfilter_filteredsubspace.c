@@ -1,5 +1,5 @@
 static char help[] = "The filtered subspace method: the interior point method's solution for a fraction of its linear iterations, on the same solver and on another\n\
-one again, with dependent rows; the interior point method where it cannot be.\n\n";
+one again, with dependent rows, by Newton's method where the objective is not quadratic; the interior point method where it cannot be.\n\n";
 
 #include "ipfilter_problem.h"
 
@@ -256,24 +256,55 @@ static PetscErrorCode TestOne(const char what[], PetscInt n, Membrane *m, PetscI
   PetscCall(Solve(tao, &f, &its, &left));
   PetscCall(Compare(what, m, tao, &interior));
   if (leaves >= 0) PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
+  if (m->quartic > 0.0 && m->stiffness == 0.0) PetscCall(Expect("at most half of the interior point method's linear iterations", (PetscBool)(2 * its <= interior), its, interior));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(ProblemDestroy(&m->q));
   PetscFunctionReturn(0);
 }
 
+/* A limit of Newton steps is none of directions, which the Krylov method's limit holds for */
+static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves)
+{
+  Membrane           m = {.copies = 1};
+  PetscReal          f;
+  PetscInt           its, left;
+  TaoConvergedReason reason;
+  Tao                tao;
+  Vec                x;
+
+  PetscFunctionBeginUser;
+  PetscCall(AssembleMembrane(n, &m));
+  PetscCall(AssembleCap(n, 0.0, &m));
+  PetscCall(VecDuplicate(m.q.b, &x));
+  PetscCall(PetscOptionsSetValue(NULL, option, "4"));
+  PetscCall(CreateTao(&m, x, "true", &tao));
+  PetscCall(Solve(tao, &f, &its, &left));
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s 4: %s\n", option, TaoConvergedReasons[reason]));
+  PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
+  PetscCall(PetscOptionsClearValue(NULL, option));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&m.q));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const PetscInt n         = 24;
-  Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 200.0}, indefinite = {.copies = 1, .stiffness = -0.05};
+  Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 0.5}, indefinite = {.copies = 1, .stiffness = -0.05}, wells = {.copies = 1, .quartic = 0.5, .stiffness = -0.05};
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(TestKept(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
-  PetscCall(TestOne("an objective that is not quadratic", n, &curved, 1));
+  PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));
   PetscCall(TestOne("an indefinite Hessian", n, &indefinite, -1));
+  PetscCall(TestOne("a Hessian that is indefinite at the start", n, &wells, 0));
+  PetscCall(TestLimit("-tao_max_it", n, 0));
+  PetscCall(TestLimit("-tao_ipfilter_ksp_max_it", n, 1));
   PetscCall(PetscFinalize());
   return 0;
 }
