@@ -32,6 +32,8 @@ PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearizatio
 /* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
+/* Of each node of a nonmortar face the weights of those of the mortar face that it is tied to */
+PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const SceneTie *, Mat *rows);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);
 

@@ -44,9 +44,9 @@ typedef struct {
 /* All forces on a body: from its sides of the pairs, its faces, and the dead loads */
 typedef struct {
   const char *name;
-  PetscReal   contact[3], reaction[3], springs[3], load[3]; /* [force] */
-  PetscReal   residual[3];                                  /* their sum [force] */
-  PetscReal   balance;                                      /* its size over the sum of the sizes of each pair's, face's and the loads' force */
+  PetscReal   contact[3], reaction[3], springs[3], ties[3], load[3]; /* [force] */
+  PetscReal   residual[3];                                           /* their sum [force] */
+  PetscReal   balance;                                               /* its size over the sum of the sizes of each pair's, face's and the loads' force */
 } BodyReport;
 
 typedef struct {

@@ -153,6 +153,14 @@ typedef struct {
   PetscBool smooth;            /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
 
+/* Faces that are joined, undeformed */
+typedef struct {
+  char     *name;
+  char     *mortar;
+  char     *nonmortar; /* whose displacements follow */
+  PetscReal distance;  /* facets further apart are not joined [length]; 0: chosen from their size */
+} SceneTie;
+
 /* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
 typedef struct {
   char     *name;
@@ -185,6 +193,8 @@ typedef struct {
   SceneBodyForce    *forces;
   PetscInt           npairs;
   SceneContactPair  *pairs;
+  PetscInt           nties;
+  SceneTie          *ties;
   PetscInt           nprobes;
   SceneProbe        *probes;
   PetscInt           nsteps; /* load steps, at least 1 */

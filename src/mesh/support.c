@@ -158,6 +158,37 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
+/* All of the relative motion, at the vertices of the nonmortar face */
+static PetscErrorCode SupportAddTie(Support *support, const SceneTie *tie)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     facets;
+  const PetscInt        *f;
+  PetscInt               n, mortar, nonmortar, total;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, tie->mortar, &facets, &mortar, &total));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(SupportGetFace(support, tie->nonmortar, &facets, &nonmortar, &total));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    for (PetscInt k = 0; k < 12; ++k) {
+      SupportAddMotion(support, nonmortar, axes[k % 3], x[k / 3], 1);
+      SupportAddMotion(support, mortar, axes[k % 3], x[k / 3], -1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
 /* Takes the component along a unit vector out of a row */
 static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
 {
@@ -256,6 +287,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
   for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = scene->springs[s].face, .fixed = {scene->springs[s].value[0] > 0, scene->springs[s].value[1] > 0, scene->springs[s].value[2] > 0}}));
   for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(SupportAddPair(&support, &scene->pairs[p]));
+  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddTie(&support, &scene->ties[t]));
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
@@ -313,6 +345,10 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
+  }
+  for (PetscInt t = 0; t < scene->nties; ++t) {
+    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
+    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
   }
   PetscCall(SupportFindUnheld(dm, scene, NULL));
   PetscFunctionReturn(0);

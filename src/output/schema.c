@@ -78,6 +78,7 @@ static const ReportField body_fields[] = {
   FIELD(BodyReport, contact, FIELD_VECTOR, "force"),
   FIELD(BodyReport, reaction, FIELD_VECTOR, "force"),
   FIELD(BodyReport, springs, FIELD_VECTOR, "force"),
+  FIELD(BodyReport, ties, FIELD_VECTOR, "force"),
   FIELD(BodyReport, load, FIELD_VECTOR, "force"),
   FIELD(BodyReport, residual, FIELD_VECTOR, "force"),
   FIELD(BodyReport, balance, FIELD_REAL, ""),

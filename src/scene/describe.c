@@ -220,6 +220,14 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (scene->nties) PetscCall(PetscViewerASCIIPrintf(viewer, "Ties\n"));
+  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: nonmortar %s to mortar %s\n", scene->ties[t].name, scene->ties[t].nonmortar, scene->ties[t].mortar));
+  PetscFunctionReturn(0);
+}
+
 /* An error where one is in no body */
 static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
 {
@@ -348,6 +356,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
+  PetscCall(DescribeTies(scene, viewer));
   PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
   PetscCall(DescribeEffects(scene, viewer));

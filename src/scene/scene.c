@@ -116,6 +116,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadSprings(keys, s));
   PetscCall(SceneReadBodyForces(keys, s));
   PetscCall(SceneReadContact(keys, s));
+  PetscCall(SceneReadTies(keys, s));
   PetscCall(SceneReadProbes(keys, s));
   PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));
@@ -169,6 +170,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
   PetscCall(SceneDestroyTractions(s));
+  PetscCall(SceneDestroyTies(s));
   PetscCall(SceneDestroyProbes(s));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {

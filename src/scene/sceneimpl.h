@@ -101,6 +101,12 @@ PETSC_INTERN PetscErrorCode SceneDestroyTractions(Scene);
 /* contact.c */
 PETSC_INTERN PetscErrorCode SceneReadContact(SceneKeys, Scene);
 
+/* ties.c */
+PETSC_INTERN PetscErrorCode SceneReadTies(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneViewTie(Scene, PetscViewer, PetscInt tie);
+PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneDestroyTies(Scene);
+
 /* probes.c */
 PETSC_INTERN PetscErrorCode SceneReadProbes(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewProbe(Scene, PetscViewer, PetscInt probe);

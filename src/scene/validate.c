@@ -111,5 +111,6 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateRigid(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
+  PetscCall(SceneValidateTies(comm, file, scene));
   PetscFunctionReturn(0);
 }

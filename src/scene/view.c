@@ -167,6 +167,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(SceneViewTractions(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
   PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));
+  PetscCall(SceneViewEntries(scene, viewer, "ties", scene->nties, SceneViewTie));
   PetscCall(SceneViewEntries(scene, viewer, "probes", scene->nprobes, SceneViewProbe));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));

@@ -29,6 +29,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, u, report));
   else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, resume, u, report, sol));
   else PetscCall(OptimizerSolve(p, resume, u, report, sol));
+  if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
   PetscCall(LooseTest(p, u, report));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -39,6 +39,7 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
   PetscCall(ContactLinearize(sim->contact, sim->path.u, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
+  PetscCall(TiesGather(&sim->ties, pressure));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, pressure));
   PetscCall(VecNorm(load, NORM_2, &size));
   PetscCall(VecNorm(pressure, NORM_2, &contact));

@@ -16,6 +16,7 @@ typedef enum {
   EFFECT_BODY_FORCE,
   EFFECT_SPRINGS,
   EFFECT_WEAK_SPRINGS,
+  EFFECT_TIES,
   EFFECT_BOUNDS,
   EFFECT_ESTIMATE,
   EFFECT_RESULTS,
@@ -36,6 +37,7 @@ static const char *const EffectNames[] = {
   [EFFECT_BODY_FORCE]    = "body force",
   [EFFECT_SPRINGS]       = "springs",
   [EFFECT_WEAK_SPRINGS]  = "weak springs",
+  [EFFECT_TIES]          = "ties",
   [EFFECT_BOUNDS]        = "displacement bounds",
   [EFFECT_ESTIMATE]      = "error estimate",
   [EFFECT_RESULTS]       = "probes and fields",
@@ -86,6 +88,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0), "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
   PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces", scene->nsprings));
   PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0), scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set", sim->springs.nweak));
+  PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties > 0), "%" PetscInt_FMT " ties", scene->nties));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));

@@ -2,13 +2,27 @@
 #include "stepimpl.h"
 #include <math.h>
 
-PetscErrorCode EnergyObjective(Tao tao, Vec u, PetscReal *f, void *ctx)
+/* The bodies' displacements of an iterate, in p->w where those of tied faces follow others */
+static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
+{
+  PetscFunctionBegin;
+  *u = iterate;
+  if (!p->sim->ties.C) PetscFunctionReturn(0);
+  *u = p->w;
+  PetscCall(VecCopy(iterate, *u));
+  PetscCall(TiesFollow(&p->sim->ties, *u));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
 {
   StepProblem *p    = (StepProblem *)ctx;
   PetscScalar  work = 0.0;
+  Vec          u;
 
   PetscFunctionBegin;
   (void)tao;
+  PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -17,12 +31,14 @@ PetscErrorCode EnergyObjective(Tao tao, Vec u, PetscReal *f, void *ctx)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec u, PetscReal *f, Vec G, void *ctx)
+PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
 {
   StepProblem *p = (StepProblem *)ctx;
+  Vec          u;
 
   PetscFunctionBegin;
-  PetscCall(EnergyObjective(tao, u, f, ctx));
+  PetscCall(EnergyObjective(tao, iterate, f, ctx));
+  PetscCall(EnergyGetState(p, iterate, &u));
   if (PetscIsInfOrNanReal(*f)) {
     PetscCall(VecZeroEntries(G));
     PetscFunctionReturn(0);
@@ -31,18 +47,21 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec u, PetscReal *f, Vec G, v
   PetscCall(ElasticityForce(p->sim->elasticity, u, G));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
+  PetscCall(TiesGather(&p->sim->ties, G));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, G));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode EnergyHessian(Tao tao, Vec u, Mat H, Mat Hpre, void *ctx)
+PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
   StepProblem *p = (StepProblem *)ctx;
+  Vec          u;
 
   PetscFunctionBegin;
   (void)tao, (void)Hpre;
+  PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityTangent(p->sim->elasticity, u, H));
+  PetscCall(TiesTangent(p->sim, u, H));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

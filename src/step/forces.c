@@ -271,8 +271,8 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* From the pairs and faces as they are reported, the springs and the loads; NULL: there are none */
-PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, StepReport *report)
+/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none */
+PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, const PetscReal ties[], StepReport *report)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
@@ -288,6 +288,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, StepReport *
   }
   if (load) PetscCall(ForcesSumLoads(sim, load, report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
+  for (PetscInt b = 0; ties && b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &ties[3 * b]));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];

@@ -85,6 +85,23 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* Forces on tied rows go to the others; ties: what that is on each body, 3 numbers, NULL where no faces are tied */
+static PetscErrorCode MeasureTies(Simulation sim, Vec force, PetscReal **ties)
+{
+  Vec whole;
+
+  PetscFunctionBegin;
+  *ties = NULL;
+  if (!sim->ties.C) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(3 * sim->scene->nbodies, ties));
+  PetscCall(VecDuplicate(force, &whole));
+  PetscCall(VecCopy(force, whole));
+  PetscCall(TiesGather(&sim->ties, force));
+  PetscCall(TiesMeasure(sim, whole, force, *ties));
+  PetscCall(VecDestroy(&whole));
+  PetscFunctionReturn(0);
+}
+
 /*
    All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
    = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization error
@@ -93,7 +110,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
 {
   Simulation sim = p->sim;
   Vec        force, contact, weighted = NULL;
-  PetscReal  size, residual;
+  PetscReal  size, residual, *ties;
 
   PetscFunctionBegin;
   PetscCall(ForcesReserve(sim, report));
@@ -113,10 +130,12 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));
   }
+  PetscCall(MeasureTies(sim, force, &ties));
   PetscCall(WorkAdd(p, u, force, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, report));
-  PetscCall(ForcesMeasureBodies(sim, u, p->load, report));
+  PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, report));
+  PetscCall(PetscFree(ties));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;

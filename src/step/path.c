@@ -35,6 +35,7 @@ PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
   PetscCall(VecAXPY(u, ratio, sim->path.u));
   PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
   PetscCall(PrescribedApply(&sim->prescribed, time, u));
+  PetscCall(TiesFollow(&sim->ties, u));
   PetscFunctionReturn(0);
 }
 

@@ -20,6 +20,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path.u, &p->w));
   PetscCall(VecCopy(sim->path.u, p->base));
   PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
+  PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
@@ -27,7 +28,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
+  if (!linear) PetscCall(TiesTangent(sim, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -36,6 +37,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
     PetscCall(VecAXPY(p->force, -1.0, p->load));
   }
   p->energy -= PetscRealPart(work);
+  PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);
 }
@@ -51,7 +53,8 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecDuplicate(lin->g, &p->g));
   PetscCall(VecWAXPY(p->w, -1.0, u_linearized, p->base));
   PetscCall(MatMultAdd(lin->J, p->w, lin->g, p->g));
-  PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &p->J));
+  if (p->sim->ties.C) PetscCall(MatMatMult(lin->J, p->sim->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &p->J));
+  else PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &p->J));
   PetscCall(VecDuplicate(p->base, &mask));
   PetscCall(VecSet(mask, 1.0));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
@@ -72,6 +75,8 @@ PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
   PetscCall(VecShift(p->upper, increment));
   PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_NINFINITY, p->lower));
   PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_INFINITY, p->upper));
+  PetscCall(TiesSet(&p->sim->ties, PETSC_NINFINITY, p->lower));
+  PetscCall(TiesSet(&p->sim->ties, PETSC_INFINITY, p->upper));
   PetscFunctionReturn(0);
 }
 

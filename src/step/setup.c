@@ -29,9 +29,10 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
   PetscCall(SpringsCreate(sim));
   PetscCall(StiffnessSetType(sim));
+  PetscCall(TiesCreate(sim));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->K));
-  if (linear) PetscCall(ElasticityTangent(sim->elasticity, sim->path.u, sim->K));
+  PetscCall(TiesCreateTangent(sim, &sim->K));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(sim, sim->path.u, sim->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -242,6 +242,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
   PetscCall(SpringsDestroy(&s->springs));
+  PetscCall(TiesDestroy(&s->ties));
   PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));
   PetscCall(PetscContainerDestroy(&s->subspace));

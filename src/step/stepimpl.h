@@ -143,6 +143,13 @@ typedef struct {
   PetscLogDouble begun, reached, said;
 } Progress;
 
+/* Of ties.c: the displacements of tied rows in terms of the others; C NULL where no faces are tied */
+typedef struct {
+  Mat      C, K; /* u = C x; stiffness of the bodies, K of the simulation being C^T K C */
+  PetscInt n, *rows;
+  Vec      work;
+} Ties;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -153,6 +160,7 @@ struct _n_Simulation {
   Prescribed           prescribed;
   DeadLoads            loads;
   Springs              springs;
+  Ties                 ties;
   VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
@@ -182,9 +190,20 @@ struct _n_Simulation {
   RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
 
+/* springs.c */
 PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
+
+/* ties.c */
+PETSC_INTERN PetscErrorCode TiesCreate(Simulation);
+PETSC_INTERN PetscErrorCode TiesCreateTangent(Simulation, Mat *);
+PETSC_INTERN PetscErrorCode TiesTangent(Simulation, Vec u, Mat);
+PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
+PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
+PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
+PETSC_INTERN PetscErrorCode TiesMeasure(Simulation, Vec force, Vec gathered, PetscReal bodies[]);
+PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 
 /* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
@@ -291,7 +310,7 @@ PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, const PetscReal ties[], StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */

@@ -1,0 +1,228 @@
+/*
+   Ties: the displacement of a nonmortar vertex A is that of the mortar face in the mean, weighted by the dual function psi_A,
+     u_A = sum_C int psi_A N2_C / int psi_A  u_C,    int psi_A N1_B = delta_AB int N1_B,
+   of undeformed faces. psi_A is a combination of the bilinear functions of each facet, over what of it is covered.
+*/
+#include "contactimpl.h"
+
+/* What a facet may be left uncovered by, in all and at a vertex: rounding, or the sagitta of curved faces */
+static const PetscReal tie_uncovered = 1e-3, tie_uncovered_vertex = 0.3;
+
+/* What is added up: rows of nodes, and of each [covered, whole] area */
+typedef struct {
+  PetscInt     n, size, *row, *column;
+  PetscScalar *value;
+  Vec          covered, whole;
+} TieSums;
+
+static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, PetscReal value)
+{
+  PetscFunctionBegin;
+  if (sums->n == sums->size) {
+    sums->size = 2 * sums->size + 1024;
+    PetscCall(PetscRealloc(sums->size * sizeof(PetscInt), &sums->row));
+    PetscCall(PetscRealloc(sums->size * sizeof(PetscInt), &sums->column));
+    PetscCall(PetscRealloc(sums->size * sizeof(PetscScalar), &sums->value));
+  }
+  sums->row[sums->n]     = row;
+  sums->column[sums->n]  = column;
+  sums->value[sums->n++] = value;
+  PetscFunctionReturn(0);
+}
+
+/* a = diag(w) mass^-1, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is covered by next to nothing */
+static PetscBool TieDual(const PetscReal mass[4][4], PetscReal a[4][4])
+{
+  PetscReal m[4][8];
+
+  for (PetscInt i = 0; i < 4; ++i) {
+    for (PetscInt j = 0; j < 4; ++j) {
+      m[i][j]     = mass[i][j];
+      m[i][4 + j] = i == j ? 1.0 : 0.0;
+    }
+  }
+  for (PetscInt k = 0; k < 4; ++k) {
+    PetscInt pivot = k;
+
+    for (PetscInt i = k + 1; i < 4; ++i) pivot = PetscAbsReal(m[i][k]) > PetscAbsReal(m[pivot][k]) ? i : pivot;
+    if (!(PetscAbsReal(m[pivot][k]) > 0.0)) return PETSC_FALSE;
+    for (PetscInt j = 0; j < 8; ++j) {
+      const PetscReal swap = m[k][j];
+
+      m[k][j]     = m[pivot][j];
+      m[pivot][j] = swap;
+    }
+    for (PetscInt j = 7; j >= k; --j) m[k][j] /= m[k][k];
+    for (PetscInt i = 0; i < 4; ++i) {
+      for (PetscInt j = 7; i != k && j >= k; --j) m[i][j] -= m[i][k] * m[k][j];
+    }
+  }
+  for (PetscInt i = 0; i < 4; ++i) {
+    const PetscReal w = mass[i][0] + mass[i][1] + mass[i][2] + mass[i][3];
+
+    for (PetscInt j = 0; j < 4; ++j) a[i][j] = w * m[i][4 + j];
+  }
+  return PETSC_TRUE;
+}
+
+/* One nonmortar facet against the candidates near it */
+static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits, const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
+{
+  const PetscReal  zero[12] = {0.0}, *x = &nonmortar->x[12 * f];
+  const PetscInt  *node       = &nonmortar->node[4 * f];
+  PetscReal        mass[4][4] = {{0.0}}, dual[4][4], whole[4];
+  PetscScalar      areas[2][4];
+  ContactIntegrals m;
+  ContactOverlap   overlap;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < nnear; ++k) {
+    if (!ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) continue;
+    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
+    for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += m.D[a / 4][a % 4];
+  }
+  (void)ContactFacetMass(x, whole);
+  for (PetscInt a = 0; a < 4; ++a) {
+    areas[0][a] = mass[a][0] + mass[a][1] + mass[a][2] + mass[a][3];
+    areas[1][a] = whole[a];
+  }
+  PetscCall(VecSetValues(sums->covered, 4, node, areas[0], ADD_VALUES));
+  PetscCall(VecSetValues(sums->whole, 4, node, areas[1], ADD_VALUES));
+  if (!TieDual(mass, dual)) PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < nnear; ++k) {
+    if (!ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) continue;
+    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
+    for (PetscInt a = 0; a < 4; ++a) {
+      for (PetscInt c = 0; c < 4; ++c) {
+        PetscReal value = 0.0;
+
+        for (PetscInt b = 0; b < 4; ++b) value += dual[a][b] * m.M[b][c];
+        if (value != 0.0) PetscCall(TieSumsAdd(sums, node[a], mortar->node[4 * near[k] + c], value));
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, const ContactSurface *nonmortar, PetscReal distance, TieSums *sums)
+{
+  const ContactOverlapLimits limits = {.cosine = -0.5, .overlap_drop = 1e-10, .distance = distance, .depth = distance};
+  PetscReal                  box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+  ContactRule                rule;
+  ContactCandidates          candidates;
+  ContactNear                near;
+
+  PetscFunctionBegin;
+  PetscCall(ContactRuleCreate(4, &rule));
+  for (PetscInt f = 0; f < nonmortar->nfacets; ++f) {
+    PetscReal swept[6];
+
+    ContactSweptBox(&nonmortar->x[12 * f], distance, distance, swept);
+    for (PetscInt c = 0; c < 3; ++c) {
+      box[c]     = PetscMin(box[c], swept[c]);
+      box[3 + c] = PetscMax(box[3 + c], swept[3 + c]);
+    }
+  }
+  PetscCall(ContactExchange(comm, box, mortar, &candidates));
+  PetscCall(ContactSearch(nonmortar, distance, distance, &candidates, &near));
+  for (PetscInt f = 0; f < nonmortar->nfacets; ++f) PetscCall(TieAddFacet(nonmortar, f, &limits, &rule, &candidates, near.offset[f + 1] - near.offset[f], near.facet + near.offset[f], sums));
+  PetscCall(ContactNearDestroy(&near));
+  PetscCall(ContactCandidatesDestroy(&candidates));
+  PetscFunctionReturn(0);
+}
+
+/* Rows of nodes divided by the covered areas; error where the nonmortar face reaches beyond the mortar one */
+static PetscErrorCode TieFinish(MPI_Comm comm, const SceneTie *tie, TieSums *sums, Mat *rows)
+{
+  PetscScalar *covered;
+  PetscReal    least = 1.0, areas[2] = {0.0, 0.0};
+  PetscInt     n;
+
+  const PetscScalar *whole;
+
+  PetscFunctionBegin;
+  PetscCall(VecAssemblyBegin(sums->covered));
+  PetscCall(VecAssemblyEnd(sums->covered));
+  PetscCall(VecAssemblyBegin(sums->whole));
+  PetscCall(VecAssemblyEnd(sums->whole));
+  PetscCall(VecGetLocalSize(sums->covered, &n));
+  PetscCall(MatCreate(comm, rows));
+  PetscCall(MatSetSizes(*rows, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*rows, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(*rows, sums->n, sums->row, sums->column));
+  PetscCall(MatSetValuesCOO(*rows, sums->value, INSERT_VALUES));
+  PetscCall(VecGetArray(sums->covered, &covered));
+  PetscCall(VecGetArrayRead(sums->whole, &whole));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (!(PetscRealPart(whole[i]) > 0.0)) continue;
+    areas[0] += PetscRealPart(covered[i]);
+    areas[1] += PetscRealPart(whole[i]);
+    least      = PetscMin(least, PetscRealPart(covered[i] / whole[i]));
+    covered[i] = PetscRealPart(covered[i]) > 0.0 ? 1.0 / covered[i] : 0.0;
+  }
+  PetscCall(VecRestoreArrayRead(sums->whole, &whole));
+  PetscCall(VecRestoreArray(sums->covered, &covered));
+  PetscCall(MatDiagonalScale(*rows, sums->covered, NULL));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
+  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm, PETSC_ERR_USER_INPUT, "tie \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange the two, or cut it to size under faces", tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  ContactTieCreate - The displacements of the vertices of one face as means of those of another that it is tied to
+
+  Collective
+
+  Input Parameters:
++ dm  - the mesh
+- tie - the two faces
+
+  Output Parameter:
+. rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar face's, and sum to 1; the others are empty
+
+  Level: intermediate
+
+  Note:
+  It is an error where the mortar face does not cover the nonmortar one, undeformed.
+
+.seealso: `ContactCreate()`
+@*/
+PetscErrorCode ContactTieCreate(DM dm, const SceneTie *tie, Mat *rows)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  ContactBoundary boundary;
+  ContactSurface  mortar = {0}, nonmortar = {0};
+  TieSums         sums = {0};
+  PetscReal      *thickness, distance;
+  PetscInt        n, total;
+  Vec             u;
+
+  PetscFunctionBegin;
+  PetscCall(ContactEventsRegister());
+  PetscCall(ContactBoundaryCreate(dm, &boundary));
+  PetscCall(PetscCalloc1(boundary.nbodies, &thickness));
+  PetscCall(ContactBoundaryDestroy(&boundary));
+  PetscCall(ContactSurfaceCreate(dm, tie->mortar, thickness, &mortar));
+  PetscCall(ContactSurfaceCreate(dm, tie->nonmortar, thickness, &nonmortar));
+  PetscCall(PetscFree(thickness));
+  PetscCall(PetscArraycpy(mortar.x, mortar.reference, 12 * mortar.nfacets));
+  PetscCall(PetscArraycpy(nonmortar.x, nonmortar.reference, 12 * nonmortar.nfacets));
+  PetscCallMPI(MPI_Allreduce(&nonmortar.nfacets, &total, 1, MPIU_INT, MPI_SUM, comm));
+  distance = tie->distance > 0.0 ? tie->distance : 0.5 * PetscSqrtReal(nonmortar.area / (PetscReal)total);
+  PetscCall(DMGetGlobalVector(dm, &u));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(DMRestoreGlobalVector(dm, &u));
+  PetscCall(VecCreateMPI(comm, n / 3, PETSC_DETERMINE, &sums.covered));
+  PetscCall(VecDuplicate(sums.covered, &sums.whole));
+  PetscCall(TieAddFacets(comm, &mortar, &nonmortar, distance, &sums));
+  PetscCall(TieFinish(comm, tie, &sums, rows));
+  PetscCall(VecDestroy(&sums.covered));
+  PetscCall(VecDestroy(&sums.whole));
+  PetscCall(PetscFree(sums.row));
+  PetscCall(PetscFree(sums.column));
+  PetscCall(PetscFree(sums.value));
+  PetscCall(ContactSurfaceDestroy(&mortar));
+  PetscCall(ContactSurfaceDestroy(&nonmortar));
+  PetscFunctionReturn(0);
+}

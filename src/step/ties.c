@@ -1,0 +1,284 @@
+/*
+   Tied faces: the nonmortar vertices' displacements are those that the mortar faces give them, u = C x, and no unknowns. x is u with other numbers
+   at their rows, which mean nothing: energy, forces and gaps are those of C x, forces C^T f, the stiffness C^T K C with a diagonal in those rows.
+   Prescribed rows are not tied.
+*/
+#include "stepimpl.h"
+
+/* Whether a local row is prescribed */
+static PetscErrorCode TiesMarkPrescribed(Simulation sim, PetscInt rstart, PetscBool prescribed[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->prescribed.n; ++k) prescribed[sim->prescribed.rows[k] - rstart] = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Adds up the ties; tied: which one owns a node, -1 none */
+static PetscErrorCode TiesCollect(Simulation sim, Mat *all, PetscInt tied[])
+{
+  MPI_Comm comm = sim->comm;
+
+  PetscFunctionBegin;
+  *all = NULL;
+  for (PetscInt t = 0; t < sim->scene->nties; ++t) {
+    const SceneTie *tie = &sim->scene->ties[t];
+    PetscInt        start, end, twice = -1;
+    Mat             rows;
+
+    PetscCall(ContactTieCreate(sim->dm, tie, &rows));
+    PetscCall(MatGetOwnershipRange(rows, &start, &end));
+    for (PetscInt i = start; i < end; ++i) {
+      PetscInt n;
+
+      PetscCall(MatGetRow(rows, i, &n, NULL, NULL));
+      if (n && tied[i - start] >= 0) twice = tied[i - start];
+      if (n) tied[i - start] = t;
+      PetscCall(MatRestoreRow(rows, i, &n, NULL, NULL));
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
+    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT, "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them", sim->scene->ties[twice].name, tie->name);
+    if (*all) {
+      PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
+      PetscCall(MatDestroy(&rows));
+    } else *all = rows;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A node that others are tied to must not be tied itself */
+static PetscErrorCode TiesCheckChains(Simulation sim, Mat all, const PetscInt tied[])
+{
+  Vec                is_tied, held;
+  PetscScalar       *a;
+  const PetscScalar *h;
+  PetscInt           n, chained = -1;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(all, &is_tied, &held));
+  PetscCall(VecGetLocalSize(is_tied, &n));
+  PetscCall(VecGetArray(is_tied, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = tied[i] >= 0 ? 1.0 : 0.0;
+  PetscCall(VecRestoreArray(is_tied, &a));
+  PetscCall(MatMult(all, is_tied, held));
+  PetscCall(VecGetArrayRead(held, &h));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (PetscAbsScalar(h[i]) > 1e-12) chained = tied[i];
+  }
+  PetscCall(VecRestoreArrayRead(held, &h));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
+  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties", sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
+  PetscCall(VecDestroy(&is_tied));
+  PetscCall(VecDestroy(&held));
+  PetscFunctionReturn(0);
+}
+
+/* C, and the rows that are tied; all: of nodes */
+static PetscErrorCode TiesExpand(Simulation sim, Mat all, const PetscInt tied[])
+{
+  Ties      *ties = &sim->ties;
+  PetscInt   nlocal, rstart, start, end, longest = 1;
+  PetscBool *prescribed;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(all, &start, &end));
+  PetscCall(PetscCalloc1(nlocal, &prescribed));
+  PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
+  PetscCall(PetscMalloc1(nlocal, &ties->rows));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
+    longest = PetscMax(longest, n);
+    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
+  }
+  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, &ties->C));
+  PetscCall(MatSetBlockSizes(ties->C, 3, 3));
+  for (PetscInt i = 0; i < nlocal; ++i) {
+    const PetscInt     row = rstart + i, node = i / 3;
+    PetscInt           n;
+    const PetscInt    *columns;
+    const PetscScalar *values;
+
+    if (tied[node] < 0 || prescribed[i]) {
+      PetscCall(MatSetValue(ties->C, row, row, 1.0, INSERT_VALUES));
+      continue;
+    }
+    ties->rows[ties->n++] = row;
+    PetscCall(MatGetRow(all, start + node, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k) {
+      if (PetscAbsScalar(values[k]) > 1e-14) PetscCall(MatSetValue(ties->C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
+    }
+    PetscCall(MatRestoreRow(all, start + node, &n, &columns, &values));
+  }
+  PetscCall(MatAssemblyBegin(ties->C, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(ties->C, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(prescribed));
+  PetscFunctionReturn(0);
+}
+
+/* After the prescribed rows, before the stiffness */
+PetscErrorCode TiesCreate(Simulation sim)
+{
+  PetscInt n, *tied;
+  Mat      all;
+
+  PetscFunctionBegin;
+  if (!sim->scene->nties) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(PetscMalloc1(n / 3, &tied));
+  for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
+  PetscCall(TiesCollect(sim, &all, tied));
+  PetscCall(TiesCheckChains(sim, all, tied));
+  PetscCall(TiesExpand(sim, all, tied));
+  PetscCall(MatDestroy(&all));
+  PetscCall(PetscFree(tied));
+  PetscCall(VecDuplicate(sim->path.u, &sim->ties.work));
+  PetscCall(ElasticitySetMatType(sim->elasticity, MATAIJ));
+  PetscFunctionReturn(0);
+}
+
+/* u = C u: the tied rows follow the others */
+PetscErrorCode TiesFollow(const Ties *ties, Vec u)
+{
+  PetscFunctionBegin;
+  if (!ties->C) PetscFunctionReturn(0);
+  PetscCall(VecCopy(u, ties->work));
+  PetscCall(MatMult(ties->C, ties->work, u));
+  PetscFunctionReturn(0);
+}
+
+/* f = C^T f: forces on the tied rows go to the others */
+PetscErrorCode TiesGather(const Ties *ties, Vec f)
+{
+  PetscFunctionBegin;
+  if (!ties->C) PetscFunctionReturn(0);
+  PetscCall(VecCopy(f, ties->work));
+  PetscCall(MatMultTranspose(ties->C, ties->work, f));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
+{
+  PetscScalar *a;
+  PetscInt     rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < ties->n; ++k) a[ties->rows[k] - rstart] = value;
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Prescribed and tied rows and columns hold nothing but the diagonal that they had */
+static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
+{
+  const Ties        *ties = &sim->ties;
+  PetscInt           rstart;
+  Vec                now;
+  PetscScalar       *d;
+  const PetscScalar *old;
+
+  PetscFunctionBegin;
+  PetscCall(MatZeroRowsColumns(tied, sim->prescribed.n, sim->prescribed.rows, 0.0, NULL, NULL));
+  PetscCall(VecDuplicate(diagonal, &now));
+  PetscCall(MatGetDiagonal(tied, now));
+  PetscCall(VecGetOwnershipRange(now, &rstart, NULL));
+  PetscCall(VecGetArray(now, &d));
+  PetscCall(VecGetArrayRead(diagonal, &old));
+  for (PetscInt k = 0; k < sim->prescribed.n; ++k) d[sim->prescribed.rows[k] - rstart] = old[sim->prescribed.rows[k] - rstart];
+  for (PetscInt k = 0; k < ties->n; ++k) d[ties->rows[k] - rstart] = old[ties->rows[k] - rstart];
+  PetscCall(VecRestoreArrayRead(diagonal, &old));
+  PetscCall(VecRestoreArray(now, &d));
+  PetscCall(MatDiagonalSet(tied, now, INSERT_VALUES));
+  PetscCall(VecDestroy(&now));
+  PetscFunctionReturn(0);
+}
+
+/* C^T K C, with a place for every diagonal entry: that of the tied rows is not among the products */
+static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
+{
+  PetscInt start, end;
+  Mat      identity;
+
+  PetscFunctionBegin;
+  PetscCall(MatPtAP(ties->K, ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  PetscCall(VecGetOwnershipRange(diagonal, &start, &end));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)diagonal), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &identity));
+  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(identity, i, i, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(identity, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(identity, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAXPY(*tied, 1.0, identity, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatAXPY(*tied, -1.0, identity, SUBSET_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&identity));
+  PetscFunctionReturn(0);
+}
+
+/* The bodies' stiffness at u, of the tied displacements where faces are tied */
+PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
+{
+  Ties *ties = &sim->ties;
+  Vec   diagonal;
+  Mat   tied;
+
+  PetscFunctionBegin;
+  if (!ties->C) {
+    PetscCall(ElasticityTangent(sim->elasticity, u, K));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ElasticityTangent(sim->elasticity, u, ties->K));
+  PetscCall(VecDuplicate(u, &diagonal));
+  PetscCall(MatGetDiagonal(ties->K, diagonal));
+  PetscCall(TiesMultiply(ties, diagonal, &tied));
+  PetscCall(TiesClearRows(sim, diagonal, tied));
+  PetscCall(MatSetBlockSize(tied, 3));
+  PetscCall(MatSetOption(tied, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetOption(tied, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  PetscCall(MatHeaderReplace(K, &tied));
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(0);
+}
+
+/* The stiffness that solvers have, and where faces are tied that of the bodies as they are, in ties.K */
+PetscErrorCode TiesCreateTangent(Simulation sim, Mat *K)
+{
+  PetscBool aij;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityCreateTangent(sim->elasticity, K));
+  if (!sim->ties.C) PetscFunctionReturn(0);
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)*K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  PetscCheck(aij, sim->comm, PETSC_ERR_SUP, "-elasticity_mat_type: where faces are tied the stiffness is of type aij");
+  sim->ties.K = *K;
+  PetscCall(MatDuplicate(sim->ties.K, MAT_DO_NOT_COPY_VALUES, K));
+  PetscFunctionReturn(0);
+}
+
+/* Forces f on all rows, and what of them is left once the tied ones have been gathered: the ties' forces on the bodies are the difference, added 3 a body */
+PetscErrorCode TiesMeasure(Simulation sim, Vec f, Vec gathered, PetscReal bodies[])
+{
+  const PetscScalar *a, *b;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(f, &n));
+  PetscCall(VecGetArrayRead(f, &a));
+  PetscCall(VecGetArrayRead(gathered, &b));
+  for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i] - b[i]);
+  PetscCall(VecRestoreArrayRead(gathered, &b));
+  PetscCall(VecRestoreArrayRead(f, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TiesDestroy(Ties *ties)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&ties->C));
+  PetscCall(MatDestroy(&ties->K));
+  PetscCall(VecDestroy(&ties->work));
+  PetscCall(PetscFree(ties->rows));
+  PetscFunctionReturn(0);
+}
