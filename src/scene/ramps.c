@@ -15,6 +15,7 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
 {
   const char *steps, *factors;
   char      **words;
+  PetscBool   program;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
@@ -35,6 +36,7 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
+    PetscCall(SceneReadProgram(keys, "load", scene->nsteps, ramp->factor, &program));
   }
   if (scene->nsteps < 1) PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
@@ -42,16 +44,20 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
 
 static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *ramp)
 {
-  char        key[SCENE_KEY_LENGTH];
+  char        key[SCENE_KEY_LENGTH], owner[SCENE_KEY_LENGTH];
   const char *text;
-  PetscBool   reserved;
+  PetscBool   reserved, program;
 
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
   if (reserved) PetscCall(SceneKeysComplain(keys, "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
-  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
+  PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
+  PetscCall(SceneReadProgram(keys, owner, nsteps, ramp->factor, &program));
+  if (!text && !program) PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values", ramp->name));
+  if (text && program) PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
   if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
   PetscFunctionReturn(0);
 }

@@ -49,6 +49,12 @@ PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 PETSC_INTERN PetscErrorCode SceneViewList(PetscViewer, PetscInt n, const PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
 
+/* expression.c: a number that follows time */
+PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscInt nsteps, PetscReal *);
+
+/* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one or the other below the key */
+PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[], PetscBool *found);
+
 /* ramps.c: the load and the other ramps; which one follows a list's entry; all of them in another number of steps */
 #define SCENE_LOAD_RAMP "load" /* ramp 0: the load itself */
 #define SCENE_MAX_STEPS 1000000

@@ -200,11 +200,15 @@ static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
 /* C^T K C, with a place for every diagonal entry: that of the tied rows is not among the products */
 static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
 {
-  PetscInt start, end;
-  Mat      identity;
+  PetscInt  start, end;
+  PetscBool aij;
+  Mat       identity, K = ties->K;
 
   PetscFunctionBegin;
-  PetscCall(MatPtAP(ties->K, ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
+  PetscCall(MatPtAP(K, ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  if (!aij) PetscCall(MatDestroy(&K));
   PetscCall(VecGetOwnershipRange(diagonal, &start, &end));
   PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)diagonal), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &identity));
   for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(identity, i, i, 1.0, INSERT_VALUES));
@@ -241,16 +245,12 @@ PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* The stiffness that solvers have, and where faces are tied that of the bodies as they are, in ties.K */
+/* The stiffness that solvers have, AIJ where faces are tied; that of the bodies as they are is in ties.K then */
 PetscErrorCode TiesCreateTangent(Simulation sim, Mat *K)
 {
-  PetscBool aij;
-
   PetscFunctionBegin;
   PetscCall(ElasticityCreateTangent(sim->elasticity, K));
   if (!sim->ties.C) PetscFunctionReturn(0);
-  PetscCall(PetscObjectTypeCompareAny((PetscObject)*K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  PetscCheck(aij, sim->comm, PETSC_ERR_SUP, "-elasticity_mat_type: where faces are tied the stiffness is of type aij");
   sim->ties.K = *K;
   PetscCall(MatDuplicate(sim->ties.K, MAT_DO_NOT_COPY_VALUES, K));
   PetscFunctionReturn(0);
