@@ -202,6 +202,7 @@ typedef enum {
 
 typedef struct {
   const char     *problem;
+  const char     *units; /* "" where the scene does not say them */
   PetscInt        ranks, dofs, refine;
   PetscBool       converged;
   const char     *reason;

@@ -178,6 +178,7 @@ typedef struct {
 
 typedef struct {
   char              *name;
+  char              *units; /* a note for tables; NULL: not said */
   PetscInt           nbodies;
   SceneBody         *bodies;
   PetscInt           ndisplacements;

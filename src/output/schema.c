@@ -209,6 +209,7 @@ static const ReportRecord SchemaMemory = {sizeof(RunMemory), PETSC_FALSE, memory
 
 static const ReportField run_fields[] = {
   FIELD(RunReport, problem, FIELD_TEXT, ""),
+  FIELD(RunReport, units, FIELD_TEXT, ""),
   FIELD(RunReport, ranks, FIELD_INT, ""),
   FIELD(RunReport, dofs, FIELD_INT, ""),
   FIELD(RunReport, refine, FIELD_INT, ""),

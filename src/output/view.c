@@ -161,7 +161,9 @@ PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
 PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
+  if (report->units && report->units[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "Units: %s\n", report->units));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewSteps(report, TABLE_WORK, 2, viewer));
   PetscCall(ViewFactored(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));

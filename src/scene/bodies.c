@@ -37,7 +37,7 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
-  PetscInt    type = MATERIAL_LINEAR;
+  PetscBool   listed = PETSC_FALSE;
   const struct {
     const char *name;
     PetscReal  *value;
@@ -49,15 +49,14 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_material", body->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (text) PetscCall(SceneParseEnum(keys, key, text, MaterialTypes, &type));
-  body->material.type = (MaterialType)type;
-  if (type == MATERIAL_RIGID) {
+  if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
+  if (body->material.type == MATERIAL_RIGID) {
     PetscCall(SceneRefuseOfRigid(keys, body));
     PetscFunctionReturn(0);
   }
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(constants); ++i) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_%s", body->name, constants[i].name));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+    PetscCall(SceneKeysGet(keys, (PetscBool)!listed, &text, "%s", key));
     if (text) PetscCall(SceneParseReal(keys, key, text, constants[i].value));
   }
   PetscFunctionReturn(0);

@@ -352,6 +352,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Scene %s\n", scene->name));
+  if (scene->units) PetscCall(PetscViewerASCIIPrintf(viewer, "Units %s\n", scene->units));
   PetscCall(DescribeBodies(scene, dm, viewer));
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));

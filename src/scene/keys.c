@@ -142,6 +142,8 @@ PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < (*keys)->nasked; ++i) PetscCall(PetscFree((*keys)->asked[i]));
   PetscCall(PetscFree((*keys)->asked));
+  for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
+  PetscCall(PetscFree((*keys)->materials));
   PetscCall(PetscOptionsDestroy(&(*keys)->options));
   PetscCall(PetscFree(*keys));
   PetscFunctionReturn(0);

@@ -107,6 +107,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(PetscNew(&s));
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadProblem(keys, s));
+  PetscCall(SceneReadMaterials(keys, s));
   PetscCall(SceneReadBodies(keys, s));
   PetscCall(SceneReadFaces(keys, s));
   PetscCall(SceneReadDisplacements(keys, s));
@@ -178,6 +179,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
     PetscCall(PetscFree(s->ramps[r].factor));
   }
   PetscCall(PetscFree(s->ramps));
+  PetscCall(PetscFree(s->units));
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree(*scene));
   PetscFunctionReturn(0);

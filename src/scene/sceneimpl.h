@@ -17,12 +17,20 @@ PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[]);
    over is misspelt. A bad or missing value is kept, not raised: a misspelt key is the better explanation of it.
 */
 typedef struct {
+  char    *name;
+  Material material;
+} SceneMaterial;
+
+typedef struct {
   MPI_Comm     comm;
   const char  *file;
   PetscOptions options;
   PetscInt     nasked, maxasked;
   char       **asked;
   char         complaint[1024]; /* the first; empty if none */
+
+  PetscInt       nmaterials; /* that have names, once they are read */
+  SceneMaterial *materials;
 } * SceneKeys;
 
 #define SCENE_KEY_LENGTH 256
@@ -62,10 +70,15 @@ PETSC_INTERN PetscErrorCode SceneReadRamps(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadRampName(SceneKeys, Scene, const char list[], const char name[], PetscInt *ramp);
 PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
-/* shapes.c: shape, level 0 and mesh file of a body */
+/* shapes.c: shape, level 0 and mesh file of a body; a file's name, relative to the folder of the scene */
+PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyShape(SceneBody *);
+
+/* materials.c: units, materials by name; that of a body, and whether it is one of them rather than a law */
+PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed, Material *);
 
 /* bodies.c: the bodies; the one that an entry of a list names */
 PETSC_INTERN PetscErrorCode SceneReadBodies(SceneKeys, Scene);

@@ -143,7 +143,7 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
 }
 
 /* A file's name is relative to the folder of the scene */
-static PetscErrorCode SceneResolveMesh(const char scene[], char **file)
+PetscErrorCode SceneResolveFile(const char scene[], char **file)
 {
   const char *slash = strrchr(scene, '/');
   char        path[PETSC_MAX_PATH_LEN];
@@ -198,7 +198,7 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
       for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
     }
   }
-  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveMesh(keys->file, &body->gmsh.file));
+  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
   if (body->shape != SHAPE_BOX) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));

@@ -160,6 +160,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "problem: %s\n", scene->name));
+  if (scene->units) PetscCall(PetscViewerASCIIPrintf(viewer, "units: %s\n", scene->units));
   PetscCall(SceneViewEntries(scene, viewer, "bodies", scene->nbodies, SceneViewBody));
   PetscCall(SceneViewFaces(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "displacements", scene->ndisplacements, SceneViewDisplacement));

@@ -61,6 +61,7 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
   report->ranks = size;
   PetscCall(VecGetSize(sim->path.u, &report->dofs));
   report->problem   = scene->name;
+  report->units     = scene->units ? scene->units : "";
   report->refine    = scene->refine;
   report->converged = PETSC_TRUE;
   report->reason    = "all load steps converged";
