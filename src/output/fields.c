@@ -63,8 +63,8 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices */
-static PetscErrorCode FieldsWriteIndices(Output output, const char name[], PetscInt components, PetscInt *indices, PetscViewer viewer)
+/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices. The mesh keeps it for the next file */
+static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt components, PetscInt *indices)
 {
   IS          is;
   PetscLayout layout;
@@ -74,12 +74,12 @@ static PetscErrorCode FieldsWriteIndices(Output output, const char name[], Petsc
   PetscCall(ISGetLayout(is, &layout));
   PetscCall(PetscLayoutSetBlockSize(layout, components));
   PetscCall(PetscObjectSetName((PetscObject)is, name));
-  PetscCall(ISView(is, viewer));
+  PetscCall(PetscObjectCompose((PetscObject)output->dm, name, (PetscObject)is));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
+static PetscErrorCode FieldsNumberCells(Output output)
 {
   PetscSection global;
   DMLabel      label;
@@ -100,8 +100,22 @@ static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
       PetscCall(DMLabelGetValue(label, c, &bodies[at]));
     }
   }
-  PetscCall(FieldsWriteIndices(output, "cells", 8, cells, viewer));
-  PetscCall(FieldsWriteIndices(output, "body", 1, bodies, viewer));
+  PetscCall(FieldsKeepIndices(output, "cells", 8, cells));
+  PetscCall(FieldsKeepIndices(output, "body", 1, bodies));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
+{
+  IS cells, body;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, "cells", (PetscObject *)&cells));
+  if (!cells) PetscCall(FieldsNumberCells(output));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, "cells", (PetscObject *)&cells));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, "body", (PetscObject *)&body));
+  PetscCall(ISView(cells, viewer));
+  PetscCall(ISView(body, viewer));
   PetscFunctionReturn(0);
 }
 
