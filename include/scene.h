@@ -91,23 +91,32 @@ typedef struct {
   SceneSubface    *subfaces;
 } SceneBody;
 
-#define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
-
 /* A load program: the factor at the end of each load step, linear in between, 0 before the first */
 typedef struct {
   char      *name;
   PetscReal *factor; /* nsteps values */
 } SceneRamp;
 
+typedef enum {
+  DISPLACEMENT_FACE, /* or all of a rigid body */
+  DISPLACEMENT_POINT,
+  DISPLACEMENT_EDGE
+} DisplacementPlace;
+
+#define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
+
 typedef struct {
-  char     *name;
-  char     *face;        /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>" SCENE_WHOLE_BODY */
-  PetscBool fixed[3];    /* which components are prescribed */
-  PetscReal value[3];    /* prescribed displacement at factor 1 [length] */
-  PetscBool moves;       /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
-  PetscReal rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
-  PetscReal center[3];   /* which moves by value [length] */
-  PetscInt  ramp;
+  char             *name;
+  char             *face;        /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>" SCENE_WHOLE_BODY */
+  PetscBool         fixed[3];    /* which components are prescribed */
+  PetscReal         value[3];    /* prescribed displacement at factor 1 [length] */
+  PetscBool         moves;       /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
+  PetscReal         rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
+  PetscReal         center[3];   /* which moves by value [length] */
+  DisplacementPlace at;
+  PetscInt          body;           /* of a point or an edge */
+  PetscReal         from[3], to[3]; /* ends of the edge; of a point the same [length] */
+  PetscInt          ramp;
 } SceneDisplacement;
 
 /* Dead load: -value x normal of the reference face */

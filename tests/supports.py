@@ -23,6 +23,14 @@ SCENES = {
     + "displacements:\n  - floor: {face: bottom.zmin, value: [0, 0, 0]}\npressures:\n  - load: {face: top.zmax, value: 1}\n"
     + "contact:\n  - lower: {mortar: middle.zmin, nonmortar: bottom.zmax}\n  - upper: {mortar: middle.zmax, nonmortar: top.zmin}\nweak_springs: true\n",
 }
+SCENES["pins"] = BAR + (
+    "displacements:\n  - a: {body: bar, point: [0, 0, 0], value: [0, 0, 0]}\n  - b: {body: bar, point: [1, 0, 0], value: [free, 0, 0]}\n  - c: {body: bar, point: [0, 2, 0], value: [free, free, 0]}\n"
+    "pressures:\n" + SIX + PROBES
+)
+SCENES["edges"] = BAR + (
+    "displacements:\n  - left: {body: bar, from: [0, 0, 0], to: [0, 2, 0], value: [0, free, 0]}\n  - right: {body: bar, from: [1, 2, 0], to: [1, 0, 0], value: [free, free, 0]}\n"
+    "  - foot: {body: bar, point: [0, 0, 0], value: [free, 0, free]}\nbody_forces:\n  - weight: {value: [0, 0, -1]}\n" + PROBES
+)
 SCENES["soft"] = SCENES["stack"].replace("1e5", "100")
 
 
@@ -47,6 +55,11 @@ def judge_bars(title, end):
     forces = {pair["name"]: pair["force"] for pair in step["stack"]["pairs"]}
     say(title + "stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
     say(title + "stack: weak springs carry less than 1e-6 of the load", 0 < step["stack"]["weak_spring_force"] < 4e-6, step["stack"]["weak_spring_force"])
+    pins = step["pins"]
+    point = next(p for p in pins["probes"] if p["name"] == "corner")
+    say(title + "on three points: displacement, stress, no forces", near(point["displacement"], [-0.02, -0.04, -0.06], 0.06) and near(point["stress_zz"], -0.5, 0.5) and all(near(f["reaction"], 0, 1) for f in pins["faces"]), pins["faces"])
+    reactions = {face["name"]: face["reaction"] for face in step["edges"]["faces"]}
+    say(title + "on two edges: half of the weight on each", near(reactions["bar.@left"], [0, 0, 3], 3) and near(reactions["bar.@right"], [0, 0, 3], 3) and step["edges"]["balance"] < 1e-10, reactions)
     forces = {pair["name"]: pair["force"] for pair in step["soft"]["pairs"]}
     say(title + "soft stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
     say(title + "soft stack: weak springs carry less than 1e-6 of the load", 0 < step["soft"]["weak_spring_force"] < 4e-6, step["soft"]["weak_spring_force"])

@@ -1,7 +1,7 @@
 # Tractions and forces on faces, springs and weak springs against closed forms and statics, on one rank and on three.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/supports.py" write
-for scene in pull twist bed float stack soft; do
+for scene in pull twist bed float pins edges stack soft; do
   "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
 done
@@ -17,4 +17,8 @@ for scene in drop slide; do
   "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/springs carry .*;/springs carry ...;/'
   echo "exit code ${PIPESTATUS[0]}"
 done
+sed 's/point: \[1, 0, 0\]/point: [0.9, 0.1, 0]/' pins.yaml > beside.yaml
+"$contact" beside.yaml -quiet 2>&1
+sed '/  - c: /d' pins.yaml > two.yaml
+"$contact" two.yaml -quiet 2>&1
 "$contact" pull.yaml -quiet -effects_view | grep -E '^(traction|springs|weak springs)' | cut -c1-24 | sed 's/ *$//'

@@ -189,6 +189,9 @@ PETSC_INTERN PetscErrorCode MeshFaceLabelName(const char body[], const char face
 PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
 PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first);
 
+/* spots.c: labels of the nodes at the scene's points and edges, as faces have them */
+PETSC_INTERN PetscErrorCode MeshLabelSpots(DM, Scene);
+
 /* rigid.c: a label of all that moves with a rigid body, after the last refinement */
 PETSC_INTERN PetscErrorCode MeshLabelRigid(DM, PetscInt nbodies, const SceneBody[]);
 

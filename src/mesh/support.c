@@ -94,6 +94,32 @@ static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *fa
   PetscFunctionReturn(0);
 }
 
+/* At the vertices of a point or an edge */
+static PetscErrorCode SupportAddSpot(Support *support, const SceneDisplacement *spot)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     vertices;
+  const PetscInt        *v;
+  PetscInt               n, total;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceVertices(support->dm, spot->face, &vertices));
+  PetscCall(ISGetLocalSize(vertices, &n));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
+  PetscCall(ISGetIndices(vertices, &v));
+  for (PetscInt k = 0; k < 3 * n; ++k) {
+    PetscReal x[1][3];
+
+    if (!spot->fixed[k % 3]) continue;
+    PetscCall(MeshGetVertexCoordinates(support->dm, 1, &v[k / 3], x));
+    SupportAddMotion(support, spot->body, axes[k % 3], x[0], 1);
+    PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+  }
+  PetscCall(ISRestoreIndices(vertices, &v));
+  PetscCall(ISDestroy(&vertices));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -102,6 +128,10 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   PetscInt               n, b, total;
 
   PetscFunctionBegin;
+  if (displacement->at != DISPLACEMENT_FACE) {
+    PetscCall(SupportAddSpot(support, displacement));
+    PetscFunctionReturn(0);
+  }
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
@@ -338,7 +368,10 @@ PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
 PetscErrorCode MeshCheckScene(DM dm, Scene scene)
 {
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+  PetscCall(MeshLabelSpots(dm, scene));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    if (scene->displacements[d].at == DISPLACEMENT_FACE) PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+  }
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
   for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
   for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));

@@ -24,11 +24,18 @@ PetscErrorCode SceneReadTarget(SceneKeys keys, Scene scene, SceneDisplacement *d
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "displacements_%s_body", d->name));
-  PetscCall(SceneKeysGet(keys, (PetscBool)!text, &face, "displacements_%s_face", d->name));
+  body = PETSC_DECIDE;
+  if (text) PetscCall(SceneReadBodyName(keys, scene, "displacements", d->name, &body));
+  PetscCall(SceneReadSpot(keys, scene, body, d));
+  PetscCall(SceneKeysGet(keys, (PetscBool)(!text && d->at == DISPLACEMENT_FACE), &face, "displacements_%s_face", d->name));
+  if (d->at != DISPLACEMENT_FACE) {
+    if (body >= 0 && scene->bodies[body].material.type == MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole", d->name, text));
+    if (face) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a place; it is one of the two", d->name));
+    PetscFunctionReturn(0);
+  }
   if (text && face) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
   if (text) {
-    PetscCall(SceneReadBodyName(keys, scene, "displacements", d->name, &body));
-    if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "displacements_%s_body is \"%s\", which is not rigid: of an elastic body faces are displaced", d->name, text));
+    if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "displacements_%s_body is \"%s\", which is not rigid: of an elastic body faces, points and edges are displaced", d->name, text));
     PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, text));
     face     = whole;
     d->moves = PETSC_TRUE;

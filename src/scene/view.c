@@ -43,9 +43,12 @@ static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, Pet
   const SceneDisplacement *displacement = &scene->displacements[d];
 
   PetscFunctionBegin;
-  if (SceneIsWholeBody(displacement->face)) PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {body: %.*s, value: [", displacement->name, (int)(strlen(displacement->face) - strlen(SCENE_WHOLE_BODY)), displacement->face));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: [", displacement->name, displacement->face));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", displacement->name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  if (displacement->at != DISPLACEMENT_FACE) PetscCall(SceneViewSpot(scene, viewer, displacement));
+  else if (SceneIsWholeBody(displacement->face)) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %.*s", (int)(strlen(displacement->face) - strlen(SCENE_WHOLE_BODY)), displacement->face));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "face: %s", displacement->face));
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", value: ["));
   for (PetscInt i = 0; i < 3; ++i) {
     if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
     if (displacement->fixed[i]) PetscCall(SceneViewReal(viewer, displacement->value[i]));
