@@ -15,7 +15,7 @@ typedef struct {
   Vec       g;          /* gap at u_ref, weighted and divided by the lumped mass: a length */
   Mat       J;          /* m x n AIJ, dimensionless; columns are the DM's global rows */
   Mat       derivative; /* of the gap, the normals' turning included; J is that with the patches of smooth pairs keeping their shape. NULL where no pair is smooth */
-  Mat       cover;      /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth: it is J */
+  Mat       cover;      /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth or of order 2: it is J */
   Vec       mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
   PetscInt  nlocal;     /* rows of this rank */
   PetscInt *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */

@@ -35,6 +35,7 @@ PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
 /* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body
    (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
+PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[], Vec areas);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
 /* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */
 PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);

@@ -37,6 +37,9 @@ PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt ve
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 /* The nodes of a facet: 4 as above, or 9 with the edges and itself; of a hexahedron: 8, or 27, in tensor order */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
+/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from outside */
+#define MESH_MAX_FACET_PIECES 4
+PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);

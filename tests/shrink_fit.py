@@ -53,4 +53,5 @@ def main():
     say("node: energy within 0.5 % of Lame", abs(energy("node") - 1) <= 0.005, energy("node"))
 
 
-main()
+if __name__ == "__main__":
+    main()

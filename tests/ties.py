@@ -58,10 +58,15 @@ def judge(title, end):
     say(title + "a tied stack stands on a rigid base: forces", near(step["pairs"][0]["force"], [0, 0, 0.3], 0.3) and near(step["bodies"][0]["ties"], [0, 0, -0.3], 0.3) and step["balance"] < 1e-6, (step["pairs"], step["bodies"]))
 
 
-if sys.argv[1] == "write":
-    for name, text in SCENES.items():
-        with open(name + ".yaml", "w") as file:
-            file.write("problem: %s\n%s" % (name, text.replace("symmetry: []\n", "")))
-else:
-    judge("", "")
-    judge("three ranks, ", "_3")
+def main():
+    if sys.argv[1] == "write":
+        for name, text in SCENES.items():
+            with open(name + ".yaml", "w") as file:
+                file.write("problem: %s\n%s" % (name, text.replace("symmetry: []\n", "")))
+    else:
+        judge("", "")
+        judge("three ranks, ", "_3")
+
+
+if __name__ == "__main__":
+    main()

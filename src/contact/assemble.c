@@ -383,6 +383,28 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   PetscFunctionReturn(0);
 }
 
+/*
+  Forces on the surfaces' vertices become those on the nodes of order 2, and areas are shared as those of the facets are. The gap of a pair that
+  follows its nodes has its derivative by these.
+*/
+static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
+{
+  Vec          facets;
+  PetscScalar *f;
+
+  PetscFunctionBegin;
+  if (!lin->cover) PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &lin->cover));
+  PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->J));
+  if (!lin->derivative) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(lin->mass, &facets));
+  PetscCall(VecGetArrayWrite(facets, &f));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) f[k] = ContactPairFollows(&contact->pairs[lin->pair[k]]) ? 0.0 : 1.0;
+  PetscCall(VecRestoreArrayWrite(facets, &f));
+  PetscCall(ContactTraceDifferentiate(contact->trace, facets, lin->derivative));
+  PetscCall(VecDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
 /* Collective */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
@@ -401,6 +423,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
+  if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));

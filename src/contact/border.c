@@ -17,14 +17,17 @@ static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value
   PetscFunctionReturn(0);
 }
 
-/* The mesh's edge between two vertices of it */
+/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which another one lies on it */
 static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
   const PetscInt *edges;
-  PetscInt        n;
+  PetscInt        n, depth[2];
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMPlexGetPointDepth(dm, vertices[i], &depth[i]));
+  *edge = depth[0] > depth[1] ? v : w;
+  if (depth[0] || depth[1]) PetscFunctionReturn(0);
   PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
   PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
   *edge = edges[0];
@@ -36,34 +39,34 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
 PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
 {
   PetscSF  sf;
-  PetscInt npoints, *count, *edge;
+  PetscInt npoints, *count, *ends, *edge; /* facets at an edge, twice where it is cut in halves; 1 for a vertex on the border */
 
   PetscFunctionBegin;
   PetscCall(DMGetPointSF(dm, &sf));
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
-  PetscCall(PetscCalloc1(npoints, &count)); /* facets at an edge; 1 for a vertex on the border */
+  PetscCall(PetscCalloc2(npoints, &count, npoints, &ends));
   PetscCall(PetscMalloc1(4 * s->nfacets, &edge));
   PetscCall(PetscCalloc1(s->nfacets, &s->border));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     PetscCall(BorderFindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
-    ++count[edge[i]];
+    count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
   }
   PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    if (count[edge[i]] == 1) count[s->vertex[i]] = count[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
+    if (count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_MAX, count));
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, ends));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    if (count[edge[i]] == 1) s->border[i / 4] |= 1 << (i % 4);
-    if (count[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);
+    if (count[edge[i]] == 2) s->border[i / 4] |= 1 << (i % 4);
+    if (ends[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);
   }
   s->bordered = PETSC_TRUE;
   PetscCall(PetscFree(edge));
-  PetscCall(PetscFree(count));
+  PetscCall(PetscFree2(count, ends));
   PetscFunctionReturn(0);
 }
 
-/* bits[v]: of the axes along which a face that vertex v is of is held, all ranks' facets */
+/* bits[v]: of the axes along which a face that node v is of is held, all ranks' facets */
 static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt bits[])
 {
   PetscFunctionBegin;
@@ -78,10 +81,10 @@ static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement 
     PetscCall(ISGetLocalSize(facets, &nfacets));
     PetscCall(ISGetIndices(facets, &f));
     for (PetscInt i = 0; i < nfacets; ++i) {
-      PetscInt vertex[4];
+      PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
 
-      PetscCall(MeshGetFacetVertices(dm, f[i], vertex));
-      for (PetscInt a = 0; a < 4; ++a) bits[vertex[a]] |= axes;
+      PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
+      for (PetscInt a = 0; a < nnodes; ++a) bits[nodes[a]] |= axes;
     }
     PetscCall(ISRestoreIndices(facets, &f));
     PetscCall(ISDestroy(&facets));

@@ -63,6 +63,21 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ContactCreateTrace(Contact contact)
+{
+  const ContactSurface **surface;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * contact->npairs, &surface));
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    surface[2 * p]     = &contact->pairs[p].mortar;
+    surface[2 * p + 1] = &contact->pairs[p].nonmortar;
+  }
+  PetscCall(ContactTraceCreate(contact->dm, 2 * contact->npairs, surface, CONTACT_TRACE_FORWARD, 3, &contact->trace));
+  PetscCall(PetscFree(surface));
+  PetscFunctionReturn(0);
+}
+
 /*@C
   ContactCreate - Creates the contact of pairs of faces of a mesh
 
@@ -116,6 +131,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
   PetscCall(PetscFree(thickness));
+  PetscCall(ContactCreateTrace(c));
   PetscCall(ContactRowsCreate(c));
   PetscCall(ContactSetUpPairs(c));
   *contact = c;
@@ -330,6 +346,7 @@ PetscErrorCode ContactDestroy(Contact *contact)
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].mortar));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].nonmortar));
   }
+  PetscCall(MatDestroy(&(*contact)->trace));
   PetscCall(PetscFree((*contact)->pairs));
   PetscCall(DMDestroy(&(*contact)->dm));
   PetscCall(PetscFree(*contact));

@@ -122,13 +122,14 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 typedef struct {
   char      *name;
   PetscInt   nfacets;
-  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points, counterclockwise seen from outside */
+  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside */
   PetscInt  *node;      /* [4 nfacets] global numbers of the vertices: a third of their first global row */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
   PetscInt  *bend;      /* [4 nfacets] their global numbers */
   PetscBool  patched;   /* whether there are those; the same on all ranks */
+  PetscBool  cut;       /* whether the facets are pieces of the mesh's, of order 2; the same on all ranks */
   PetscInt  *held;      /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
   PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
   PetscBool  bordered;  /* whether border has been asked for; the same on all ranks */
@@ -141,6 +142,16 @@ PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, co
 PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
+
+/* trace.c: what the displacement of the surfaces' vertices differs from that of the mesh's nodes; NULL: nothing */
+typedef enum {
+  CONTACT_TRACE_FORWARD,
+  CONTACT_TRACE_INVERSE
+} ContactTraceType;
+PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[], ContactTraceType, PetscInt components, Mat *correction);
+PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec local);
+PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian);
+PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 
 /* border.c: fills in a surface's border; where it is held */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
@@ -252,6 +263,12 @@ typedef struct {
   PetscInt       nfacing;  /* of the last linearization, on this rank: facets that overlap, or vertices that face a facet */
 } ContactPairData;
 
+/* Whether its patches follow what faces of order 2 bend between their nodes; else their vertices move with the mean of it */
+static inline PetscBool ContactPairFollows(const ContactPairData *pair)
+{
+  return (PetscBool)(pair->smooth && pair->gap == GAP_MORTAR);
+}
+
 /* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
@@ -286,6 +303,7 @@ struct _n_Contact {
   const SceneDisplacement *displacements; /* that the faces of the bodies are held by; the caller's */
   PetscBool                smoothed;      /* whether it has been looked which pairs are curved */
   ContactBends             bends;
+  Mat                      trace;        /* what is added to the mesh's displacement at vertices of the surfaces; NULL: no face has order 2 */
   ContactRule              rule;         /* of the triangles that overlaps are cut into */
   PetscReal                reach;        /* distance that pairs without one of their own look for at least [length] */
   PetscReal                reach_depth;  /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */

@@ -3,24 +3,35 @@
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode}; /* by GapType */
 
+/* The surfaces and normals of a pair at the displacement of their vertices, local */
+static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
+{
+  ContactRows     *rows  = &contact->rows;
+  ContactPairData *pair  = &contact->pairs[p];
+  const PetscInt   first = rows->first[p], n = rows->first[p + 1] - first;
+
+  PetscFunctionBegin;
+  PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->mortar));
+  PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->nonmortar));
+  PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first, rows->normal + 3 * first));
+  PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
+  PetscFunctionReturn(0);
+}
+
 /* The surfaces and normals at displacement u */
 static PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
-  ContactRows *rows = &contact->rows;
-  Vec          local;
+  Vec local, mean = NULL;
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalVector(contact->dm, &local));
   PetscCall(DMGlobalToLocal(contact->dm, u, INSERT_VALUES, local));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    ContactPairData *pair  = &contact->pairs[p];
-    const PetscInt   first = rows->first[p], n = rows->first[p + 1] - first;
-
-    PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->mortar));
-    PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->nonmortar));
-    PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first, rows->normal + 3 * first));
-    PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
+  if (contact->trace) {
+    PetscCall(DMGetLocalVector(contact->dm, &mean));
+    PetscCall(ContactTraceApply(contact->dm, contact->trace, u, mean));
   }
+  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(ContactMovePair(contact, p, mean && !ContactPairFollows(&contact->pairs[p]) ? mean : local));
+  if (mean) PetscCall(DMRestoreLocalVector(contact->dm, &mean));
   PetscCall(DMRestoreLocalVector(contact->dm, &local));
   PetscCall(ContactSmoothDeform(contact, u));
   PetscFunctionReturn(0);
@@ -70,6 +81,10 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that face
   it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and m_A is the
   same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet, has no row.
+
+  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that follow what the faces bend; the vertices of
+  others move with the mean displacement of the faces about them. J spreads forces so that a uniform pressure is the same load as on the quadratic
+  face.
 
   Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on planes,
   and on curved faces with -contact_normals facet.

@@ -1,4 +1,4 @@
-/* Which pairs have a curved face, and the normals of their smooth surfaces at every displacement; pairs of planes cost nothing */
+/* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at every displacement; pairs of planes of order 1 cost nothing */
 #include "contactimpl.h"
 
 /* A surface stands off its facets by more than this part of an edge, or it is plane but for rounding in its file */
@@ -29,7 +29,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Collective. Rings about both faces; taken away again where both are plane */
+/* Collective. Rings about both faces; taken away again where both are plane, and of order 1 */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
   const PetscReal cosine     = PetscCosReal(contact->feature_angle * PETSC_PI / 180.0);
@@ -50,7 +50,7 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPIU_REAL, MPIU_MAX, contact->comm));
   pair->bulge = largest[0] + largest[1];
-  for (PetscInt k = 0; k < 2; ++k) surface[k]->patched = (PetscBool)(PetscMax(largest[2], largest[3]) > CURVED);
+  for (PetscInt k = 0; k < 2; ++k) surface[k]->patched = (PetscBool)(pair->mortar.cut || pair->nonmortar.cut || PetscMax(largest[2], largest[3]) > CURVED);
   PetscFunctionReturn(0);
 }
 

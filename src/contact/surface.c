@@ -1,8 +1,8 @@
-/* The facets of a named face: taken from the mesh once, deformed at every linearization */
+/* The facets of a named face, those of order 2 cut into four: taken from the mesh once, deformed at every linearization */
 #include <mesh.h>
 #include "contactimpl.h"
 
-/* Number of a vertex among those of all ranks; the mesh lays out 3 rows a vertex, owned ones as they are, others encoded */
+/* Number of a vertex, any node of the mesh, among those of all ranks; the mesh lays out 3 rows a node, owned ones as they are, others encoded */
 static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
 {
   PetscInt offset;
@@ -46,15 +46,27 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
-/* Collective. The gap knows of bilinear facets alone */
-static PetscErrorCode SurfaceCheckOrder(DM dm, const char face[], PetscInt nfacets, const PetscInt facet[])
+/* The facets of four nodes that n facets of the mesh are cut into: their nodes, local and global numbers */
+static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], ContactSurface *s)
 {
-  PetscInt n = 0, nodes[MESH_MAX_FACET_NODES];
+  PetscSection global;
+  PetscInt     npieces, pieces[MESH_MAX_FACET_PIECES][4];
 
   PetscFunctionBegin;
-  if (nfacets) PetscCall(MeshGetFacetNodes(dm, facet[0], &n, nodes));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
-  PetscCheck(n <= 4, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Face \"%s\" of a contact pair is of a body of order 2; contact takes bodies of order 1", face);
+  s->nfacets = 0;
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(MeshGetFacetPieces(dm, facet[i], &npieces, pieces));
+    s->nfacets += npieces;
+    s->cut = (PetscBool)(npieces > 1);
+  }
+  PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference, 12 * s->nfacets, &s->x));
+  PetscCall(DMGetGlobalSection(dm, &global));
+  for (PetscInt i = 0, k = 0; i < n; ++i, k += npieces) {
+    PetscCall(MeshGetFacetPieces(dm, facet[i], &npieces, pieces));
+    PetscCall(PetscArraycpy(&s->vertex[4 * k], pieces[0], 4 * npieces));
+  }
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) PetscCall(SurfaceVertexNode(global, s->vertex[i], &s->node[i]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->cut, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 
@@ -64,32 +76,26 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
   IS              facets;
   const PetscInt *f;
-  PetscInt        total;
+  PetscInt        n, total;
   PetscReal       mass[4], area = 0.0;
-  PetscSection    global, coordsection;
+  PetscSection    section;
   Vec             coordinates;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(face, &s->name));
   PetscCall(MeshGetFacets(dm, face, &facets));
-  PetscCall(ISGetLocalSize(facets, &s->nfacets));
-  PetscCallMPI(MPI_Allreduce(&s->nfacets, &total, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, comm));
   PetscCheck(total > 0, comm, PETSC_ERR_ARG_WRONG, "Face \"%s\" of a contact pair has no facets", face);
-  PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference, 12 * s->nfacets, &s->x));
-  PetscCall(DMGetGlobalSection(dm, &global));
   PetscCall(ISGetIndices(facets, &f));
-  PetscCall(SurfaceCheckOrder(dm, face, s->nfacets, f));
-  for (PetscInt i = 0; i < s->nfacets; ++i) {
-    PetscCall(MeshGetFacetVertices(dm, f[i], &s->vertex[4 * i]));
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(SurfaceVertexNode(global, s->vertex[4 * i + a], &s->node[4 * i + a]));
-  }
-  PetscCall(SurfaceFindBody(dm, s->nfacets, f, &s->body));
+  PetscCall(SurfaceCut(dm, n, f, s));
+  PetscCall(SurfaceFindBody(dm, n, f, &s->body));
   s->thickness = thickness[s->body];
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(DMGetCoordinateSection(dm, &coordsection));
-  PetscCall(SurfaceGatherVertices(coordsection, coordinates, 4 * s->nfacets, s->vertex, s->reference));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(SurfaceGatherVertices(section, coordinates, 4 * s->nfacets, s->vertex, s->reference));
   for (PetscInt i = 0; i < s->nfacets; ++i) area += ContactFacetMass(&s->reference[12 * i], mass);
   PetscCallMPI(MPI_Allreduce(&area, &s->area, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
@@ -98,16 +104,15 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
 /* Coordinates of n vertices moved by a local displacement vector */
 PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[])
 {
-  PetscSection section, coordsection;
+  PetscSection section;
   Vec          coordinates;
   PetscReal   *reference;
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(dm, &section));
-  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
-  PetscCall(DMGetCoordinateSection(dm, &coordsection));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(PetscMalloc1(3 * n, &reference));
-  PetscCall(SurfaceGatherVertices(coordsection, coordinates, n, vertex, reference));
+  PetscCall(SurfaceGatherVertices(section, coordinates, n, vertex, reference));
   PetscCall(SurfaceGatherVertices(section, ulocal, n, vertex, x));
   for (PetscInt i = 0; i < 3 * n; ++i) x[i] += reference[i];
   PetscCall(PetscFree(reference));

@@ -169,6 +169,21 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const SceneTie *tie, TieSums *sum
   PetscFunctionReturn(0);
 }
 
+/* Faces of order 2: rows and columns of their nodes in place of those of the facets' vertices */
+static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const ContactSurface *nonmortar, Mat rows)
+{
+  Mat correction;
+
+  PetscFunctionBegin;
+  PetscCall(ContactTraceCreate(dm, 1, &mortar, CONTACT_TRACE_FORWARD, 1, &correction));
+  if (correction) PetscCall(ContactTraceDifferentiate(correction, NULL, rows));
+  PetscCall(MatDestroy(&correction));
+  PetscCall(ContactTraceCreate(dm, 1, &nonmortar, CONTACT_TRACE_INVERSE, 1, &correction));
+  if (correction) PetscCall(ContactTraceRecover(correction, rows));
+  PetscCall(MatDestroy(&correction));
+  PetscFunctionReturn(0);
+}
+
 /*@C
   ContactTieCreate - The displacements of the vertices of one face as means of those of another that it is tied to
 
@@ -217,6 +232,7 @@ PetscErrorCode ContactTieCreate(DM dm, const SceneTie *tie, Mat *rows)
   PetscCall(VecDuplicate(sums.covered, &sums.whole));
   PetscCall(TieAddFacets(comm, &mortar, &nonmortar, distance, &sums));
   PetscCall(TieFinish(comm, tie, &sums, rows));
+  PetscCall(TieSetTrace(dm, &mortar, &nonmortar, *rows));
   PetscCall(VecDestroy(&sums.covered));
   PetscCall(VecDestroy(&sums.whole));
   PetscCall(PetscFree(sums.row));

@@ -115,6 +115,59 @@ static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3
   }
 }
 
+/* Adds to the vector of a facet's nodes those of the bilinear facets that they cut it into */
+static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
+{
+  for (PetscInt a = 0; a < facet->n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
+  for (PetscInt k = 0; k < 4; ++k) {
+    const PetscInt node[4] = {k, 4 + k, 8, 4 + (k + 3) % 4};
+    PetscReal      X[4][3], f[4][3];
+
+    for (PetscInt i = 0; i < 12; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
+    ElasticityFacetNormals(4, X, f);
+    for (PetscInt i = 0; i < 12; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
+  }
+}
+
+/* Adds factor times int N_a n dA over a face, of its facets or cut at their nodes */
+static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], PetscReal factor, PetscBool cut, Vec total)
+{
+  IS                 facets;
+  Vec                coordinates, local;
+  const PetscInt    *f;
+  const PetscScalar *x;
+  PetscScalar       *l;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(e->dm, face, &facets));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(VecGetArray(local, &l));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    Facet     facet;
+    PetscReal F[FACET_MAX_NODES][3];
+
+    PetscCall(FacetGet(e, f[i], x, &facet));
+    if (cut && facet.n == 9) ElasticityPieceNormals(&facet, F);
+    else ElasticityFacetNormals(facet.n, facet.X, F);
+    for (PetscInt a = 0; a < facet.n; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += factor * F[a][d];
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ElasticityAddPressure - Adds the load of a dead pressure on a face, -pressure times the reference normal
 
@@ -138,37 +191,34 @@ static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3
 @*/
 PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
 {
-  IS                 facets;
-  Vec                coordinates, local;
-  const PetscInt    *f;
-  const PetscScalar *x;
-  PetscScalar       *l;
-  PetscInt           n;
-
   PetscFunctionBegin;
-  PetscCall(MeshGetFacets(e->dm, face, &facets));
-  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
-  PetscCall(DMGetLocalVector(e->dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  PetscCall(VecGetArray(local, &l));
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n; ++i) {
-    Facet     facet;
-    PetscReal F[FACET_MAX_NODES][3];
+  PetscCall(ElasticityAddNormals(e, face, -pressure, PETSC_FALSE, force));
+  PetscFunctionReturn(0);
+}
 
-    PetscCall(FacetGet(e, f[i], x, &facet));
-    ElasticityFacetNormals(facet.n, facet.X, F);
-    for (PetscInt a = 0; a < facet.n; ++a) {
-      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] -= pressure * F[a][d];
-    }
-  }
-  PetscCall(ISRestoreIndices(facets, &f));
-  PetscCall(ISDestroy(&facets));
-  PetscCall(VecRestoreArray(local, &l));
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, force));
-  PetscCall(DMRestoreLocalVector(e->dm, &local));
+/*@
+  ElasticityAddFacetAreas - Adds the normals times the areas of a face that are about its nodes
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- face       - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added to it [length^2]
+
+  Level: developer
+
+  Notes:
+  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of quadratic shape functions
+  are loads.
+
+.seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
+@*/
+PetscErrorCode ElasticityAddFacetAreas(Elasticity e, const char face[], Vec areas)
+{
+  PetscFunctionBegin;
+  PetscCall(ElasticityAddNormals(e, face, 1, PETSC_TRUE, areas));
   PetscFunctionReturn(0);
 }

@@ -2,8 +2,8 @@
    Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8 samples a cell, at the
    2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, fitted by quadratic polynomials over the cells around a
    vertex: second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of their cells'
-   interior vertices. Where a body has none, about one layer of cells, polynomials about its surface serve. Terms that the samples do
-   not determine are left out, as the square across one layer of cells.
+   vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that the samples do not
+   determine are left out, as the square across one layer of cells.
 */
 #include "elasticityimpl.h"
 
@@ -14,12 +14,8 @@
 typedef struct {
   PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* then the polynomial's coefficients */
   PetscReal normal[3], area;                            /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal ncells;
 } QuadraticPatch;
-
-/* The polynomials about vertices inside the body, and about those on its surface */
-typedef struct {
-  RecoveredNode inside, surface;
-} QuadraticNode;
 
 typedef struct {
   PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3]; /* places, values; int grad N of the vertices */
@@ -96,6 +92,7 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
     length += PetscSqr(cell->B[corner][d]);
   }
   patch->area += PetscSqrtReal(length);
+  patch->ncells += 1;
 }
 
 /* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before, which are left out */
@@ -145,6 +142,12 @@ static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
   return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
+/* How far a vertex's polynomial is to be trusted at node `a` of a cell: most inside the body, else the more cells it is of; more at the vertex itself */
+static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscInt a, PetscInt corner)
+{
+  return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (a == quadratic_corner[corner] ? 1 : 0);
+}
+
 static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], RecoveredNode *node)
 {
   PetscReal t[TERMS];
@@ -156,19 +159,19 @@ static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], 
   }
 }
 
-/* Adds the polynomials of the cell's vertices at its nodes; a vertex inside takes its own */
-static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[], QuadraticNode recovered[])
+/* At the nodes of a cell: the highest rank that a polynomial of its vertices has; or with `sums` adds the polynomials of the rank that is known by now */
+static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[], PetscInt rank[], RecoveredNode sums[])
 {
   for (PetscInt a = 0; a < state->n; ++a) {
-    const PetscBool vertex = (PetscBool)(number[state->nodes[a]] >= 0 && QuadraticPatchIsInside(&patches[number[state->nodes[a]]]));
+    const PetscInt node = state->nodes[a];
 
     for (int c = 0; c < 8; ++c) {
       const PetscInt        b     = quadratic_corner[c];
       const QuadraticPatch *patch = &patches[number[state->nodes[b]]];
       const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b], state->X[2][a] - state->X[2][b]};
 
-      if (vertex && a != b) continue;
-      QuadraticNodeAdd(patch, d, QuadraticPatchIsInside(patch) ? &recovered[state->nodes[a]].inside : &recovered[state->nodes[a]].surface);
+      if (!sums) rank[node] = PetscMax(rank[node], QuadraticRank(patch, a, c));
+      else if (rank[node] == QuadraticRank(patch, a, c)) QuadraticNodeAdd(patch, d, &sums[node]);
     }
   }
 }
@@ -233,11 +236,37 @@ static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscB
   PetscFunctionReturn(0);
 }
 
+/* The mean of the polynomials of the highest rank at every node of the selected bodies' cells of order 2: their sums, and how many */
+static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const PetscInt number[], const QuadraticPatch patches[], RecoveredNode sums[])
+{
+  PetscInt *rank;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(e->nnodes, &rank));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt c = 0; c < e->ncells; ++c) {
+      CellState state;
+
+      if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
+      ElasticityGetCell(e, c, x, u, &state);
+      QuadraticContinue(&state, number, patches, rank, pass ? sums : NULL);
+    }
+    if (pass) break;
+    PetscCall(PetscSFReduceBegin(nodes, MPIU_INT, rank, rank, MPI_MAX));
+    PetscCall(PetscSFReduceEnd(nodes, MPIU_INT, rank, rank, MPI_MAX));
+    PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
+  }
+  PetscCall(PetscFree(rank));
+  PetscCall(ElasticitySumRecords(nodes, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)sums));
+  PetscFunctionReturn(0);
+}
+
 /* Values at the nodes of the selected bodies' cells of order 2; those of other nodes stay */
 PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[])
 {
   QuadraticPatch *patches;
-  QuadraticNode  *sums;
+  RecoveredNode  *sums;
   PetscInt       *number, n;
   PetscSF         vertices;
 
@@ -247,18 +276,9 @@ PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscB
   PetscCall(PetscCalloc1(n, &patches));
   PetscCall(PetscCalloc1(e->nnodes, &sums));
   PetscCall(QuadraticFitPatches(e, vertices, selected, x, u, number, n, patches));
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    CellState state;
-
-    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
-    ElasticityGetCell(e, c, x, u, &state);
-    QuadraticContinue(&state, number, patches, sums);
-  }
-  PetscCall(ElasticitySumRecords(nodes, sizeof(QuadraticNode) / sizeof(PetscReal), (PetscReal *)sums));
+  PetscCall(QuadraticSum(e, nodes, selected, x, u, number, patches, sums));
   for (PetscInt v = 0; v < e->nnodes; ++v) {
-    const RecoveredNode *from = sums[v].inside.n > 0 ? &sums[v].inside : &sums[v].surface;
-
-    for (int k = 0; from->n > 0 && k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = from->value[k] / from->n;
+    for (int k = 0; sums[v].n > 0 && k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = sums[v].value[k] / sums[v].n;
   }
   PetscCall(PetscFree(sums));
   PetscCall(PetscFree(patches));

@@ -168,6 +168,39 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
 }
 
 /*@
+  MeshGetFacetPieces - Gets the facets of four nodes that a boundary facet is cut into by its nodes
+
+  Not Collective
+
+  Input Parameters:
++ dm    - the mesh
+- facet - the facet, a local DMPlex point with one cell
+
+  Output Parameters:
++ n      - their number: 1, the facet itself, or 4 in a body of order 2
+- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge, facet, edge
+
+  Level: developer
+
+.seealso: `MeshGetFacetNodes()`
+@*/
+PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4])
+{
+  PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacetNodes(dm, facet, &nnodes, nodes));
+  *n = nnodes == 4 ? 1 : 4;
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscInt quarter[4] = {nodes[a], nodes[4 + a], nodes[8], nodes[4 + (a + 3) % 4]};
+
+    if (nnodes == 4) pieces[0][a] = nodes[a];
+    else PetscCall(PetscArraycpy(pieces[a], quarter, 4));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
   MeshGetNodeCoordinates - Gets the reference coordinates of all nodes of this rank
 
   Not Collective

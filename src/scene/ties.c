@@ -53,15 +53,13 @@ PetscErrorCode SceneValidateTies(MPI_Comm comm, const char file[], Scene scene)
   for (PetscInt t = 0; t < scene->nties; ++t) {
     const SceneTie *tie  = &scene->ties[t];
     const char     *face = NULL;
-    PetscInt        mortar, nonmortar;
+    PetscInt        nonmortar;
 
     PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->nonmortar));
-    mortar    = SceneFindBody(scene, tie->mortar, &face);
     nonmortar = SceneFindBody(scene, tie->nonmortar, &face);
     PetscCheck(strcmp(tie->mortar, tie->nonmortar), comm, PETSC_ERR_USER_INPUT, "%s: tie \"%s\" has the same face \"%s\" on both sides", file, tie->name, tie->mortar);
     PetscCheck(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT, "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar one; exchange the two", file, tie->name, scene->bodies[nonmortar].name);
-    PetscCheck(scene->bodies[mortar].order == 1 && scene->bodies[nonmortar].order == 1, comm, PETSC_ERR_USER_INPUT, "%s: tie \"%s\" joins a body of order 2; ties take bodies of order 1", file, tie->name);
   }
   PetscFunctionReturn(0);
 }

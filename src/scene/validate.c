@@ -57,22 +57,6 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
   PetscFunctionReturn(0);
 }
 
-/* The gap knows of bilinear facets alone */
-static PetscErrorCode SceneValidateContactOrder(MPI_Comm comm, const char file[], Scene scene, const char pair[], const char face[])
-{
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const SceneBody *body = &scene->bodies[b];
-    PetscBool        same;
-    size_t           length;
-
-    PetscCall(PetscStrlen(body->name, &length));
-    PetscCall(PetscStrncmp(face, body->name, length, &same));
-    SceneRequire(!same || face[length] != '.' || body->order == 1, "%s: contact pair \"%s\" has the face \"%s\" of a body of order 2; contact takes bodies of order 1", file, pair, face);
-  }
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -82,8 +66,6 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
-    PetscCall(SceneValidateContactOrder(comm, file, scene, here->name, here->mortar));
-    PetscCall(SceneValidateContactOrder(comm, file, scene, here->name, here->nonmortar));
     SceneRequire(here->distance >= 0, "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the faces", file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name, here->mortar);

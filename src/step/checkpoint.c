@@ -31,28 +31,6 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* What is remembered of a pair, by vertices that this rank owns: to a field from memory, or back */
-static PetscErrorCode CheckpointCopyMemory(Simulation sim, PetscInt pair, PetscReal memory[], PetscReal field[], PetscBool back)
-{
-  const ContactMemory *m = &sim->memory;
-  PetscSection         global;
-  PetscInt             rstart;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
-  for (PetscInt v = m->vstart; v < m->vend; ++v) {
-    PetscReal *kept = &memory[pair * (m->vend - m->vstart) + v - m->vstart];
-    PetscInt   offset;
-
-    PetscCall(PetscSectionGetOffset(global, v, &offset));
-    if (offset < 0) continue;
-    if (back) *kept = field[(offset - rstart) / 3];
-    else field[(offset - rstart) / 3] = *kept;
-  }
-  PetscFunctionReturn(0);
-}
-
 /* Of every pair pressure and slack, under its name */
 static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscInt nvertices, PetscBool back)
 {
@@ -73,7 +51,8 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
       PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, sim->scene->pairs[p].name));
       if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
       else PetscCall(CheckpointAddField(checkpoint, name, 1, nvertices, &values));
-      PetscCall(CheckpointCopyMemory(sim, p, kept[k].memory, values, back));
+      if (back) PetscCall(PetscArraycpy(kept[k].memory + p * nvertices, values, nvertices));
+      else PetscCall(PetscArraycpy(values, kept[k].memory + p * nvertices, nvertices));
     }
   }
   PetscFunctionReturn(0);

@@ -218,11 +218,11 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
 {
   PetscSection       global;
   const PetscScalar *a, *b, *s, *f;
-  PetscInt           vstart, vend, rstart, n, npoints = 0;
+  PetscInt           pstart, pend, rstart, n, npoints = 0;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(DMPlexGetDepthStratum(sim->dm, 0, &vstart, &vend));
+  PetscCall(PetscSectionGetChart(global, &pstart, &pend));
   PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
   PetscCall(VecGetLocalSize(alone, &n));
   PetscCall(VecGetArrayRead(vertices->carried, &a));
@@ -231,13 +231,14 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecGetArrayRead(vertices->force, &f));
   for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
   PetscCall(PetscRealloc((sim->npoints + npoints) * sizeof(ContactPoint), &sim->points));
-  for (PetscInt v = vstart; v < vend; ++v) {
+  for (PetscInt v = pstart; v < pend; ++v) {
     ContactPoint *point;
-    PetscInt      i;
+    PetscInt      i, ndofs;
 
+    PetscCall(PetscSectionGetDof(global, v, &ndofs));
     PetscCall(PetscSectionGetOffset(global, v, &i));
     i -= rstart;
-    if (i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
+    if (ndofs <= 0 || i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
     point  = &sim->points[sim->npoints++];
     *point = (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
     if (point->area > 0.0) {

@@ -12,7 +12,7 @@ static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is cov
 static const PetscInt  cover_rings     = 4;   /* of facets about such vertices in which pressures are evened out */
 static const PetscInt  cover_exchanges = 3;
 
-/* The facets of both faces of a pair, and what is known of their vertices, in the order of local vectors */
+/* The facets of both faces of a pair, those of order 2 cut at their nodes, and what is known of their vertices, in the order of local vectors */
 typedef struct {
   PetscInt nfacets, *offset; /* [4 nfacets] of each vertex's first value */
   Vec      cover;            /* cover of the vertex's area; area covered; sum of the areas it hands on to, 0: it does not */
@@ -30,14 +30,14 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscCall(MeshGetFacets(dm, face, &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &points));
-  PetscCall(PetscRealloc(4 * (facets->nfacets + n) * sizeof(PetscInt), &facets->offset));
+  PetscCall(PetscRealloc(4 * (facets->nfacets + MESH_MAX_FACET_PIECES * n) * sizeof(PetscInt), &facets->offset));
   for (PetscInt f = 0; f < n; ++f) {
-    PetscInt vertices[4];
+    PetscInt npieces, pieces[MESH_MAX_FACET_PIECES][4];
 
-    PetscCall(MeshGetFacetVertices(dm, points[f], vertices));
-    for (PetscInt a = 0; a < 4; ++a) PetscCall(PetscSectionGetOffset(section, vertices[a], &facets->offset[4 * (facets->nfacets + f) + a]));
+    PetscCall(MeshGetFacetPieces(dm, points[f], &npieces, pieces));
+    for (PetscInt i = 0; i < 4 * npieces; ++i) PetscCall(PetscSectionGetOffset(section, pieces[i / 4][i % 4], &facets->offset[4 * facets->nfacets + i]));
+    facets->nfacets += npieces;
   }
-  facets->nfacets += n;
   PetscCall(ISRestoreIndices(is, &points));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
@@ -94,8 +94,8 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
   PetscCall(CoverAddFace(sim->dm, pair->mortar, facets));
   PetscCall(VecDuplicate(carried, &whole));
   PetscCall(VecZeroEntries(whole));
-  PetscCall(ElasticityAddPressure(sim->elasticity, pair->nonmortar, 1.0, whole));
-  PetscCall(ElasticityAddPressure(sim->elasticity, pair->mortar, 1.0, whole));
+  PetscCall(ElasticityAddFacetAreas(sim->elasticity, pair->nonmortar, whole));
+  PetscCall(ElasticityAddFacetAreas(sim->elasticity, pair->mortar, whole));
   PetscCall(VecDuplicate(carried, &facets->cover));
   PetscCall(VecZeroEntries(facets->cover));
   PetscCall(VecGetLocalSize(carried, &n));

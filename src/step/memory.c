@@ -5,16 +5,27 @@ static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 
 PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
 {
+  Vec      u;
+  PetscInt last;
+
   PetscFunctionBegin;
   m->npairs = npairs;
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &m->vstart, &m->vend));
-  PetscCall(PetscCalloc2(npairs * (m->vend - m->vstart), &m->pressure, npairs * (m->vend - m->vstart), &m->slack));
+  PetscCall(DMGetGlobalSection(dm, &m->global));
+  PetscCall(DMGetGlobalVector(dm, &u));
+  PetscCall(VecGetOwnershipRange(u, &m->first, &last));
+  PetscCall(DMRestoreGlobalVector(dm, &u));
+  m->nowned = (last - m->first) / 3;
+  PetscCall(PetscCalloc2(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack));
   PetscFunctionReturn(0);
 }
 
+/* Of a row, whose vertex this rank owns */
 static PetscInt ContactMemoryIndex(const ContactMemory *m, ContactLinearization lin, PetscInt row)
 {
-  return lin->pair[row] * (m->vend - m->vstart) + lin->vertex[row] - m->vstart;
+  PetscInt offset = m->first;
+
+  (void)PetscSectionGetOffset(m->global, lin->vertex[row], &offset);
+  return lin->pair[row] * m->nowned + (offset - m->first) / 3;
 }
 
 PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack)
@@ -22,7 +33,7 @@ PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, co
   const PetscScalar *z, *s;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(m->pressure, m->npairs * (m->vend - m->vstart)));
+  PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(slack, &s));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
@@ -63,7 +74,7 @@ static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm
 {
   PetscFunctionBegin;
   *largest = 0.0;
-  for (PetscInt k = 0; k < m->npairs * (m->vend - m->vstart); ++k) *largest = PetscMax(*largest, m->pressure[k]);
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) *largest = PetscMax(*largest, m->pressure[k]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscFunctionReturn(0);
 }
@@ -109,7 +120,7 @@ PetscErrorCode ContactMemoryFindClosed(const ContactMemory *m, ContactLinearizat
 /* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
 PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearization lin, PetscBool **lost, PetscInt *nlost)
 {
-  const PetscInt n    = m->npairs * (m->vend - m->vstart);
+  const PetscInt n    = m->npairs * m->nowned;
   const MPI_Comm comm = PetscObjectComm((PetscObject)lin->g);
   PetscReal      largest;
 

@@ -92,8 +92,10 @@ PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
 
 /* memory.c: pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
 typedef struct {
-  PetscInt   npairs, vstart, vend;
-  PetscReal *pressure, *slack; /* npairs x (vend - vstart); pressure 0 where no row was */
+  PetscSection global;           /* the mesh's */
+  PetscInt     npairs, nowned;   /* nodes that this rank owns */
+  PetscInt     first;            /* global row of the first */
+  PetscReal   *pressure, *slack; /* npairs x nowned; pressure 0 where no row was */
 } ContactMemory;
 
 PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
