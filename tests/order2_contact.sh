@@ -58,7 +58,7 @@ contact:
 load: {steps: 3}
 YAML
 "$contact" press.yaml $options -contact_update_tol 1e-10 -checkpoint_every 2 -checkpoint press.h5 -summary press.json
-"$contact" press.yaml $options -contact_update_tol 1e-10 -restart press.h5 -summary again.json
+mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -contact_update_tol 1e-10 -restart press.h5 -summary again.json
 
 "$PYTHON" -B "$AMGF_DIR/tests/ties.py" write
 tie() { # scene, orders of the lower and the upper block, ranks

@@ -55,6 +55,7 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
       for (PetscInt d = 0; d < 3; ++d) rows[n++] = row + d;
     }
   }
+  PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* what was set before the first assembly, the blocks of an MPIBAIJ matrix do not have */
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
   PetscCall(PetscFree(rows));
