@@ -113,6 +113,8 @@ typedef struct {
   PetscBool         moves;       /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
   PetscReal         rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
   PetscReal         center[3];   /* which moves by value [length] */
+  PetscBool         inclined;    /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
+  PetscReal         normal[3];   /* of any length */
   DisplacementPlace at;
   PetscInt          body;           /* of a point or an edge */
   PetscReal         from[3], to[3]; /* ends of the edge; of a point the same [length] */

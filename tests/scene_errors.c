@@ -116,6 +116,8 @@ static const Mistake mistakes[] = {
   {"symmetry of a word", "refine: 0", "symmetry: [left]"},
   {"symmetry without a normal", "refine: 0", "symmetry: [left: {face: slab.xmin}]"},
   {"symmetry of no axis", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: w}]"},
+  {"symmetry of no normal", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: [0, 0, 0]}]"},
+  {"symmetry of a normal in a plane", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: [1, 2]}]"},
   {"symmetry of a plane along no axis", "bodies:\n", "symmetry: [arc.amax]\nbodies:\n  - arc: {shape: tube_arc, axis: x, radii: [1, 2], angles: [0, 80], extent: [0, 1], cells: [1, 2, 1], young: 1, poisson: 0}\n"},
   {"symmetry of a plane held already", "refine: 0", "symmetry: [slab.zmin]"},
   {"symmetry of a displacement's name", "refine: 0", "symmetry: [top: {face: slab.xmin, normal: x}]"},

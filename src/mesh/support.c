@@ -126,12 +126,15 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   IS                     facets;
   const PetscInt        *f;
   PetscInt               n, b, total;
+  PetscReal              normal[3], length = 0;
 
   PetscFunctionBegin;
   if (displacement->at != DISPLACEMENT_FACE) {
     PetscCall(SupportAddSpot(support, displacement));
     PetscFunctionReturn(0);
   }
+  for (PetscInt d = 0; d < 3; ++d) length += PetscSqr(displacement->normal[d]);
+  for (PetscInt d = 0; d < 3; ++d) normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
@@ -142,8 +145,8 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
     PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
     for (PetscInt k = 0; k < 12; ++k) {
-      if (!displacement->fixed[k % 3]) continue;
-      SupportAddMotion(support, b, axes[k % 3], x[k / 3], 1);
+      if (!displacement->fixed[k % 3] && (!displacement->inclined || k % 3)) continue;
+      SupportAddMotion(support, b, displacement->inclined ? normal : axes[k % 3], x[k / 3], 1);
       PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
     }
   }

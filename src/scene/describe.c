@@ -167,6 +167,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
     for (PetscInt i = 0; i < 3; ++i) {
       if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
     }
+    if (here->inclined) PetscCall(PetscViewerASCIIPrintf(viewer, ", no displacement along (%.6g, %.6g, %.6g)", (double)here->normal[0], (double)here->normal[1], (double)here->normal[2]));
     if (SceneRotates(here)) PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)", (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0], (double)here->center[1], (double)here->center[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }

@@ -1,6 +1,6 @@
 /*
    symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a built-in
-   shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}.
+   shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or with a vector as its normal.
    Symmetry planes become prescribed displacements, after those of the scene.
 */
 #include "sceneimpl.h"
@@ -38,6 +38,36 @@ static PetscInt SymmetryAxisOfHalfEllipse(const SceneHalfEllipse *ellipse, const
   return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
 }
 
+/* Faces of arcs at other angles: normal to the circle, 0 where it is none of them */
+static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal normal[3])
+{
+  const char         *name = NULL;
+  const PetscInt      b    = SceneFindBody(scene, face, &name);
+  const SceneTubeArc *tube = b >= 0 ? &scene->bodies[b].tube : NULL;
+  PetscReal           angle;
+
+  normal[0] = normal[1] = normal[2] = 0;
+  if (!tube || scene->bodies[b].shape != SHAPE_TUBE_ARC || !SymmetryIsOneOf(name, "amin", "amax")) return;
+  angle                        = tube->angles[!strcmp(name, "amax")] * PETSC_PI / 180;
+  normal[(tube->axis + 1) % 3] = -PetscSinReal(angle);
+  normal[(tube->axis + 2) % 3] = PetscCosReal(angle);
+}
+
+/* Along an axis it is a component that is prescribed */
+static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *displacement)
+{
+  const PetscReal length = PetscSqrtReal(PetscSqr(normal[0]) + PetscSqr(normal[1]) + PetscSqr(normal[2]));
+  PetscInt        axis   = -1;
+
+  if (!(length > 0)) return;
+  for (PetscInt i = 0; i < 3; ++i) {
+    displacement->normal[i] = normal[i];
+    if (PetscAbsReal(normal[i]) == length) axis = i;
+  }
+  if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
+  else displacement->inclined = PETSC_TRUE;
+}
+
 /* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
 static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
 {
@@ -57,9 +87,14 @@ static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], Scen
 {
   const PetscInt axis = SymmetryAxisOfFace(scene, face);
   char           name[SCENE_KEY_LENGTH];
+  PetscReal      normal[3];
 
   PetscFunctionBegin;
   if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
+  else {
+    SymmetryNormalOfTubeArc(scene, face, normal);
+    SymmetrySetNormal(normal, displacement);
+  }
   PetscCall(PetscSNPrintf(name, sizeof(name), "symmetry_%s", face));
   *strchr(name, '.') = '_';
   PetscCall(PetscStrallocpy(name, &displacement->name));
@@ -71,7 +106,8 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
-  PetscInt    axis = 0;
+  PetscInt    axis      = 0;
+  PetscReal   normal[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(name, &displacement->name));
@@ -80,8 +116,14 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
   PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-  if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
-  displacement->fixed[axis] = PETSC_TRUE;
+  if (text && strchr(text, ',')) {
+    PetscCall(SceneParseReals(keys, key, text, 3, normal));
+    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) PetscCall(SceneKeysComplain(keys, "%s is zero; it is x, y, z or a vector", key));
+    SymmetrySetNormal(normal, displacement);
+  } else {
+    if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
+    displacement->fixed[axis] = PETSC_TRUE;
+  }
   PetscFunctionReturn(0);
 }
 

@@ -35,7 +35,7 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
     const SceneDisplacement *here = &scene->displacements[d];
 
     if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE) PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
-    SceneRequire(here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
+    SceneRequire(here->inclined || here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 

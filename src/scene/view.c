@@ -146,6 +146,34 @@ static PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const ch
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SceneViewPlane(Scene scene, PetscViewer viewer, PetscInt d)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, normal: ", scene->displacements[d].name, scene->displacements[d].face));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(SceneViewList(viewer, 3, scene->displacements[d].normal));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* Those that are symmetry planes along no axis, or those that are not */
+static PetscErrorCode SceneViewDisplacements(Scene scene, PetscViewer viewer, const char key[], PetscBool inclined, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
+{
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    if (scene->displacements[d].inclined != inclined) continue;
+    if (!any) PetscCall(PetscViewerASCIIPrintf(viewer, "%s:\n", key));
+    any = PETSC_TRUE;
+    PetscCall(PetscViewerASCIIPushTab(viewer));
+    PetscCall(view(scene, viewer, d));
+    PetscCall(PetscViewerASCIIPopTab(viewer));
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SceneView - Prints a scene as the YAML it can be read from, every number to full precision
 
@@ -166,7 +194,8 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   if (scene->units) PetscCall(PetscViewerASCIIPrintf(viewer, "units: %s\n", scene->units));
   PetscCall(SceneViewEntries(scene, viewer, "bodies", scene->nbodies, SceneViewBody));
   PetscCall(SceneViewFaces(scene, viewer));
-  PetscCall(SceneViewEntries(scene, viewer, "displacements", scene->ndisplacements, SceneViewDisplacement));
+  PetscCall(SceneViewDisplacements(scene, viewer, "displacements", PETSC_FALSE, SceneViewDisplacement));
+  PetscCall(SceneViewDisplacements(scene, viewer, "symmetry", PETSC_TRUE, SceneViewPlane));
   PetscCall(SceneViewEntries(scene, viewer, "pressures", scene->npressures, SceneViewPressure));
   PetscCall(SceneViewTractions(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));

@@ -17,6 +17,7 @@ typedef enum {
   EFFECT_SPRINGS,
   EFFECT_WEAK_SPRINGS,
   EFFECT_TIES,
+  EFFECT_PLANES,
   EFFECT_BOUNDS,
   EFFECT_ESTIMATE,
   EFFECT_RESULTS,
@@ -38,6 +39,7 @@ static const char *const EffectNames[] = {
   [EFFECT_SPRINGS]       = "springs",
   [EFFECT_WEAK_SPRINGS]  = "weak springs",
   [EFFECT_TIES]          = "ties",
+  [EFFECT_PLANES]        = "inclined symmetry",
   [EFFECT_BOUNDS]        = "displacement bounds",
   [EFFECT_ESTIMATE]      = "error estimate",
   [EFFECT_RESULTS]       = "probes and fields",
@@ -63,7 +65,7 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, rigid = 0, mean = 0, modes = 0, second = 0;
+  PetscInt finite = 0, planes = 0, rigid = 0, mean = 0, modes = 0, second = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -73,6 +75,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
     if (scene->bodies[b].order > 1) ++second;
   }
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) planes += scene->displacements[d].inclined;
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
@@ -89,6 +92,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces", scene->nsprings));
   PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0), scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set", sim->springs.nweak));
   PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties > 0), "%" PetscInt_FMT " ties", scene->nties));
+  PetscCall(EffectSet(report, EFFECT_PLANES, (PetscBool)(planes > 0), "%" PetscInt_FMT " symmetry planes along no axis", planes));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
   if (scene->displacement_bounds) PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));

@@ -190,8 +190,35 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
   PetscFunctionReturn(0);
 }
 
-/* reaction: its prescribed rows are */
-PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, StepReport *report)
+/* Of a symmetry plane along no axis: what the ties have at its nodes, which they then have no more */
+static PetscErrorCode ForcesTakePlane(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
+{
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  ForceField             field;
+
+  PetscFunctionBegin;
+  PetscCall(ForceFieldGet(sim, u, ties, &field));
+  PetscCall(ForceSumAddFace(sim, &field, face, all, NULL, sum));
+  PetscCall(ForceFieldRestore(sim, u, ties, &field));
+  for (PetscInt c = 0; c < 3; ++c) {
+    IS              is;
+    const PetscInt *rows;
+    PetscInt        n;
+
+    PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &rows));
+    for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(ties, rows[k], 0.0, INSERT_VALUES));
+    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCall(VecAssemblyBegin(ties));
+  PetscCall(VecAssemblyEnd(ties));
+  PetscFunctionReturn(0);
+}
+
+/* reaction: its prescribed rows are; ties: on the bodies, NULL: none. What is left of those are the joints' */
+PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, StepReport *report)
 {
   ForceSum  *sums;
   ForceField field;
@@ -208,6 +235,11 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, StepRepor
     PetscCall(ForceSumAddFace(sim, &field, d->face, d->fixed, sharers, &sums[ForcesFindFace(report, d->face)]));
   }
   PetscCall(ForceFieldRestore(sim, u, reaction, &field));
+  for (PetscInt i = 0; ties && i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &sim->scene->displacements[i];
+
+    if (d->inclined) PetscCall(ForcesTakePlane(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
+  }
   PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {
     PetscCall(PetscArraycpy(report->faces[f].reaction, sums[f].force, 3));
@@ -271,8 +303,20 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report)
+{
+  PetscReal *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(TiesMeasure(sim, ties, sums));
+  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
 /* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none */
-PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, const PetscReal ties[], StepReport *report)
+PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, StepReport *report)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
@@ -288,7 +332,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, const PetscR
   }
   if (load) PetscCall(ForcesSumLoads(sim, load, report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
-  for (PetscInt b = 0; ties && b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &ties[3 * b]));
+  if (ties) PetscCall(ForcesSumTies(sim, ties, report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];

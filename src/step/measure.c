@@ -85,20 +85,16 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
-/* Forces on tied rows go to the others; ties: what that is on each body, 3 numbers, NULL where no faces are tied */
-static PetscErrorCode MeasureTies(Simulation sim, Vec force, PetscReal **ties)
+/* Forces on tied rows go to the others; ties: the forces on the bodies that this makes, NULL where nothing is tied */
+static PetscErrorCode MeasureTies(Simulation sim, Vec force, Vec *ties)
 {
-  Vec whole;
-
   PetscFunctionBegin;
   *ties = NULL;
   if (!sim->ties.C) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(3 * sim->scene->nbodies, ties));
-  PetscCall(VecDuplicate(force, &whole));
-  PetscCall(VecCopy(force, whole));
+  PetscCall(VecDuplicate(force, ties));
+  PetscCall(VecCopy(force, *ties));
   PetscCall(TiesGather(&sim->ties, force));
-  PetscCall(TiesMeasure(sim, whole, force, *ties));
-  PetscCall(VecDestroy(&whole));
+  PetscCall(VecAXPY(*ties, -1.0, force));
   PetscFunctionReturn(0);
 }
 
@@ -109,8 +105,8 @@ static PetscErrorCode MeasureTies(Simulation sim, Vec force, PetscReal **ties)
 PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
   Simulation sim = p->sim;
-  Vec        force, contact, weighted = NULL;
-  PetscReal  size, residual, *ties;
+  Vec        force, contact, ties, weighted = NULL;
+  PetscReal  size, residual;
 
   PetscFunctionBegin;
   PetscCall(ForcesReserve(sim, report));
@@ -133,9 +129,9 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
   PetscCall(MeasureTies(sim, force, &ties));
   PetscCall(WorkAdd(p, u, force, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
-  PetscCall(ForcesMeasureFaces(sim, u, force, report));
+  PetscCall(ForcesMeasureFaces(sim, u, force, ties, report));
   PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, report));
-  PetscCall(PetscFree(ties));
+  PetscCall(VecDestroy(&ties));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;

@@ -145,7 +145,7 @@ typedef struct {
   PetscLogDouble begun, reached, said;
 } Progress;
 
-/* Of ties.c: the displacements of tied rows in terms of the others; C NULL where no faces are tied */
+/* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
 typedef struct {
   Mat      C, K; /* u = C x; stiffness of the bodies, K of the simulation being C^T K C */
   PetscInt n, *rows;
@@ -197,6 +197,9 @@ PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
+/* planes.c */
+PETSC_INTERN PetscErrorCode PlanesCreate(Simulation, const PetscBool prescribed[], Mat *C, PetscBool follows[]);
+
 /* ties.c */
 PETSC_INTERN PetscErrorCode TiesCreate(Simulation);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(Simulation, Mat *);
@@ -204,7 +207,7 @@ PETSC_INTERN PetscErrorCode TiesTangent(Simulation, Vec u, Mat);
 PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
 PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
 PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
-PETSC_INTERN PetscErrorCode TiesMeasure(Simulation, Vec force, Vec gathered, PetscReal bodies[]);
+PETSC_INTERN PetscErrorCode TiesMeasure(Simulation, Vec forces, PetscReal bodies[]);
 PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 
 /* path.c */
@@ -311,8 +314,8 @@ PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, const PetscReal ties[], StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */

@@ -1,5 +1,5 @@
 /*
-   Tied faces: the nonmortar vertices' displacements are those that the mortar faces give them, u = C x, and no unknowns. x is u with other numbers
+   Tied faces and symmetry planes along no axis: displacements there are those that others give them, u = C x, and no unknowns. x is u with other numbers
    at their rows, which mean nothing: energy, forces and gaps are those of C x, forces C^T f, the stiffness C^T K C with a diagonal in those rows.
    Prescribed rows are not tied.
 */
@@ -72,29 +72,33 @@ static PetscErrorCode TiesCheckChains(Simulation sim, Mat all, const PetscInt ti
   PetscFunctionReturn(0);
 }
 
-/* C, and the rows that are tied; all: of nodes */
-static PetscErrorCode TiesExpand(Simulation sim, Mat all, const PetscInt tied[])
+/* Longest row of this rank */
+static PetscErrorCode TiesLongestRow(Mat all, PetscInt *longest)
 {
-  Ties      *ties = &sim->ties;
-  PetscInt   nlocal, rstart, start, end, longest = 1;
-  PetscBool *prescribed;
+  PetscInt start, end, n;
+
+  PetscFunctionBegin;
+  *longest = 1;
+  PetscCall(MatGetOwnershipRange(all, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
+    *longest = PetscMax(*longest, n);
+    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The matrix of the ties alone, and its rows that follow others; all: of nodes */
+static PetscErrorCode TiesExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C, PetscBool follows[])
+{
+  PetscInt nlocal, rstart, start, longest;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
   PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
-  PetscCall(MatGetOwnershipRange(all, &start, &end));
-  PetscCall(PetscCalloc1(nlocal, &prescribed));
-  PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
-  PetscCall(PetscMalloc1(nlocal, &ties->rows));
-  for (PetscInt i = start; i < end; ++i) {
-    PetscInt n;
-
-    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
-    longest = PetscMax(longest, n);
-    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
-  }
-  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, &ties->C));
-  PetscCall(MatSetBlockSizes(ties->C, 3, 3));
+  PetscCall(MatGetOwnershipRange(all, &start, NULL));
+  PetscCall(TiesLongestRow(all, &longest));
+  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
   for (PetscInt i = 0; i < nlocal; ++i) {
     const PetscInt     row = rstart + i, node = i / 3;
     PetscInt           n;
@@ -102,40 +106,81 @@ static PetscErrorCode TiesExpand(Simulation sim, Mat all, const PetscInt tied[])
     const PetscScalar *values;
 
     if (tied[node] < 0 || prescribed[i]) {
-      PetscCall(MatSetValue(ties->C, row, row, 1.0, INSERT_VALUES));
+      PetscCall(MatSetValue(*C, row, row, 1.0, INSERT_VALUES));
       continue;
     }
-    ties->rows[ties->n++] = row;
+    follows[i] = PETSC_TRUE;
     PetscCall(MatGetRow(all, start + node, &n, &columns, &values));
     for (PetscInt k = 0; k < n; ++k) {
-      if (PetscAbsScalar(values[k]) > 1e-14) PetscCall(MatSetValue(ties->C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
+      if (PetscAbsScalar(values[k]) > 1e-14) PetscCall(MatSetValue(*C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
     }
     PetscCall(MatRestoreRow(all, start + node, &n, &columns, &values));
   }
-  PetscCall(MatAssemblyBegin(ties->C, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(ties->C, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree(prescribed));
+  PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-/* After the prescribed rows, before the stiffness */
-PetscErrorCode TiesCreate(Simulation sim)
+/* NULL where no faces are tied */
+static PetscErrorCode TiesCreateJoints(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt n, *tied;
   Mat      all;
 
   PetscFunctionBegin;
+  *C = NULL;
   if (!sim->scene->nties) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(sim->path.u, &n));
   PetscCall(PetscMalloc1(n / 3, &tied));
   for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
   PetscCall(TiesCollect(sim, &all, tied));
   PetscCall(TiesCheckChains(sim, all, tied));
-  PetscCall(TiesExpand(sim, all, tied));
+  PetscCall(TiesExpand(sim, all, tied, prescribed, C, follows));
   PetscCall(MatDestroy(&all));
   PetscCall(PetscFree(tied));
-  PetscCall(VecDuplicate(sim->path.u, &sim->ties.work));
-  PetscCall(ElasticitySetMatType(sim->elasticity, MATAIJ));
+  PetscFunctionReturn(0);
+}
+
+/* What is tied follows nodes on symmetry planes, and may be on them itself: the planes come first and last */
+static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat *C)
+{
+  PetscFunctionBegin;
+  if (joints && planes) PetscCall(MatMatMatMult(planes, joints, planes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, C));
+  else {
+    *C = joints ? joints : planes;
+    PetscCall(PetscObjectReference((PetscObject)*C));
+  }
+  PetscCall(MatDestroy(&joints));
+  PetscCall(MatDestroy(&planes));
+  PetscCall(MatSetBlockSizes(*C, 3, 3));
+  PetscFunctionReturn(0);
+}
+
+/* After the prescribed rows, before the stiffness */
+PetscErrorCode TiesCreate(Simulation sim)
+{
+  Ties      *ties = &sim->ties;
+  PetscInt   n, rstart;
+  PetscBool *prescribed, *follows;
+  Mat        joints, planes;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscCalloc2(n, &prescribed, n, &follows));
+  PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
+  PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
+  PetscCall(TiesCreateJoints(sim, prescribed, &joints, follows));
+  if (planes || joints) {
+    PetscCall(TiesCompose(joints, planes, &ties->C));
+    PetscCall(PetscMalloc1(n, &ties->rows));
+    for (PetscInt i = 0; i < n; ++i) {
+      if (follows[i]) ties->rows[ties->n++] = rstart + i;
+    }
+    PetscCall(VecDuplicate(sim->path.u, &ties->work));
+    PetscCall(ElasticitySetMatType(sim->elasticity, MATAIJ));
+  }
+  PetscCall(PetscFree2(prescribed, follows));
   PetscFunctionReturn(0);
 }
 
@@ -256,19 +301,17 @@ PetscErrorCode TiesCreateTangent(Simulation sim, Mat *K)
   PetscFunctionReturn(0);
 }
 
-/* Forces f on all rows, and what of them is left once the tied ones have been gathered: the ties' forces on the bodies are the difference, added 3 a body */
-PetscErrorCode TiesMeasure(Simulation sim, Vec f, Vec gathered, PetscReal bodies[])
+/* Adds forces at this rank's rows, 3 numbers a body, and over the ranks */
+PetscErrorCode TiesMeasure(Simulation sim, Vec forces, PetscReal bodies[])
 {
-  const PetscScalar *a, *b;
+  const PetscScalar *a;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(f, &n));
-  PetscCall(VecGetArrayRead(f, &a));
-  PetscCall(VecGetArrayRead(gathered, &b));
-  for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i] - b[i]);
-  PetscCall(VecRestoreArrayRead(gathered, &b));
-  PetscCall(VecRestoreArrayRead(f, &a));
+  PetscCall(VecGetLocalSize(forces, &n));
+  PetscCall(VecGetArrayRead(forces, &a));
+  for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(forces, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }
