@@ -113,6 +113,9 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetRegularizations(Tao, PetscInt *, Petsc
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetFallbacks(Tao, TaoIPFilterFallbacks *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetReason(Tao, const char *[]);
 PETSC_EXTERN PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao, void *);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetNormTerms(Tao, Mat, Vec, Vec, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetNormTermForces(Tao, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterGetNormTermForces(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetSubspace(Tao, PetscContainer *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);

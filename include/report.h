@@ -16,6 +16,11 @@ typedef struct {
   PetscReal   normal_force;     /* sum of the sizes of the rows' forces: the integral of the pressure, the size of the force where the face is plane [force] */
   PetscReal   area;             /* covered area about the vertices in contact [length^2] */
   PetscReal   pressure;         /* largest of the contact pressure's field [force/length^2] */
+  PetscBool   rubs;             /* has friction */
+  PetscReal   shear_force;      /* sum of the sizes of the rows' forces of friction [force] */
+  PetscReal   stick_area;       /* covered area about the vertices in contact that friction holds, */
+  PetscReal   slip_area;        /* and about those that slip against it [length^2]; both 0 without friction */
+  PetscReal   dissipated;       /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
 } PairReport;
 
 /* A face with prescribed displacements, symmetry planes too. Where several prescribe one row they share its reaction evenly */
@@ -91,6 +96,7 @@ typedef struct {
   FaceReport          *faces;
   PetscInt             nbodies;
   BodyReport          *bodies;
+  PetscReal            dissipated;        /* by friction, all pairs since the start [force length] */
   PetscReal            balance;           /* largest of the bodies' */
   PetscReal            weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */
   PetscInt             nprobes;           /* of the scene: points */
@@ -114,7 +120,10 @@ typedef struct {
   PetscReal area;         /* of the other side's cover that the pressure stands for [length^2] */
   PetscReal gap;          /* mean over the cover, linearized [length] */
   PetscReal force[3];     /* on the vertex [force] */
-  PetscBool closed;
+  PetscReal shear[3];     /* of friction, on the vertex's side [force/length^2] */
+  PetscReal slip[3];      /* of the other side since the last solve [length] */
+  PetscReal slip_path;    /* length of its way since the start [length] */
+  PetscBool closed, slips;
 } ContactPoint;
 
 /* Of a stress: xx yy zz xy yz zx, von Mises, the principal values with the largest first */

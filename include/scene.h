@@ -161,8 +161,16 @@ typedef struct {
   PetscReal distance;          /* facets further apart never pair [length]; 0: chosen from the size of the faces */
   PetscReal interference;      /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
   PetscInt  interference_ramp; /* that it follows; PETSC_DECIDE: all of it is there from the start */
+  PetscReal friction;          /* coefficient; 0: none, PETSC_INFINITY: any force, which sticks */
+  PetscReal shear_limit;       /* largest shear of the contact [force/length^2]; PETSC_INFINITY: none */
+  PetscInt  friction_ramp;     /* that the coefficient follows; PETSC_DECIDE: none */
   PetscBool smooth;            /* whether the gap is that of the smooth surfaces which curved faces stand for */
 } SceneContactPair;
+
+static inline PetscBool SceneContactPairRubs(const SceneContactPair *pair)
+{
+  return (PetscBool)(pair->friction > 0.0 && pair->shear_limit > 0.0);
+}
 
 /* Faces that are joined, undeformed */
 typedef struct {

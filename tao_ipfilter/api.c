@@ -168,6 +168,9 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTerms_C", attach ? TaoIPFilterSetNormTerms_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTermForces_C", attach ? TaoIPFilterSetNormTermForces_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetNormTermForces_C", attach ? TaoIPFilterGetNormTermForces_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 

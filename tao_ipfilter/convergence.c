@@ -13,7 +13,7 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &violation));
   }
-  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0) PetscFunctionReturn(0);
+  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.n) PetscFunctionReturn(0);
   if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -98,7 +98,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary = (PetscBool)(gradient == 0.0 && ip->kkt.violation <= ip->tol && ip->relax.by == 0.0);
+  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && ip->relax.by == 0.0);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));

@@ -42,31 +42,39 @@ static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
-  Vec           closer;
+  Vec           closer, force;
 
   PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, slack->z, slack->w));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(&ip->filtered.reduced, closer));
+  PetscCall(IPReducedGuess(&ip->filtered.reduced, closer, force, &ip->terms));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from a point with this gradient and these constraints, with all directions there are */
-PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec centre, Vec gradient, Vec c)
+/* The reduced problem counts from a point x, called centre, with this gradient and these constraints, with all directions there are */
+PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
-  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f     = &ip->filtered;
+  Vec           value = NULL;
 
   PetscFunctionBegin;
+  if (ip->terms.n) PetscCall(VecDuplicate(ip->terms.t, &value));
+  if (ip->terms.n) PetscCall(IPTermsValue(tao, x, value));
   PetscCall(VecCopy(centre, f->centre));
   PetscCall(VecCopy(gradient, f->gradient));
   PetscCall(VecCopy(c, f->c));
   if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, f->pg));
+  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, value, f->pg));
   PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(VecDestroy(&value));
   PetscFunctionReturn(0);
 }
 
@@ -79,7 +87,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, solved));
+  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
   ip->rec.nreduced++;
@@ -254,7 +262,8 @@ PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possibl
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, basis));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);

@@ -29,8 +29,8 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscBool        amg, factored;
 
   PetscFunctionBegin;
-  *applies = (PetscBool)(opt->subspace != IP_SUBSPACE_FALSE && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
-  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE) PetscFunctionReturn(0);
+  *applies = (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
+  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms.n) PetscFunctionReturn(0);
   PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
   if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
@@ -49,7 +49,7 @@ static PetscErrorCode FilteredIsThin(Tao tao, PetscBool *thin)
   PetscCall(IPSubspaceUpdate(tao));
   PetscCall(ISGetSize(ip->cond.filter, &nw));
   PetscCall(VecGetSize(tao->solution, &n));
-  *thin = (PetscBool)(nw > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || nw <= fraction * n));
+  *thin = (PetscBool)(nw > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || nw <= fraction * n));
   PetscFunctionReturn(0);
 }
 
@@ -158,7 +158,7 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 
   PetscFunctionBegin;
   ip->filtered.f = ip->at.f;
-  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->gradient, ip->at.c));
+  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->solution, tao->gradient, ip->at.c));
   PetscFunctionReturn(0);
 }
 

@@ -14,10 +14,10 @@
    The files, each calling none but those above it in this list:
 
      problem  log, work, pairs, iterate, fixed, bounds, slack, sides, rowscale, matrices, jacobian, hessian, evaluate, difference, quasinewton
-     measure  stiffness, scale, worth, kkt
+     measure  stiffness, scale, terms, worth, kkt
      system   rows, operator, assemble, subspace, condense
      linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
-     space    basis, compliance, activeset, reduced, kept, filteredspace, filteredsubspace
+     space    basis, compliance, activeset, termset, reduced, kept, filteredspace, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, newtonsubspace, penalty, freestep, warm, start, relax, restore
      driver   reason, degenerate, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
@@ -227,6 +227,18 @@ typedef struct {
   PetscBool flat;   /* where all of it was zero: nothing resists a constraint */
 } IPStiffness;
 
+/* Terms sum_i b_i |T_i x + t_i| beside the objective, b_i = min(limit_i, coefficient_i times the force of inequality constraint i): terms.c */
+typedef struct {
+  PetscInt n;                       /* of all ranks; 0: none in this solve */
+  Mat      given, T;                /* two rows a term; without the columns of fixed variables */
+  IPStamp  stamp;                   /* of T */
+  Vec      t;                       /* two entries a term */
+  Vec      limit, coefficient;      /* one a term; NULL: no limit, or limits alone */
+  Vec      force, best, last, warm; /* tau at the present point, at the best one and at the last, two a term; what the first is to be: NULL: 0 */
+  Vec      rho;                     /* force per length that resists a term */
+  Vec      dead;                    /* of two entries a term: unit vector along which next to nothing gives way, and v counts as none; zeros: there is none */
+} IPTerms;
+
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
 typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
@@ -251,13 +263,13 @@ typedef struct {
   PetscReal inf_pr, inf_du, inf_compl;     /* largest absolute entries of the primal and the dual residual, and of t z */
 } IPKKT;
 
-/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too */
+/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too, or of norm terms */
 typedef struct {
   Mat     J; /* NULL: none */
   Vec     D; /* their weights */
   IPStamp stamp;
-  IPStamp source[2];            /* of the Jacobians that one of both was made from */
-  Vec     inequality, equality; /* weights of either kind */
+  IPStamp source[2];         /* of the matrices that one of both was made from */
+  Vec     inequality, below; /* weights of either kind */
 } IPRows;
 
 /* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
@@ -403,13 +415,13 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
   return c->C + (size_t)c->column[row] * (size_t)c->m;
 }
 
-/* The contact problem with w eliminated, as activeset.c states it */
+/* The contact problem with w eliminated, as activeset.c and termset.c state it: constraints, and below them two rows a norm term */
 typedef struct {
-  PetscInt         m, k, kmax;     /* constraints; directions, and room for them */
-  PetscReal       *JZ, *T, *h, *t; /* columns of length m and kmax */
-  const PetscReal *G;              /* P^T K P */
-  PetscReal       *lambda, *gap, *y;
-  PetscReal        length; /* size of the terms of a gap */
+  PetscInt         m, k, kmax;       /* rows; directions, and room for them */
+  PetscReal       *JZ, *T, *h, *t;   /* columns of length m and kmax */
+  const PetscReal *G;                /* P^T K P */
+  PetscReal       *lambda, *gap, *y; /* forces and motions of the rows */
+  PetscReal        length;           /* size of the terms of a gap */
 } IPReducedSystem;
 
 /* The constraints that are active, and the factors that belong to them */
@@ -420,12 +432,27 @@ typedef struct {
   PetscReal *L, *V, *H, *r;
 } IPActiveSet;
 
+/* What is closed and slips of constraints and norm terms, and the factors that belong to it: termset.c */
+typedef struct {
+  PetscInt      m, n;                /* constraints and terms */
+  PetscReal    *limit, *coefficient; /* of the terms; coefficient negative: none */
+  PetscReal    *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
+  PetscReal    *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
+  PetscReal    *dead;                /* along which nothing gives way, two a term */
+  PetscReal     length;              /* size of the terms of a motion */
+  PetscBool    *closed, *slips, factored;
+  PetscInt      na, k, *rows, *place; /* rows that take part, and where a row stands among them; directions in V */
+  PetscReal    *M, *V, *H, *F, *Fy;
+  PetscBLASInt *pivots, *directions; /* of M and of H */
+} IPTermSet;
+
 /* The contact problem on the subspace; n and m are zero on all ranks but the first */
 typedef struct {
   PetscBool       first;
-  PetscInt        n, m; /* unknowns W, constraints */
-  VecScatter      to_W, to_rows;
-  Vec             on_W, on_rows;
+  PetscInt        n, m, nterms; /* unknowns W, constraints, norm terms */
+  VecScatter      to_W, to_rows, to_terms;
+  Vec             on_W, on_rows, on_terms;
+  IPTermSet       terms;
   IPCompliance    compliance;
   IPReducedSystem system;
   IPActiveSet     set;
@@ -450,7 +477,7 @@ typedef struct {
   PetscBool      constant; /* and that of the Hessian too: a quadratic program */
   PetscBool      on;
   PetscBool      newton; /* by Newton's method, as the objective is not quadratic */
-  PetscContainer kept; /* an IPKept */
+  PetscContainer kept;   /* an IPKept */
   IPReduced      reduced;
   Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
   PetscReal      f;                   /* and f there */
@@ -497,6 +524,7 @@ typedef struct {
   Vec           rx, rc; /* grad f - J^T M lambda + J_E^T y - bound multipliers, and c_I - s */
   IPFirst       first;
   IPStiffness   stiff;
+  IPTerms       terms;
   IPScale       scale;
   IPKKT         kkt;
   IPCondensed   cond;
@@ -654,6 +682,18 @@ PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscRe
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
 
+/* terms.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
+PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
+PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);
+PETSC_INTERN PetscErrorCode IPTermsSubtractForces(Tao, Vec);
+PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force);
+PETSC_INTERN PetscErrorCode IPTermsViolation(Tao, PetscReal *largest);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao, Mat, Vec, Vec, Vec);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao, Vec);
+PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);
+
 /* worth.c */
 PETSC_INTERN PetscErrorCode IPWorthTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPWorthEnergy(Tao, PetscReal *);
@@ -754,15 +794,21 @@ PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
 
+/* termset.c */
+PETSC_INTERN PetscErrorCode IPTermSetCreate(PetscInt m, PetscInt n, PetscInt kmax, IPTermSet *);
+PETSC_INTERN PetscErrorCode IPTermSetDestroy(IPTermSet *);
+PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+
 /* reduced.c */
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c, const IPBasis *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
-PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec);
-PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
+PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
+PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, PetscReal E[]);
-PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
 
 /* kept.c, beside the public functions */
 PETSC_INTERN PetscErrorCode IPKeptGet(Tao, IPKept **);
@@ -777,7 +823,7 @@ PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer)
 /* filteredspace.c */
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, const IPBasis *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
-PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);

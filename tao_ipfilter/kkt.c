@@ -1,7 +1,7 @@
 /* Residuals of the optimality conditions. */
 #include "ipfilterimpl.h"
 
-/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers, for multipliers lambda or z of the slacks */
+/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z of the slacks */
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -17,6 +17,7 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
   if (ip->me) PetscCall(MatMultTransposeAdd(ip->jac.equality, ip->at.y, r, r));
+  PetscCall(IPTermsSubtractForces(tao, r));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     IPPair *p = &ip->pair[b];
@@ -91,7 +92,7 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
   return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
-/* c_I - s into ip->rc, and how far the constraints are from being met: per unit of their scales, and in the caller's units */
+/* c_I - s into ip->rc, and how far the constraints and the laws of norm terms are from being met: per unit of their scales, and in the caller's units */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -115,6 +116,9 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
     *largest = PetscMax(*largest, norm);
   }
+  PetscCall(IPTermsViolation(tao, &norm));
+  *primal  = PetscMax(*primal, norm / ip->scale.length);
+  *largest = PetscMax(*largest, norm);
   PetscFunctionReturn(0);
 }
 

@@ -18,6 +18,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
 
   PetscFunctionBegin;
   PetscCall(MatMultAdd(ip->hess.H, d, tao->gradient, r));
+  PetscCall(IPTermsSubtractForces(tao, r));
   PetscCall(VecScale(r, -1.0));
   PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
   PetscCall(IPFixedZero(tao, r));
@@ -30,17 +31,20 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
 static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           gradient, c;
+  Vec           x, gradient, c;
 
   PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
+  PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
   PetscCall(MatMultAdd(ip->hess.H, d, tao->gradient, gradient));
   PetscCall(IPFixedZero(tao, gradient));
   PetscCall(MatMultAdd(ip->jac.inequality, d, ip->at.c, c));
-  PetscCall(IPFilteredCentre(tao, basis, d, gradient, c));
+  PetscCall(IPFilteredCentre(tao, basis, x, d, gradient, c));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &x));
   PetscFunctionReturn(0);
 }
 
@@ -137,12 +141,12 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Halves the step until the penalized objective falls; *ok is false where it does not, or the model is not convex along d */
+/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers included; *ok is false where it does not, or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo = 1e-4, least = 1e-4;
-  PetscReal       nu = 0.0, violation, rounding = 0.0, slope, alpha;
+  PetscReal       nu = 0.0, violation, rounding = 0.0, terms[2], slope, alpha;
   PetscScalar     gd;
 
   PetscFunctionBegin;
@@ -150,7 +154,10 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscCall(NewtonRounding(tao, &rounding));
   PetscCall(NewtonViolation(tao, ip->at.c, &violation));
   PetscCall(VecDot(tao->gradient, d, &gd));
-  slope              = PetscRealPart(gd) - nu * violation;
+  PetscCall(IPTermsSum(tao, tao->solution, force, &terms[0]));
+  PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
+  PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
+  slope              = PetscRealPart(gd) - nu * violation + terms[1] - terms[0];
   ip->search.ntrials = 0;
   *ok                = PETSC_FALSE;
   for (alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
@@ -163,7 +170,8 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
     if (IPUndefined(ip->trial.f)) continue;
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(NewtonViolation(tao, ip->trial.c, &rest));
-    *ok = (PetscBool)(ip->trial.f + nu * rest <= ip->at.f + nu * violation + armijo * alpha * slope + rounding);
+    PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
+    *ok = (PetscBool)(ip->trial.f + nu * rest + terms[1] <= ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
   }
   PetscFunctionReturn(0);
 }
@@ -179,6 +187,7 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscCall(VecPointwiseMult(old, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
   PetscCall(VecAXPBY(force, 1.0 - ip->search.alpha, ip->search.alpha, old));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &old));
+  if (ip->terms.n) PetscCall(VecAXPBY(ip->terms.force, 1.0 - ip->search.alpha, ip->search.alpha, ip->terms.last));
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPFilteredSetPairs(tao, force));
   PetscCall(VecNorm(d, NORM_INFINITY, &ip->dir.norm));
@@ -227,6 +236,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPKept *kept, Vec d, Vec force, Pe
   PetscFunctionBegin;
   *found          = PETSC_TRUE;
   ip->shift.delta = 0.0;
+  if (ip->terms.n) PetscCall(VecCopy(ip->terms.force, ip->terms.last));
   for (PetscInt k = 0; k <= shifts; k++) {
     if (k) PetscCall(IPRegularizeMore(tao));
     if (k || tao->niter) {

@@ -17,7 +17,7 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
-  PetscCall(VecPointwiseMult(force, ip->cond.rows.equality, ce));
+  PetscCall(VecPointwiseMult(force, ip->cond.rows.below, ce));
   if (y) PetscCall(VecAXPY(force, 1.0, y));
   PetscCall(VecScale(force, -1.0));
   PetscCall(MatMultTransposeAdd(ip->jac.equality, force, b, rhs));
@@ -63,7 +63,7 @@ static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &r));
   PetscCall(MatMultAdd(ip->jac.equality, dx, ce, r));
   PetscCall(VecNorm(r, NORM_INFINITY, left));
-  PetscCall(VecPointwiseMult(r, r, ip->cond.rows.equality));
+  PetscCall(VecPointwiseMult(r, r, ip->cond.rows.below));
   PetscCall(VecAXPY(y, 1.0, r));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &r));
   PetscFunctionReturn(0);

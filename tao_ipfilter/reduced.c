@@ -1,6 +1,6 @@
 /*
    The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w + P y. Its data, of the
-   constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for as long as W and K stay.
+   constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for as long as W and K stay. Norm terms add their two rows each.
 */
 #include "ipfilterimpl.h"
 
@@ -98,7 +98,7 @@ static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const P
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReducedGatherJacobian(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
 {
   ReducedGather g = {.nw = nw, .w = w};
   PetscInt     *rows, start, end;
@@ -112,6 +112,55 @@ static PetscErrorCode ReducedGatherJacobian(Mat J, PetscInt nw, const PetscInt w
   g.rows = g.place = rows;
   PetscCall(ReducedGatherMatrix(J, &g, first, S));
   PetscCall(PetscFree(rows));
+  PetscFunctionReturn(0);
+}
+
+/* The rows of both, one below the other */
+static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
+{
+  const Mat parts[2] = {upper, lower};
+  PetscInt  m[2], n, *counts;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(upper, &m[0], &n));
+  PetscCall(MatGetSize(lower, &m[1], NULL));
+  PetscCall(PetscMalloc1(m[0] + m[1], &counts));
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    if (pass) PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, m[0] + m[1], n, 0, counts, both));
+    for (PetscInt r = 0; r < m[0] + m[1]; r++) {
+      const PetscInt     b = r >= m[0];
+      const PetscInt    *columns;
+      const PetscScalar *values;
+      PetscInt           nc;
+
+      PetscCall(MatGetRow(parts[b], r - b * m[0], &nc, &columns, &values));
+      counts[r] = nc;
+      if (pass) PetscCall(MatSetValues(*both, 1, &r, nc, columns, values, INSERT_VALUES));
+      PetscCall(MatRestoreRow(parts[b], r - b * m[0], &nc, &columns, &values));
+    }
+  }
+  PetscCall(MatAssemblyBegin(*both, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*both, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(0);
+}
+
+/* J_W, and T_W below it where there are norm terms */
+static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+{
+  Mat JW, TW;
+
+  PetscFunctionBegin;
+  if (!terms->n) {
+    PetscCall(ReducedGatherRows(J, nw, w, first, S));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ReducedGatherRows(J, nw, w, first, &JW));
+  PetscCall(ReducedGatherRows(terms->T, nw, w, first, &TW));
+  *S = NULL;
+  if (first) PetscCall(ReducedStackRows(JW, TW, S));
+  PetscCall(MatDestroy(&TW));
+  PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
 
@@ -131,6 +180,9 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(VecScatterDestroy(&r->to_rows));
   PetscCall(VecDestroy(&r->on_W));
   PetscCall(VecDestroy(&r->on_rows));
+  PetscCall(VecScatterDestroy(&r->to_terms));
+  PetscCall(VecDestroy(&r->on_terms));
+  PetscCall(IPTermSetDestroy(&r->terms));
   PetscCall(IPComplianceDestroy(&r->compliance));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(ReducedFreeSystem(&r->system));
@@ -139,8 +191,8 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* Entries of W, and constraints, of vectors of all ranks */
-static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, IS w)
+/* Entries of W, constraints and norm terms of vectors of all ranks */
+static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, const IPTerms *terms, IS w)
 {
   IS places;
 
@@ -150,6 +202,7 @@ static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, IS w)
   PetscCall(VecScatterCreate(x, w, r->on_W, places, &r->to_W));
   PetscCall(ISDestroy(&places));
   PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
+  if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
   PetscFunctionReturn(0);
 }
 
@@ -158,12 +211,13 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  s->m    = r->m;
+  s->m    = r->m + 2 * r->nterms;
   s->kmax = basis->max;
   PetscCall(PetscMalloc3((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t));
   PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
   PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
-  PetscCall(IPActiveSetCreate(r->m, &r->set));
+  if (r->nterms) PetscCall(IPTermSetCreate(r->m, r->nterms, s->kmax, &r->terms));
+  else PetscCall(IPActiveSetCreate(r->m, &r->set));
   PetscFunctionReturn(0);
 }
 
@@ -175,8 +229,8 @@ static PetscErrorCode ReducedTell(const IPReduced *r, PetscBool *verdict)
   PetscFunctionReturn(0);
 }
 
-/* Gathers what stays while K, J and W do; *definite is false where K_WW is not positive definite */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *basis, PetscBool *definite)
+/* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, IS W, Vec x, Vec c, const IPBasis *basis, PetscBool *definite)
 {
   PetscMPIInt     rank;
   IS              all, mine;
@@ -194,13 +248,14 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, co
   if (r->first) {
     r->n = nw;
     PetscCall(VecGetSize(c, &r->m));
+    r->nterms = terms->n;
   }
   PetscCall(ReducedGatherStiffness(K, W, nw, w, r->first, &KWW));
-  PetscCall(ReducedGatherJacobian(J, nw, w, r->first, &JW));
+  PetscCall(ReducedGatherJacobian(J, terms, nw, w, r->first, &JW));
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
   PetscCall(ISRestoreIndices(all, &w));
   PetscCall(ISDestroy(&all));
-  PetscCall(ReducedCreateScatters(r, x, c, mine));
+  PetscCall(ReducedCreateScatters(r, x, c, terms, mine));
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedCreateSystem(r, basis));
   if (r->first) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
@@ -246,24 +301,67 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* Begins with the rows active whose entry is positive */
-PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess)
+/* Limits, coefficients and dead directions of the norm terms; scale: of the rows of c_I, NULL: 1 */
+PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 {
+  const Vec  given[2] = {terms->limit, terms->coefficient};
+  PetscReal *values[2];
+  Vec        scaled;
+
   PetscFunctionBegin;
-  PetscCall(ReducedFetch(r->to_rows, guess, r->on_rows, r->m, r->system.gap));
-  for (PetscInt i = 0; i < r->m; i++) r->set.active[i] = (PetscBool)(r->system.gap[i] > 0.0);
-  r->set.factored = PETSC_FALSE;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(ReducedFetch(r->to_terms, terms->dead, r->on_terms, 2 * r->nterms, r->terms.dead));
+  values[0] = r->terms.limit;
+  values[1] = r->terms.coefficient;
+  for (PetscInt i = 0; i < r->nterms; i++) {
+    r->terms.limit[i]       = PETSC_INFINITY;
+    r->terms.coefficient[i] = -1.0;
+  }
+  for (PetscInt k = 0; k < 2; k++) {
+    VecScatter scatter;
+    Vec        on_first;
+
+    if (!given[k]) continue;
+    PetscCall(VecDuplicate(given[k], &scaled));
+    PetscCall(VecCopy(given[k], scaled));
+    if (k && scale) PetscCall(VecPointwiseMult(scaled, scaled, scale));
+    PetscCall(VecScatterCreateToZero(scaled, &scatter, &on_first));
+    PetscCall(ReducedFetch(scatter, scaled, on_first, r->nterms, values[k]));
+    PetscCall(VecScatterDestroy(&scatter));
+    PetscCall(VecDestroy(&on_first));
+    PetscCall(VecDestroy(&scaled));
+  }
   PetscFunctionReturn(0);
 }
 
-/* Counts v from a point with this gradient g, P^T g and constraints c */
-PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, const PetscReal pg[])
+/* Begins with the rows active, or closed, whose entry is positive; with norm terms from these forces */
+PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
+  for (PetscInt i = 0; i < r->m; i++) {
+    PetscBool *active = r->nterms ? r->terms.closed : r->set.active;
+
+    active[i] = (PetscBool)(s->gap[i] > 0.0);
+  }
+  r->set.factored = r->terms.factored = PETSC_FALSE;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(ReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
+  PetscCall(ReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
+  PetscFunctionReturn(0);
+}
+
+/* Counts v from a point with this gradient g, P^T g, constraints c, and value of the norm terms, if there are any */
+PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
   PetscCall(ReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
   PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
+  if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
   if (!r->first) PetscFunctionReturn(0);
   PetscCall(IPComplianceSolve(&r->compliance, r->g, r->x));
   PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->x, s->h));
@@ -272,6 +370,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, const PetscRea
     s->h[i] -= s->gap[i];
     s->length = PetscMax(s->length, PetscMax(PetscAbsReal(s->gap[i]), PetscAbsReal(s->h[i])));
   }
+  PetscCall(PetscArrayzero(s->y, s->kmax));
   for (PetscInt j = 0; j < s->k; j++) s->t[j] = ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - pg[j];
   PetscFunctionReturn(0);
 }
@@ -290,7 +389,7 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
     PetscCall(ReducedFetch(r->to_W, basis->q[j], r->on_W, r->n, q));
     if (!r->first) continue;
     PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
-    PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)r->m]));
+    PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
     for (PetscInt i = 0; i <= j; i++) s->T[i + j * s->kmax] = s->T[j + i * s->kmax] = basis->gram[i + j * basis->max] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
     s->t[j] = ReducedDot(r->n, q, r->x) - pg[j];
   }
@@ -315,7 +414,8 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal E[])
 PetscErrorCode IPReducedForget(IPReduced *r)
 {
   PetscFunctionBegin;
-  r->system.k = r->set.k = 0;
+  r->system.k = r->set.k = r->terms.k = 0;
+  if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
 }
 
@@ -334,8 +434,18 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
   PetscFunctionReturn(0);
 }
 
-/* y on all ranks, w into the entries W of v, whose others stay, and the forces lambda. r->nactive, r->nsteps: of this solve. */
-PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, PetscBool *solved)
+static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  if (r->nterms) PetscCall(IPTermSetSolve(&r->terms, &r->compliance, &r->system, &r->nsteps, solved));
+  else PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
+  r->nactive = r->nterms ? r->terms.na : r->set.n;
+  PetscFunctionReturn(0);
+}
+
+/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if there are any.
+   r->nactive, r->nsteps: of this solve. */
+PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;
   MPI_Comm         comm = PetscObjectComm((PetscObject)v);
@@ -343,7 +453,7 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Pet
   PetscReal       *w = NULL;
 
   PetscFunctionBegin;
-  if (r->first) PetscCall(IPActiveSetSolve(&r->set, &r->compliance, s, &r->nsteps, solved));
+  if (r->first) PetscCall(ReducedSolveFirst(r, solved));
   PetscCall(ReducedTell(r, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(r->n, &w));
@@ -351,10 +461,11 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Pet
   PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
   PetscCall(PetscFree(w));
   PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
+  if (terms) PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
   PetscCall(PetscArraycpy(y, s->y, s->k));
   PetscCallMPI(MPI_Bcast(y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
   counts[0] = r->nsteps;
-  counts[1] = r->set.n;
+  counts[1] = r->nactive;
   PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));
   r->nsteps  = counts[0];
   r->nactive = counts[1];

@@ -1,5 +1,6 @@
 /*
-   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank. Where equality constraints are condensed,
+   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and the rows of norm terms, which have to
+   do with what is filtered, and hold bodies where nothing else does. Where equality constraints are condensed,
    D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists it; in a restoration step what the
    augmented system would eliminate to, 1/delta.
 */
@@ -11,7 +12,7 @@ PetscErrorCode IPRowsDestroy(IPRows *rows)
   PetscCall(MatDestroy(&rows->J));
   PetscCall(VecDestroy(&rows->D));
   PetscCall(VecDestroy(&rows->inequality));
-  PetscCall(VecDestroy(&rows->equality));
+  PetscCall(VecDestroy(&rows->below));
   PetscCall(PetscMemzero(rows, sizeof(*rows)));
   PetscFunctionReturn(0);
 }
@@ -68,8 +69,8 @@ static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
   PetscFunctionReturn(0);
 }
 
-/* Both Jacobians in one matrix, refilled while the patterns stay */
-static PetscErrorCode RowsStack(Tao tao)
+/* The Jacobian of c_I and a matrix below it in one, refilled while the patterns stay */
+static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
   IPRows           *rows = &ip->cond.rows;
@@ -77,19 +78,19 @@ static PetscErrorCode RowsStack(Tao tao)
   PetscInt          rstart, m;
 
   PetscFunctionBegin;
-  if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], &jac->equality_stamp)) PetscFunctionReturn(0);
-  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) || !RowsSamePattern(&rows->source[1], &jac->equality_stamp)) {
+  if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], stamp)) PetscFunctionReturn(0);
+  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) || !RowsSamePattern(&rows->source[1], stamp)) {
     PetscCall(MatDestroy(&rows->J));
-    PetscCall(RowsCreateStacked(jac->inequality, jac->equality, &rows->J));
+    PetscCall(RowsCreateStacked(jac->inequality, lower, &rows->J));
   }
   PetscCall(MatGetOwnershipRange(rows->J, &rstart, NULL));
   PetscCall(MatGetLocalSize(jac->inequality, &m, NULL));
   PetscCall(RowsCopy(jac->inequality, rows->J, rstart, NULL, NULL));
-  PetscCall(RowsCopy(jac->equality, rows->J, rstart + m, NULL, NULL));
+  PetscCall(RowsCopy(lower, rows->J, rstart + m, NULL, NULL));
   PetscCall(MatAssemblyBegin(rows->J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(rows->J, MAT_FINAL_ASSEMBLY));
   rows->source[0]      = jac->inequality_stamp;
-  rows->source[1]      = jac->equality_stamp;
+  rows->source[1]      = *stamp;
   rows->stamp.value_id = rows->stamp.pattern_id = ((PetscObject)rows->J)->id;
   PetscCall(PetscObjectStateGet((PetscObject)rows->J, &rows->stamp.value_state));
   PetscCall(MatGetNonzeroState(rows->J, &rows->stamp.pattern_state));
@@ -108,25 +109,38 @@ static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
   PetscFunctionReturn(0);
 }
 
-/* Weights of the equality constraints. A row that hardly moves anything counts as no more than 100 times as stiff as the mean. */
-static PetscErrorCode RowsWeighEqualities(Tao tao, Vec weights)
+/* What is below the rows of c_I: equality constraints that are condensed, norm terms, or NULL: nothing */
+static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar  *w, sum;
-  PetscReal     mean;
-  PetscInt      n;
+  if (ip->me && ip->prox.condensed) {
+    *stamp = &ip->jac.equality_stamp;
+    return ip->jac.equality;
+  }
+  *stamp = &ip->terms.stamp;
+  return ip->terms.n ? ip->terms.T : NULL;
+}
+
+/* Weights of the rows below. A row that hardly moves anything counts as no more than 100 times as stiff as the mean. */
+static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal multiple = ip->terms.n ? 1.0 : ip->opt.proximal;
+  PetscScalar    *w, sum;
+  PetscReal       mean;
+  PetscInt        n;
 
   PetscFunctionBegin;
   if (ip->aug.delta > 0.0) {
     PetscCall(VecSet(weights, 1.0 / ip->aug.delta));
     PetscFunctionReturn(0);
   }
-  PetscCall(IPCompliances(tao, ip->jac.equality, weights));
+  PetscCall(IPCompliances(tao, J, weights));
   PetscCall(VecSum(weights, &sum));
-  mean = PetscRealPart(sum) / ip->me;
+  PetscCall(VecGetSize(weights, &n));
+  mean = PetscRealPart(sum) / n;
   PetscCall(VecGetLocalSize(weights, &n));
   PetscCall(VecGetArray(weights, &w));
-  for (PetscInt i = 0; i < n; i++) w[i] = mean > 0.0 ? 1.0 / (ip->opt.proximal * PetscMax(PetscRealPart(w[i]), 1e-2 * mean)) : 1.0;
+  for (PetscInt i = 0; i < n; i++) w[i] = mean > 0.0 ? 1.0 / (multiple * PetscMax(PetscRealPart(w[i]), 1e-2 * mean)) : 1.0;
   PetscCall(VecRestoreArray(weights, &w));
   PetscFunctionReturn(0);
 }
@@ -158,7 +172,7 @@ static PetscErrorCode RowsKeep(Vec v, Vec *copy)
 }
 
 /* Weights of both kinds in one vector */
-static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool equality)
+static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPRows       *rows  = &ip->cond.rows;
@@ -171,20 +185,21 @@ static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool equality)
     PetscCall(VecGetLocalSize(rows->inequality, &first));
     PetscCall(RowsPlaceWeights(rows->inequality, rows->D, 0));
   }
-  if (equality) PetscCall(RowsPlaceWeights(rows->equality, rows->D, first));
+  if (below) PetscCall(RowsPlaceWeights(rows->below, rows->D, first));
   PetscFunctionReturn(0);
 }
 
 /* The rows at the present point, without weights */
 PetscErrorCode IPRowsTake(Tao tao)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  IPRows         *rows     = &ip->cond.rows;
-  const PetscBool equality = (PetscBool)(ip->me && ip->prox.condensed);
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  IPRows        *rows = &ip->cond.rows;
+  const IPStamp *stamp;
+  const Mat      below = RowsBelow(ip, &stamp);
 
   PetscFunctionBegin;
-  if (ip->mi && equality) PetscCall(RowsStack(tao));
-  else if (equality) PetscCall(RowsTakeOne(ip->jac.equality, &ip->jac.equality_stamp, rows));
+  if (ip->mi && below) PetscCall(RowsStack(tao, below, stamp));
+  else if (below) PetscCall(RowsTakeOne(below, stamp, rows));
   else PetscCall(RowsTakeOne(ip->mi ? ip->jac.inequality : NULL, &ip->jac.inequality_stamp, rows));
   PetscFunctionReturn(0);
 }
@@ -192,17 +207,19 @@ PetscErrorCode IPRowsTake(Tao tao)
 /* Rows and weights for the weights D of the inequality constraints, NULL where there are none */
 PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  IPRows         *rows     = &ip->cond.rows;
-  const PetscBool equality = (PetscBool)(ip->me && ip->prox.condensed);
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  IPRows        *rows = &ip->cond.rows;
+  const IPStamp *stamp;
+  const Mat      below = RowsBelow(ip, &stamp);
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
   if (ip->mi) PetscCall(RowsKeep(D, &rows->inequality));
-  if (equality) {
-    if (!rows->equality) PetscCall(VecDuplicate(ip->at.ce, &rows->equality));
-    PetscCall(RowsWeighEqualities(tao, rows->equality));
+  if (below) {
+    PetscCall(VecDestroy(&rows->below));
+    PetscCall(MatCreateVecs(below, NULL, &rows->below));
+    PetscCall(RowsWeigh(tao, below, rows->below));
   }
-  if (rows->J) PetscCall(RowsJoinWeights(tao, equality));
+  if (rows->J) PetscCall(RowsJoinWeights(tao, (PetscBool)(below != NULL)));
   PetscFunctionReturn(0);
 }

@@ -194,6 +194,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ip->given.warm_y));
   PetscCall(VecDestroy(&ip->given.warm_lower));
   PetscCall(VecDestroy(&ip->given.warm_upper));
+  PetscCall(IPTermsDestroy(&ip->terms));
   PetscCall(IPFilterSetDestroy(&ip->filter));
   PetscCall(PetscFree(ip->rec.ksp_iterations));
   PetscCall(IPQuasiNewtonDestroy(&ip->qn));

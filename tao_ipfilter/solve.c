@@ -136,6 +136,7 @@ static PetscErrorCode KeepBest(Tao tao)
   ip->rec.best_error     = IPBothErrors(ip);
   ip->rec.best_violation = ip->kkt.violation;
   PetscCall(IPIterateCopy(&ip->at, &ip->best));
+  if (ip->terms.n) PetscCall(VecCopy(ip->terms.force, ip->terms.best));
   PetscFunctionReturn(0);
 }
 
@@ -148,6 +149,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error) PetscFunctionReturn(0);
   if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
+  if (ip->terms.n) PetscCall(VecCopy(ip->terms.best, ip->terms.force));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPSlackDistance(tao, ip->at.s, PETSC_FALSE));
@@ -311,6 +313,17 @@ static PetscErrorCode LeaveSubspace(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* The filtered subspace method is the only one for norm terms */
+static PetscErrorCode EndTerms(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec.best_error < PETSC_INFINITY) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws: KKT error %g", (double)ip->rec.best_error));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws; they take inequality constraints and no others, and a Hessian that is positive definite on what they touch"));
+  PetscFunctionReturn(0);
+}
+
 /* One step of the method that is on */
 static PetscErrorCode TakeStep(Tao tao)
 {
@@ -320,7 +333,8 @@ static PetscErrorCode TakeStep(Tao tao)
   if (((TAO_IPFILTER *)tao->data)->filtered.on) {
     if (((TAO_IPFILTER *)tao->data)->filtered.newton) PetscCall(IPNewtonSubspaceStep(tao, &done));
     else PetscCall(IPFilteredStep(tao, &done));
-    if (!done) PetscCall(LeaveSubspace(tao));
+    if (!done && ((TAO_IPFILTER *)tao->data)->terms.n) PetscCall(EndTerms(tao));
+    else if (!done) PetscCall(LeaveSubspace(tao));
   } else PetscCall(TakeNewtonStep(tao));
   PetscFunctionReturn(0);
 }
@@ -358,7 +372,12 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
+  PetscCall(IPTermsSetUp(tao));
   PetscCall(IPFilteredBegin(tao, &begun));
+  if (!begun && ip->terms.n) {
+    PetscCall(EndTerms(tao));
+    PetscFunctionReturn(0);
+  }
   if (!begun) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);

@@ -395,6 +395,7 @@ static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearizatio
   PetscFunctionBegin;
   if (!lin->cover) PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &lin->cover));
   PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->J));
+  if (lin->slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->slip));
   if (!lin->derivative) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(lin->mass, &facets));
   PetscCall(VecGetArrayWrite(facets, &f));
@@ -423,6 +424,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
+  if (contact->rubs) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));

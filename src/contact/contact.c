@@ -127,6 +127,8 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
     c->pairs[p].gap    = pairs[p].gap;
     c->pairs[p].given  = pairs[p].distance;
     c->pairs[p].smooth = pairs[p].smooth;
+    c->pairs[p].rubs   = SceneContactPairRubs(&pairs[p]);
+    c->rubs            = (PetscBool)(c->rubs || c->pairs[p].rubs);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
@@ -193,6 +195,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
   PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
   PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
+  PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP, "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_distance) contact->pairs[p].given = distance;
@@ -227,6 +230,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   PetscFunctionBegin;
   contact->ndisplacements = n;
   contact->displacements  = displacements;
+  PetscCall(PetscFree(contact->rows.held));
   PetscCall(ContactSmoothReset(contact));
   PetscFunctionReturn(0);
 }

@@ -253,6 +253,7 @@ typedef struct {
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
+  PetscBool      rubs;     /* whether the pair's slip is asked for */
   PetscBool      smooth;   /* whether the gap is to be that of the smooth surfaces */
   PetscReal      bulge;    /* these stand off the undeformed facets of the two faces by no more than this together [length] */
   PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */
@@ -273,6 +274,7 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
   PetscInt  *vertex;         /* [nlocal] local DMPlex points */
+  PetscInt  *held;           /* [nlocal] bits of the axes along which there is no slip; NULL: not yet asked for */
   PetscReal *normal;         /* [3 nlocal] averaged unit normals */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;           /* int phi_A over the whole undeformed nonmortar face [length^2] */
@@ -296,6 +298,7 @@ struct _n_Contact {
   MPI_Comm                 comm;
   PetscInt                 npairs;
   ContactPairData         *pairs;
+  PetscBool                rubs; /* whether any of them does */
   ContactRows              rows;
   ContactNormals           normals;
   PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
@@ -336,6 +339,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, PetscInt n, const PetscInt block[], const PetscReal value[]);
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
+
+/* slip.c: the rows of slip that go with those of the gap */
+PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
 /* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {

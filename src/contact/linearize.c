@@ -158,6 +158,9 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(MatDestroy(&(*lin)->J));
   PetscCall(MatDestroy(&(*lin)->derivative));
   PetscCall(MatDestroy(&(*lin)->cover));
+  PetscCall(MatDestroy(&(*lin)->slip));
+  PetscCall(PetscFree((*lin)->tangent));
+  PetscCall(PetscFree((*lin)->covered));
   PetscCall(PetscFree((*lin)->vertex));
   PetscCall(PetscFree((*lin)->pair));
   PetscCall(PetscFree(*lin));

@@ -1,6 +1,6 @@
 /*
    Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
-   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar facets.
+   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar facets, with friction all of it.
    A mode outside the span of these rows moves freely, and the stiffness is singular for it.
 */
 #include "meshimpl.h"
@@ -191,8 +191,8 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
-/* All of the relative motion, at the vertices of the nonmortar face */
-static PetscErrorCode SupportAddTie(Support *support, const SceneTie *tie)
+/* All of the relative motion, at the vertices of the nonmortar face: of a tie, and of a contact pair with friction */
+static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[])
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   IS                     facets;
@@ -200,9 +200,9 @@ static PetscErrorCode SupportAddTie(Support *support, const SceneTie *tie)
   PetscInt               n, mortar, nonmortar, total;
 
   PetscFunctionBegin;
-  PetscCall(SupportGetFace(support, tie->mortar, &facets, &mortar, &total));
+  PetscCall(SupportGetFace(support, mortar_face, &facets, &mortar, &total));
   PetscCall(ISDestroy(&facets));
-  PetscCall(SupportGetFace(support, tie->nonmortar, &facets, &nonmortar, &total));
+  PetscCall(SupportGetFace(support, nonmortar_face, &facets, &nonmortar, &total));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
@@ -319,8 +319,13 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   PetscCall(SupportMeasureBodies(&support));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
   for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = scene->springs[s].face, .fixed = {scene->springs[s].value[0] > 0, scene->springs[s].value[1] > 0, scene->springs[s].value[2] > 0}}));
-  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(SupportAddPair(&support, &scene->pairs[p]));
-  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddTie(&support, &scene->ties[t]));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *pair = &scene->pairs[p];
+
+    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar));
+    else PetscCall(SupportAddPair(&support, pair));
+  }
+  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar));
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));

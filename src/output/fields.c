@@ -154,6 +154,8 @@ static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, P
 typedef struct {
   Vec          pressure, gap, area, status, force;
   PetscScalar *p, *g, *a, *s, *f;
+  Vec          shear, slip, path; /* NULL without friction */
+  PetscScalar *t, *d, *l;
 } FieldsContact;
 
 static PetscErrorCode FieldsCreateContact(Output output, const char name[], const char suffix[], PetscInt components, PetscReal value, Vec *field, PetscScalar **values)
@@ -176,8 +178,15 @@ static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint
   if (area > 0.0) fields->p[v] = (fields->p[v] * fields->a[v] + point->pressure * point->area) / area;
   fields->a[v] = area;
   if (!(PetscRealPart(fields->g[v]) <= point->gap)) fields->g[v] = point->gap;
-  if (!(PetscRealPart(fields->s[v]) > 0.0)) fields->s[v] = point->closed ? 1.0 : 0.0;
+  if (!(PetscRealPart(fields->s[v]) > 0.0)) fields->s[v] = point->slips ? 2.0 : point->closed ? 1.0
+                                                                                              : 0.0;
   for (PetscInt c = 0; c < 3; ++c) fields->f[3 * v + c] += point->force[c];
+  if (!fields->shear) return;
+  for (PetscInt c = 0; c < 3; ++c) {
+    fields->t[3 * v + c] += point->shear[c];
+    fields->d[3 * v + c] = point->slip[c];
+  }
+  fields->l[v] = point->slip_path;
 }
 
 /* At this rank's vertices: the points of a pair, or of all pairs where it is negative */
@@ -199,10 +208,32 @@ static PetscErrorCode FieldsFillPair(Output output, const StepState *state, Pets
   PetscFunctionReturn(0);
 }
 
+/* The fields of friction, where any pair has it */
+static PetscErrorCode FieldsCreateFriction(Output output, const char suffix[], FieldsContact *fields)
+{
+  PetscFunctionBegin;
+  PetscCall(FieldsCreateContact(output, "contact_shear", suffix, 3, 0.0, &fields->shear, &fields->t));
+  PetscCall(FieldsCreateContact(output, "contact_slip", suffix, 3, 0.0, &fields->slip, &fields->d));
+  PetscCall(FieldsCreateContact(output, "contact_slip_path", suffix, 1, 0.0, &fields->path, &fields->l));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(fields->shear, &fields->t));
+  PetscCall(VecRestoreArray(fields->slip, &fields->d));
+  PetscCall(VecRestoreArray(fields->path, &fields->l));
+  PetscCall(DatasetWrite(&fields->shear, viewer));
+  PetscCall(DatasetWrite(&fields->slip, viewer));
+  PetscCall(DatasetWrite(&fields->path, viewer));
+  PetscFunctionReturn(0);
+}
+
 /* pair negative: of all; else the name of its fields ends with it */
 static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[], PetscViewer viewer)
 {
-  FieldsContact  fields;
+  FieldsContact  fields = {.shear = NULL};
   RankError      error;
   PetscErrorCode ierr;
 
@@ -212,6 +243,7 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(FieldsCreateContact(output, "contact_area", suffix, 1, 0.0, &fields.area, &fields.a));
   PetscCall(FieldsCreateContact(output, "contact_status", suffix, 1, NAN, &fields.status, &fields.s));
   PetscCall(FieldsCreateContact(output, "contact_force", suffix, 3, 0.0, &fields.force, &fields.f));
+  if (output->friction) PetscCall(FieldsCreateFriction(output, suffix, &fields));
   PetscCall(RankErrorBegin(&error));
   ierr = FieldsFillPair(output, state, pair, &fields);
   PetscCall(RankErrorEnd(output->comm, ierr, &error));
@@ -226,6 +258,7 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(DatasetWrite(&fields.area, viewer));
   PetscCall(DatasetWrite(&fields.status, viewer));
   PetscCall(DatasetWrite(&fields.force, viewer));
+  if (fields.shear) PetscCall(FieldsWriteFriction(&fields, viewer));
   PetscFunctionReturn(0);
 }
 

@@ -45,6 +45,7 @@ struct _n_Output {
   char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
   PetscInt    nowned, ncellslocal, first; /* nodes and cells of this rank; number of its first node. A cell of order 2 counts as 8 */
+  PetscBool   friction;                   /* the steps have shear and slip */
   PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
   PetscBool   begun;                      /* a step has been written */

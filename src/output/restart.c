@@ -241,13 +241,24 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
   for (PetscInt p = 0; p < r->scene->npairs; ++p) {
-    static const char *const kept[] = {"pressure", "slack"};
+    static const struct {
+      const char *name;
+      PetscInt    components;
+      PetscBool   force, friction; /* a sum over vertices; of pairs with friction alone */
+    } kept[] = {
+      {"pressure", 1, PETSC_FALSE, PETSC_FALSE},
+      {"slack", 1, PETSC_FALSE, PETSC_FALSE},
+      {"shear", 3, PETSC_TRUE, PETSC_TRUE},
+      {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
+      {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
+    };
 
     for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kept); ++k) {
       char name[128];
 
-      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k], r->scene->pairs[p].name));
-      PetscCall(RestartReadField(r, name, 1, PETSC_FALSE, checkpoint));
+      if (kept[k].friction && !SceneContactPairRubs(&r->scene->pairs[p])) continue;
+      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, r->scene->pairs[p].name));
+      PetscCall(RestartReadField(r, name, kept[k].components, kept[k].force, checkpoint));
     }
   }
   PetscFunctionReturn(0);

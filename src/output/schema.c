@@ -41,6 +41,10 @@ static const ReportField pair_fields[] = {
   FIELD(PairReport, normal_force, FIELD_REAL, "force", .columns = {COLUMN(TABLE_PAIRS, "normal", "", 12, .format = "%.6e")}),
   FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
   FIELD(PairReport, pressure, FIELD_REAL, "force/length^2", .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, shear_force, FIELD_REAL, "force"),
+  FIELD(PairReport, stick_area, FIELD_REAL, "length^2"),
+  FIELD(PairReport, slip_area, FIELD_REAL, "length^2"),
+  FIELD(PairReport, dissipated, FIELD_REAL, "force length"),
   END,
 };
 const ReportRecord SchemaPairs = {sizeof(PairReport), PETSC_TRUE, pair_fields};
@@ -107,6 +111,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, linear, FIELD_RECORD, "", .record = &SchemaFallbacks),
   FIELD(StepReport, energy, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, work, FIELD_REAL, "force length"),
+  FIELD(StepReport, dissipated, FIELD_REAL, "force length"),
   FIELD(StepReport, potential, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, equilibrium, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "equilibrium", "residual", 11)}),
   FIELD(StepReport, kkt_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "KKT", "error", 9)}),

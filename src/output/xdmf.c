@@ -52,14 +52,27 @@ static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
 /* Of all pairs together, or of one, after whose name they are called */
 static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char file[], const char pair[])
 {
-  static const char *const fields[] = {"contact_pressure", "contact_gap", "contact_area", "contact_status", "contact_force"};
+  static const struct {
+    const char *name;
+    PetscBool   vector, friction;
+  } fields[] = {
+    {"contact_pressure", PETSC_FALSE, PETSC_FALSE},
+    {"contact_gap", PETSC_FALSE, PETSC_FALSE},
+    {"contact_area", PETSC_FALSE, PETSC_FALSE},
+    {"contact_status", PETSC_FALSE, PETSC_FALSE},
+    {"contact_force", PETSC_TRUE, PETSC_FALSE},
+    {"contact_shear", PETSC_TRUE, PETSC_TRUE},
+    {"contact_slip", PETSC_TRUE, PETSC_TRUE},
+    {"contact_slip_path", PETSC_FALSE, PETSC_TRUE},
+  };
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(fields); ++i) {
-    const PetscBool vector = (PetscBool)(i == 4);
+    const PetscBool vector = fields[i].vector;
     char            name[256];
 
-    PetscCall(PetscSNPrintf(name, sizeof(name), "%s%s%s", fields[i], pair ? "_" : "", pair ? pair : ""));
+    if (fields[i].friction && !output->friction) continue;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "%s%s%s", fields[i].name, pair ? "_" : "", pair ? pair : ""));
     XDMFWriteAttribute(stream, file, name, vector ? "Vector" : "Scalar", "Node", PETSC_FALSE, output->nvertices, vector ? 3 : 1);
   }
   PetscFunctionReturn(0);

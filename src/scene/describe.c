@@ -313,13 +313,16 @@ static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[]
 
 static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
 {
-  PetscBool finite = PETSC_FALSE;
+  PetscInt  rubbing = 0;
+  PetscBool finite  = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || DescribeIsFinite(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, "no contact; one linear solve a step where every body is linear"));
   if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations", scene->contact_updates));
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
   PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, "every material is linear"));
   if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));

@@ -89,6 +89,22 @@ static PetscErrorCode SceneViewBodyForce(Scene scene, PetscViewer viewer, PetscI
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SceneViewFriction(Scene scene, PetscViewer viewer, const SceneContactPair *pair)
+{
+  PetscFunctionBegin;
+  if (pair->friction >= PETSC_INFINITY && pair->shear_limit >= PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, ", stick: true"));
+  else if (pair->friction > 0.0 && pair->friction < PETSC_INFINITY) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", friction: "));
+    PetscCall(SceneViewReal(viewer, pair->friction));
+    if (pair->friction_ramp >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", friction_ramp: %s", scene->ramps[pair->friction_ramp].name));
+  }
+  if (pair->shear_limit < PETSC_INFINITY) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", shear_limit: "));
+    PetscCall(SceneViewReal(viewer, pair->shear_limit));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
 {
   const SceneContactPair *pair = &scene->pairs[p];
@@ -106,6 +122,7 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
     PetscCall(SceneViewReal(viewer, pair->interference));
     if (pair->interference_ramp >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[pair->interference_ramp].name));
   }
+  PetscCall(SceneViewFriction(scene, viewer, pair));
   if (!pair->smooth) PetscCall(PetscViewerASCIIPrintf(viewer, ", smooth: false"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));

@@ -312,7 +312,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 {
   const PetscInt       first = sim->scene->displacement_bounds;
   StepProblem          p;
-  ContactSolution      sol  = {NULL, NULL};
+  ContactSolution      sol  = {.gap = NULL};
   ContactLinearization good = sim->linearization, at_u = NULL;
   Vec                  u;
 
@@ -335,6 +335,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (report->converged) {
     PetscCall(MeasureState(&p, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
+    if (sim->contact) PetscCall(FrictionSettle(sim, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     sim->upcoming = at_u;

@@ -31,28 +31,35 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* Of every pair pressure and slack, under its name */
-static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscInt nvertices, PetscBool back)
+/* Of every pair pressure and slack, of those that rub what friction remembers, under its name */
+static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
 {
+  const PetscInt nvertices = sim->memory.nowned;
   const struct {
     const char *name;
+    PetscInt    components;
     PetscReal  *memory;
   } kept[] = {
-    {"pressure", sim->memory.pressure},
-    {"slack", sim->memory.slack},
+    {"pressure", 1, sim->memory.pressure},
+    {"slack", 1, sim->memory.slack},
+    {"shear", 3, sim->memory.settled},
+    {"slip_path", 1, sim->memory.slip_path},
+    {"dissipated", 1, sim->memory.dissipated},
   };
 
   PetscFunctionBegin;
   for (PetscInt p = 0; sim->contact && p < sim->scene->npairs; ++p) {
     for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kept); ++k) {
-      char       name[128];
-      PetscReal *values;
+      const PetscInt components = kept[k].components;
+      char           name[128];
+      PetscReal     *values;
 
+      if (!kept[k].memory || (k > 1 && !SceneContactPairRubs(&sim->scene->pairs[p]))) continue;
       PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, sim->scene->pairs[p].name));
       if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
-      else PetscCall(CheckpointAddField(checkpoint, name, 1, nvertices, &values));
-      if (back) PetscCall(PetscArraycpy(kept[k].memory + p * nvertices, values, nvertices));
-      else PetscCall(PetscArraycpy(values, kept[k].memory + p * nvertices, nvertices));
+      else PetscCall(CheckpointAddField(checkpoint, name, components, nvertices, &values));
+      if (back) PetscCall(PetscArraycpy(kept[k].memory + components * p * nvertices, values, components * nvertices));
+      else PetscCall(PetscArraycpy(values, kept[k].memory + components * p * nvertices, components * nvertices));
     }
   }
   PetscFunctionReturn(0);
@@ -93,7 +100,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
-  PetscCall(CheckpointCopyContact(sim, *checkpoint, n / 3, PETSC_FALSE));
+  PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -133,6 +140,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(VecDestroy(&path->outside));
   PetscCall(VecDuplicate(path->u, &path->outside));
   PetscCall(CheckpointGetVec(checkpoint, "outside_force", path->outside));
-  PetscCall(CheckpointCopyContact(sim, checkpoint, 0, PETSC_TRUE));
+  PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);
 }

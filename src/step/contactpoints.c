@@ -10,11 +10,15 @@ typedef struct {
   PetscInt   n;
   PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
+  PetscBool  rubs;        /* the pair has friction */
+  PetscReal *slips;       /* 1: its friction gives way */
+  PetscReal *shear, *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
 } PairRows;
 
 /* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1 nonmortar, closed area, -]; force */
 typedef struct {
   Vec carried, sides, force;
+  Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
 } PairVertices;
 
 /* value at the rows of a face that belong to a component */
@@ -90,6 +94,29 @@ static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
   PetscFunctionReturn(0);
 }
 
+/* Friction gives way where the slip is more than rounding makes of the displacements */
+static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, PairRows *rows)
+{
+  const PetscReal      rounding = 1e-9;
+  ContactLinearization lin      = sim->linearization;
+  PetscReal            size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &size));
+  PetscCall(PetscCalloc3(rows->n, &rows->slips, 3 * rows->n, &rows->shear, 3 * rows->n, &rows->way));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    const PetscReal *s = &sim->slip[2 * r], *f = &sim->shear[2 * r], *t = &lin->tangent[6 * r];
+
+    if (lin->pair[r] != pair || !(rows->area[r] > 0.0)) continue;
+    rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / rows->area[r];
+      rows->way[c * rows->n + r]   = s[0] * t[c] + s[1] * t[3 + c];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 {
   const PetscInt     n = sim->linearization->nlocal;
@@ -97,7 +124,7 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
   PetscReal         *force;
 
   PetscFunctionBegin;
-  rows->n = n;
+  *rows = (PairRows){.n = n, .rubs = (PetscBool)(sim->linearization->slip && SceneContactPairRubs(&sim->scene->pairs[pair]))};
   PetscCall(PetscCalloc6(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n, &rows->closed));
   PetscCall(PetscMalloc1(3 * n, &force));
   PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
@@ -116,12 +143,14 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
   PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
   PetscCall(PetscFree(force));
   PetscCall(PairRowsClose(sim, rows));
+  if (rows->rubs) PetscCall(PairRowsRub(sim, pair, rows));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode PairRowsDestroy(PairRows *rows)
 {
   PetscFunctionBegin;
+  if (rows->rubs) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
   PetscCall(PetscFree6(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed));
   PetscFunctionReturn(0);
 }
@@ -183,12 +212,38 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionReturn(0);
 }
 
+/* What friction has at the vertices, its forces among all, and in sides[2] the area that slips */
+static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
+{
+  PetscScalar *f;
+  Vec          force;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sim->path.u, &vertices->shear));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->way));
+  PetscCall(VecZeroEntries(vertices->shear));
+  PetscCall(VecZeroEntries(vertices->way));
+  PetscCall(PairSpread(sim, rows, rows->slips, vertices->sides, 2, vertices->sides));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
+    PetscCall(PairSpread(sim, rows, rows->way + c * rows->n, vertices->sides, c, vertices->way));
+  }
+  PetscCall(MatCreateVecs(sim->linearization->slip, NULL, &force));
+  PetscCall(VecGetArrayWrite(force, &f));
+  for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->shear[k];
+  PetscCall(VecRestoreArrayWrite(force, &f));
+  PetscCall(FrictionAddForces(sim->linearization, force, pair, vertices->force));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
 /* Both sides of a pair before anything is agglomerated */
 static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
 {
   const SceneContactPair *faces = &sim->scene->pairs[pair];
 
   PetscFunctionBegin;
+  vertices->shear = vertices->way = NULL;
   PetscCall(VecDuplicate(sim->path.u, &vertices->carried));
   PetscCall(VecDuplicate(sim->path.u, &vertices->sides));
   PetscCall(VecDuplicate(sim->path.u, &vertices->force));
@@ -201,6 +256,7 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, const Pa
   PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 1, vertices->sides));
   PetscCall(PairPlaceForces(sim, rows, vertices->force));
+  if (rows->rubs) PetscCall(PairVerticesRub(sim, pair, rows, vertices));
   PetscFunctionReturn(0);
 }
 
@@ -210,6 +266,43 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscCall(VecDestroy(&vertices->carried));
   PetscCall(VecDestroy(&vertices->sides));
   PetscCall(VecDestroy(&vertices->force));
+  PetscCall(VecDestroy(&vertices->shear));
+  PetscCall(VecDestroy(&vertices->way));
+  PetscFunctionReturn(0);
+}
+
+/* Shear and slip of the points from number `first` on, in the means of what the vertices have of the other side's cover, alone */
+static PetscErrorCode PairRubPoints(Simulation sim, PetscInt first, const PairVertices *vertices, Vec alone)
+{
+  PetscSection         global;
+  const ContactMemory *m = &sim->memory;
+  const PetscScalar   *area, *side, *shear, *way;
+  PetscInt             rstart;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetArrayRead(alone, &area));
+  PetscCall(VecGetArrayRead(vertices->sides, &side));
+  PetscCall(VecGetArrayRead(vertices->shear, &shear));
+  PetscCall(VecGetArrayRead(vertices->way, &way));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    ContactPoint *point = &sim->points[k];
+    PetscInt      i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    for (PetscInt c = 0; c < 3; ++c) {
+      point->shear[c] = PetscRealPart(side[i] * shear[i + c] / area[i]);
+      point->slip[c]  = -PetscRealPart(side[i] * way[i + c] / area[i]);
+    }
+    point->slips     = (PetscBool)(point->closed && PetscRealPart(side[i + 2]) > 0.5 * PetscRealPart(side[i + 1]));
+    point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
+  }
+  PetscCall(VecRestoreArrayRead(vertices->way, &way));
+  PetscCall(VecRestoreArrayRead(vertices->shear, &shear));
+  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
+  PetscCall(VecRestoreArrayRead(alone, &area));
   PetscFunctionReturn(0);
 }
 
@@ -258,18 +351,21 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
 /* first: of the pair's points */
 static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, PetscInt first, PairReport *report)
 {
-  PetscReal sums[2] = {0.0, 0.0}, largest = 0.0;
+  PetscReal sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
 
   PetscFunctionBegin;
   for (PetscInt r = 0; r < rows->n; ++r) {
     sums[0] += rows->area[r] * rows->pressure[r];
     sums[1] += rows->area[r] * rows->closed[r];
+    if (rows->rubs) sums[2] += rows->area[r] * rows->slips[r];
   }
   for (PetscInt k = first; k < sim->npoints; ++k) largest = PetscMax(largest, sim->points[k].pressure);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscCallMPI(MPI_Allreduce(&largest, &report->pressure, 1, MPIU_REAL, MPIU_MAX, sim->comm));
   report->normal_force = sums[0];
   report->area         = sums[1];
+  report->slip_area    = sums[2];
+  report->stick_area   = rows->rubs ? sums[1] - sums[2] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -292,6 +388,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(VecCopy(vertices.carried, alone));
     PetscCall(CoverEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
     PetscCall(PairAppendPoints(sim, p, &vertices, alone));
+    if (rows.rubs) PetscCall(PairRubPoints(sim, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
     PetscCall(PairVerticesDestroy(&vertices));

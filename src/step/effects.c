@@ -5,6 +5,7 @@
 typedef enum {
   EFFECT_CONTACT,
   EFFECT_UPDATES,
+  EFFECT_FRICTION,
   EFFECT_FILTER,
   EFFECT_FINITE_STRAIN,
   EFFECT_RIGID,
@@ -27,6 +28,7 @@ typedef enum {
 static const char *const EffectNames[] = {
   [EFFECT_CONTACT]       = "contact",
   [EFFECT_UPDATES]       = "contact updates",
+  [EFFECT_FRICTION]      = "friction",
   [EFFECT_FILTER]        = "AMG filter",
   [EFFECT_FINITE_STRAIN] = "finite strain",
   [EFFECT_RIGID]         = "rigid bodies",
@@ -65,7 +67,7 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, planes = 0, rigid = 0, mean = 0, modes = 0, second = 0;
+  PetscInt finite = 0, planes = 0, rubbing = 0, rigid = 0, mean = 0, modes = 0, second = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -79,10 +81,12 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  PetscCall(EffectSet(report, EFFECT_FRICTION, (PetscBool)(rubbing > 0), "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
   PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1), "contact_updates is %" PetscInt_FMT, scene->contact_updates));
   PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0), scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
   PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law of finite strain%s", finite, scene->nbodies, !finite ? "" : sim->quadratic ? ", one tangent a load step"
-                                                                                                                                                                                                  : ", true energy"));
+                                                                                                                                                                                                                : ", true energy"));
   PetscCall(EffectSet(report, EFFECT_RIGID, (PetscBool)(rigid > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0), "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));

@@ -98,7 +98,10 @@ PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
   PetscCall(PetscCalloc1(scene->nbodies, &report->bodies));
   report->npairs  = scene->npairs;
   report->nbodies = scene->nbodies;
-  for (PetscInt p = 0; p < scene->npairs; ++p) report->pairs[p].name = scene->pairs[p].name;
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    report->pairs[p].name = scene->pairs[p].name;
+    report->pairs[p].rubs = SceneContactPairRubs(&scene->pairs[p]);
+  }
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) (void)ForcesFindFace(report, scene->displacements[d].face);
   for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b].name = scene->bodies[b].name;
   PetscFunctionReturn(0);
@@ -114,8 +117,8 @@ PetscErrorCode ForcesFree(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows; sides: nonmortar, mortar */
-static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, ForceSum sides[2])
+/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows, and of their friction; sides: nonmortar, mortar */
+static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear, ForceSum sides[2])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   Vec                    own, force;
@@ -132,6 +135,7 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(VecRestoreArray(own, &w));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(MatMultTranspose(sim->linearization->J, own, force));
+  PetscCall(FrictionAddForces(sim->linearization, shear, pair, force));
   PetscCall(ForceFieldGet(sim, u, force, &field));
   PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].nonmortar, all, NULL, &sides[0]));
   PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].mortar, all, NULL, &sides[1]));
@@ -141,15 +145,15 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscFunctionReturn(0);
 }
 
-/* weighted: mass x pressure, one a row of sim->linearization */
-PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, StepReport *report)
+/* weighted: mass x pressure, one a row of sim->linearization; shear: forces of friction, or NULL */
+PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
 {
   ForceSum *sides;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscCalloc1(2 * report->npairs, &sides));
-  for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(sim, p, u, weighted, &sides[2 * p]));
+  for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(sim, p, u, weighted, shear, &sides[2 * p]));
   PetscCall(ForceSumReduce(sim->comm, 2 * report->npairs, sides));
   PetscCall(PetscArrayzero(report->contact_force, 3));
   for (PetscInt p = 0; p < report->npairs; ++p) {

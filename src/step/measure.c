@@ -121,7 +121,9 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecDuplicate(p->base, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
-    PetscCall(ForcesMeasurePairs(sim, u, weighted, report));
+    PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
+    PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
+    PetscCall(FrictionMeasure(sim, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));

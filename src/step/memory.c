@@ -3,10 +3,12 @@
 
 static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 
-PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
+PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
 {
-  Vec      u;
-  PetscInt last;
+  const PetscInt npairs = scene->npairs;
+  PetscBool      rubs   = PETSC_FALSE;
+  PetscInt       last;
+  Vec            u;
 
   PetscFunctionBegin;
   m->npairs = npairs;
@@ -16,11 +18,13 @@ PetscErrorCode ContactMemoryCreate(DM dm, PetscInt npairs, ContactMemory *m)
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
   PetscCall(PetscCalloc2(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack));
+  for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
+  if (rubs) PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
 }
 
 /* Of a row, whose vertex this rank owns */
-static PetscInt ContactMemoryIndex(const ContactMemory *m, ContactLinearization lin, PetscInt row)
+PetscInt ContactMemoryIndex(const ContactMemory *m, ContactLinearization lin, PetscInt row)
 {
   PetscInt offset = m->first;
 
@@ -155,5 +159,6 @@ PetscErrorCode ContactMemoryDestroy(ContactMemory *m)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree2(m->pressure, m->slack));
+  PetscCall(PetscFree4(m->shear, m->settled, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

@@ -50,6 +50,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
+  PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP, "friction is for -tao_type ipfilter, and not for another optimizer");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
@@ -79,8 +80,8 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
 */
 static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
 {
-  Simulation sim   = p->sim;
-  PetscReal  f     = 0.0, scale;
+  Simulation sim = p->sim;
+  PetscReal  f = 0.0, scale = 0.0;
   PetscBool  moved = resume;
 
   PetscFunctionBegin;
@@ -90,6 +91,7 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
     else PetscCall(PathPressureScale(sim, p->time, &scale));
     PetscCall(OptimizerRecallContact(p, scale, tao, &moved));
   }
+  if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
   if (resume) PetscFunctionReturn(0);
   if (!p->J) moved = sim->warm;
   if (moved) {
@@ -127,6 +129,17 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, S
   PetscFunctionReturn(0);
 }
 
+/* What a user may know of a problem with friction that has no solution, or several */
+static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
+{
+  char reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; a body may slide away that friction no longer holds, or be wedged by a large coefficient", report->reason));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u, StepReport *report)
 {
   TaoConvergedReason reason;
@@ -141,6 +154,7 @@ static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, c
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (sentence) PetscCall(PetscStrstr(sentence, "unbounded", &unbounded));
   if (unbounded) PetscCall(FlightReport(sim, u, report));
+  if (reason < 0 && sim->memory.shear) PetscCall(OptimizerSuspectFriction(report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
@@ -163,6 +177,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
   PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP, "-tao_type gives no multipliers, and so no contact pressures");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
+  PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);

@@ -59,6 +59,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecSet(mask, 1.0));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
   PetscCall(MatDiagonalScale(p->J, NULL, mask));
+  PetscCall(FrictionSetUp(p, lin, mask));
   PetscCall(VecDestroy(&mask));
   PetscFunctionReturn(0);
 }
@@ -93,6 +94,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->upper));
   PetscCall(VecDestroy(&p->w));
   PetscCall(VecDestroy(&p->Kw));
+  PetscCall(FrictionDestroy(&p->friction));
   PetscFunctionReturn(0);
 }
 

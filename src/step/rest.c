@@ -8,6 +8,7 @@
 PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
 {
   PetscReal before, displacement, load = 0.0;
+  PetscBool rubs = PETSC_FALSE; /* what has slipped does not go back by itself */
   Vec       u;
 
   PetscFunctionBegin;
@@ -18,7 +19,8 @@ PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(PrescribedApply(&p->sim->prescribed, p->time, u));
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
-  *due = (PetscBool)(before > 0.0 && load == 0.0 && displacement == 0.0);
+  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
+  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && displacement == 0.0);
   PetscFunctionReturn(0);
 }
 

@@ -46,7 +46,8 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
-  PetscCall(ContactMemoryCreate(sim->dm, scene->npairs, &sim->memory));
+  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP, "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
+  PetscCall(ContactMemoryCreate(sim->dm, scene, &sim->memory));
   PetscFunctionReturn(0);
 }
 

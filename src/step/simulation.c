@@ -231,6 +231,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   for (PetscInt i = 0; i < s->report.nwarnings; ++i) PetscCall(PetscFree(*(char **)&s->report.warnings[i]));
   PetscCall(PetscFree(s->report.warnings));
   PetscCall(PetscFree2(s->pressure, s->gap));
+  PetscCall(PetscFree2(s->shear, s->slip));
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
   PetscCall(ResultsFree(&s->results));

@@ -85,6 +85,8 @@ PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 typedef struct {
   Vec pressure; /* one a row */
   Vec gap;      /* linearized, one a row */
+  Vec shear;    /* forces of friction along both tangents of a row [force]; NULL: no pair has any */
+  Vec slip;     /* since the last state, along both tangents of a row [length] */
 } ContactSolution;
 
 PETSC_INTERN PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *);
@@ -96,9 +98,14 @@ typedef struct {
   PetscInt     npairs, nowned;   /* nodes that this rank owns */
   PetscInt     first;            /* global row of the first */
   PetscReal   *pressure, *slack; /* npairs x nowned; pressure 0 where no row was */
+  PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
+  PetscReal   *settled;          /* that at the last state of equilibrium, */
+  PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
+  PetscReal   *dissipated;       /* and the work of friction [force length] */
 } ContactMemory;
 
-PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, PetscInt npairs, ContactMemory *);
+PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, Scene, ContactMemory *);
+PETSC_INTERN PetscInt       ContactMemoryIndex(const ContactMemory *, ContactLinearization, PetscInt row);
 PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
@@ -176,6 +183,7 @@ struct _n_Simulation {
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u, of the faces as they are */
   PetscReal           *pressure, *gap, *stress;
+  PetscReal           *shear, *slip; /* of the rows, two each; NULL without friction */
   PetscInt             npoints;
   ContactPoint        *points;
   Results              results;
@@ -239,6 +247,12 @@ PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
    energy + force^T w + 1/2 w^T K w, w = u - base; w vanishes on prescribed rows.
 */
 typedef struct {
+  Mat T;                  /* two rows a row of J: its slip; columns of prescribed rows are zero. NULL: no friction */
+  Vec t;                  /* slip = T u + t [length] */
+  Vec limit, coefficient; /* one a row [force], [1] */
+} StepFriction;
+
+typedef struct {
   Simulation sim;
   PetscReal  time;
   Mat        K;
@@ -250,6 +264,8 @@ typedef struct {
   Vec        g;
   Vec        lower, upper; /* NULL without bounds */
   Vec        w, Kw;
+
+  StepFriction friction;
 } StepProblem;
 
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
@@ -259,6 +275,18 @@ PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* Callbacks of TAO, also in quadratic.c and energy.c; the context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
+
+/* friction.c */
+PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
+PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
+PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
+PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
+
+/* frictionwork.c */
+PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, const ContactSolution *, StepReport *);
+PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* quadratic.c */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
@@ -313,7 +341,7 @@ PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);

@@ -1,0 +1,166 @@
+/*
+   The slip of the rows of pairs that rub: how far the mortar side has gone along the nonmortar one, in the means that the mortar gap is taken in,
+
+     slip_A = (1/m_A) int phi_A (u2 - u1).t,   t = t1, t2 across the row's normal,
+
+   for any displacement u of the vertices. Where both faces touch, a rigid motion of both has none.
+
+   Where a vertex is held along an axis and its face is not, as on planes of symmetry that the face ends on, there is no slip along that axis: the
+   rows about it depend on less than one another's unknowns, and forces of friction there would be any.
+*/
+#include "contactimpl.h"
+
+/* The part of an axis across a unit normal, of length 1; false where there is next to none */
+static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal t[3])
+{
+  const PetscReal least = 0.1;
+
+  for (PetscInt c = 0; c < 3; ++c) t[c] = (c == axis ? 1.0 : 0.0) - n[axis] * n[c];
+  return (PetscBool)(ContactScaleToUnit(t) > least);
+}
+
+/* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose tangents are zero */
+static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
+{
+  PetscInt  axis = 0;
+  PetscReal along[3];
+
+  for (PetscInt c = 1; c < 3; ++c)
+    if (PetscAbsReal(n[c]) < PetscAbsReal(n[axis])) axis = c;
+  for (PetscInt c = 0; c < 3; ++c)
+    if (held >> c & 1 && SlipTangentAlong(n, c, along)) axis = c;
+  (void)SlipTangentAlong(n, axis, t + 3);
+  ContactCross(t + 3, n, t);
+  for (PetscInt c = 0; c < 3; ++c) {
+    if (!(held >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
+    for (PetscInt d = 0; d < 3; ++d) t[(c == axis ? 3 : 0) + d] = 0.0;
+  }
+}
+
+/* held[c]: the rows of the pair whose vertices are held along axis c; none where all are */
+static PetscErrorCode SlipMarkHeld(Contact contact, ContactPairData *pair, Vec held[3])
+{
+  PetscInt        free[3] = {0, 0, 0};
+  ContactSurface *s       = &pair->nonmortar;
+
+  PetscFunctionBegin;
+  PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, s));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) free[c] = free[c] || !(s->held[i / 4] >> (3 * (i % 4) + c) & 1);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, free, 3, MPIU_INT, MPI_MAX, contact->comm));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (free[c] && s->held[i / 4] >> (3 * (i % 4) + c) & 1) PetscCall(VecSetValue(held[c], pair->row[i], 1.0, INSERT_VALUES));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* contact->rows.held: bits of the axes along which each row has no slip */
+static PetscErrorCode SlipFindHeld(Contact contact)
+{
+  ContactRows *rows = &contact->rows;
+  Vec          held[3];
+
+  PetscFunctionBegin;
+  if (rows->held) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(VecDuplicate(rows->mass, &held[c]));
+    PetscCall(VecZeroEntries(held[c]));
+  }
+  for (PetscInt p = 0; p < contact->npairs; ++p)
+    if (contact->pairs[p].rubs) PetscCall(SlipMarkHeld(contact, &contact->pairs[p], held));
+  for (PetscInt c = 0; c < 3; ++c) {
+    const PetscScalar *a;
+
+    PetscCall(VecAssemblyBegin(held[c]));
+    PetscCall(VecAssemblyEnd(held[c]));
+    PetscCall(VecGetArrayRead(held[c], &a));
+    for (PetscInt i = 0; i < rows->nlocal; ++i) rows->held[i] |= (PetscRealPart(a[i]) > 0.0 ? 1 : 0) << c;
+    PetscCall(VecRestoreArrayRead(held[c], &a));
+    PetscCall(VecDestroy(&held[c]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What a row of the couplings covers: the integral of phi_A over the other side, [length^2] */
+static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt k = 0; k < n; ++k) sum += 0.5 * PetscAbsScalar(values[k]);
+  return sum;
+}
+
+/* Entries of the two rows of slip, made from one of the couplings; NULL: counted only */
+static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to, Mat slip, PetscReal *cover)
+{
+  const PetscInt    *node;
+  const PetscScalar *value;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(couplings, row, &n, &node, &value));
+  *cover = SlipCover(n, value);
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt rows[2] = {to, to + 1}, columns[3] = {3 * node[k], 3 * node[k] + 1, 3 * node[k] + 2};
+    PetscScalar    entries[6];
+
+    for (PetscInt e = 0; e < 6; ++e) entries[e] = value[k] * tangent[e] / mass;
+    PetscCall(MatSetValues(slip, 2, rows, 3, columns, entries, INSERT_VALUES));
+  }
+  PetscCall(MatRestoreRow(couplings, row, &n, &node, &value));
+  PetscFunctionReturn(0);
+}
+
+/* An empty matrix, two rows for each one of J, room for entries where the pair rubs */
+static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+{
+  PetscInt rstart, cstart, cend, *diagonal, *offdiagonal;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
+  PetscCall(MatGetOwnershipRangeColumn(couplings, &cstart, &cend));
+  PetscCall(PetscCalloc2(2 * lin->nlocal, &diagonal, 2 * lin->nlocal, &offdiagonal));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    const PetscInt *node;
+    PetscInt        n;
+
+    if (!contact->pairs[lin->pair[k]].rubs) continue;
+    PetscCall(MatGetRow(couplings, rstart + kept[k], &n, &node, NULL));
+    for (PetscInt b = 0; b < n; ++b) diagonal[2 * k] += 3 * (node[b] >= cstart && node[b] < cend);
+    offdiagonal[2 * k]     = 3 * n - diagonal[2 * k];
+    diagonal[2 * k + 1]    = diagonal[2 * k];
+    offdiagonal[2 * k + 1] = offdiagonal[2 * k];
+    PetscCall(MatRestoreRow(couplings, rstart + kept[k], &n, &node, NULL));
+  }
+  PetscCall(MatCreateAIJ(contact->comm, 2 * lin->nlocal, 3 * (cend - cstart), PETSC_DETERMINE, PETSC_DETERMINE, 0, diagonal, 0, offdiagonal, &lin->slip));
+  PetscCall(PetscFree2(diagonal, offdiagonal));
+  PetscFunctionReturn(0);
+}
+
+/* lin->slip, lin->tangent and lin->covered of the kept rows; couplings: of rows with vertices, as integrals */
+PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+{
+  const PetscScalar *mass;
+  PetscInt           rstart, start;
+
+  PetscFunctionBegin;
+  PetscCall(SlipFindHeld(contact));
+  PetscCall(SlipCreateMatrix(contact, couplings, kept, lin));
+  PetscCall(PetscCalloc1(6 * lin->nlocal, &lin->tangent));
+  PetscCall(PetscCalloc1(lin->nlocal, &lin->covered));
+  PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(lin->slip, &start, NULL));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    SlipTangents(&contact->rows.normal[3 * kept[k]], contact->rows.held[kept[k]], &lin->tangent[6 * k]);
+    if (contact->pairs[lin->pair[k]].rubs) PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k, lin->slip, &lin->covered[k]));
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(lin->slip, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,138 @@
+/*
+   Friction of the pairs that have it: forces tau along the tangents of each row, of the slip since the last state of equilibrium,
+
+     |tau| <= b,   tau = -b slip/|slip| where there is slip,   b = min(limit, coefficient x force of the row),
+
+   as norm terms of the optimization problem. What is remembered between solves stands in the frame of space: tangents are those of one linearization.
+*/
+#include "stepimpl.h"
+
+static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
+{
+  Scene        scene = p->sim->scene;
+  PetscScalar *limit, *coefficient;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(p->friction.limit, &limit));
+  PetscCall(VecGetArrayWrite(p->friction.coefficient, &coefficient));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    const SceneContactPair *pair   = &scene->pairs[lin->pair[r]];
+    PetscReal               factor = 1.0;
+
+    if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, p->time, &factor));
+    PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must not be negative", pair->name, (double)factor, (double)p->time);
+    limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * lin->covered[r] : PETSC_INFINITY;
+    coefficient[r] = !SceneContactPairRubs(pair) ? 0.0 : pair->friction < PETSC_INFINITY ? factor * pair->friction
+                                                                                         : PETSC_INFINITY;
+  }
+  PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
+  PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));
+  PetscFunctionReturn(0);
+}
+
+/* slip = T (u - base) + T_full (base - path.u), T without prescribed columns; mask: 0 there, 1 elsewhere */
+PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec mask)
+{
+  StepFriction *f = &p->friction;
+  Vec           moved;
+
+  PetscFunctionBegin;
+  PetscCall(FrictionDestroy(f));
+  if (!lin->slip) PetscFunctionReturn(0);
+  if (p->sim->ties.C) PetscCall(MatMatMult(lin->slip, p->sim->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &f->T));
+  else PetscCall(MatDuplicate(lin->slip, MAT_COPY_VALUES, &f->T));
+  PetscCall(MatDiagonalScale(f->T, NULL, mask));
+  PetscCall(MatCreateVecs(f->T, NULL, &f->t));
+  PetscCall(VecDuplicate(f->t, &moved));
+  PetscCall(VecWAXPY(p->w, -1.0, p->sim->path.u, p->base));
+  PetscCall(MatMult(lin->slip, p->w, f->t));
+  PetscCall(MatMult(f->T, p->base, moved));
+  PetscCall(VecAXPY(f->t, -1.0, moved));
+  PetscCall(VecDestroy(&moved));
+  PetscCall(VecDuplicate(lin->g, &f->limit));
+  PetscCall(VecDuplicate(lin->g, &f->coefficient));
+  PetscCall(FrictionSetCoefficients(p, lin));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FrictionDestroy(StepFriction *f)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&f->T));
+  PetscCall(VecDestroy(&f->t));
+  PetscCall(VecDestroy(&f->limit));
+  PetscCall(VecDestroy(&f->coefficient));
+  PetscFunctionReturn(0);
+}
+
+/* Tells the optimizer; scale: of the forces that are remembered, 0 where they are none to begin with */
+PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
+{
+  ContactLinearization lin = p->sim->linearization;
+  const ContactMemory *m   = &p->sim->memory;
+  PetscScalar         *f;
+  Vec                  force;
+
+  PetscFunctionBegin;
+  if (!p->friction.T) PetscFunctionReturn(0);
+  PetscCall(TaoIPFilterSetNormTerms(tao, p->friction.T, p->friction.t, p->friction.limit, p->friction.coefficient));
+  PetscCall(VecDuplicate(p->friction.t, &force));
+  PetscCall(VecGetArrayWrite(force, &f));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    const PetscReal *kept = &m->shear[3 * ContactMemoryIndex(m, lin, r)];
+
+    for (PetscInt a = 0; a < 2; ++a) {
+      const PetscReal *t = &lin->tangent[6 * r + 3 * a];
+
+      f[2 * r + a] = scale * (t[0] * kept[0] + t[1] * kept[1] + t[2] * kept[2]);
+    }
+  }
+  PetscCall(VecRestoreArrayWrite(force, &f));
+  PetscCall(TaoIPFilterSetNormTermForces(tao, force));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* Forces and slip at a solution; the forces are remembered */
+PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
+{
+  ContactLinearization lin = p->sim->linearization;
+  ContactMemory       *m   = &p->sim->memory;
+  const PetscScalar   *f;
+  Vec                  force;
+
+  PetscFunctionBegin;
+  if (!p->friction.T) PetscFunctionReturn(0);
+  PetscCall(TaoIPFilterGetNormTermForces(tao, &force));
+  PetscCall(VecDuplicate(force, &sol->shear));
+  PetscCall(VecDuplicate(force, &sol->slip));
+  PetscCall(VecCopy(force, sol->shear));
+  PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
+  PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
+  PetscCall(VecGetArrayRead(force, &f));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    for (PetscInt c = 0; c < 3; ++c) m->shear[3 * ContactMemoryIndex(m, lin, r) + c] = PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
+  }
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscFunctionReturn(0);
+}
+
+/* force += the forces of friction at the vertices, of one pair or PETSC_DECIDE: of all */
+PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
+{
+  PetscScalar *f;
+  Vec          own;
+
+  PetscFunctionBegin;
+  if (!shear) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(shear, &own));
+  PetscCall(VecCopy(shear, own));
+  PetscCall(VecGetArray(own, &f));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    if (pair != PETSC_DECIDE && lin->pair[r] != pair) f[2 * r] = f[2 * r + 1] = 0.0;
+  }
+  PetscCall(VecRestoreArray(own, &f));
+  PetscCall(MatMultTransposeAdd(lin->slip, own, force, force));
+  PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,190 @@
+"""Scenes with friction, and what is known of them: statics of a block that is pushed, Cattaneo's and Mindlin's cylinder, a shaft pushed out of its hub, a load cycle.
+
+python3 friction.py scenes writes them; python3 friction.py judges the runs that friction.sh has made.
+"""
+import json
+import math
+import sys
+
+SLIDE = """problem: slide
+bodies:
+  - ground: {{lower: [-0.5, -0.5, -0.5], upper: [2.5, 1.5, 0], cells: [6, 4, 2], young: 1e5, poisson: 0.3{material}}}
+  - block: {{lower: [0, 0, 0], upper: [2, 1, 0.5], cells: [5, 3, 2], young: 1e5, poisson: 0.3{material}}}
+displacements:
+  - fix: {{face: ground.zmin, value: [0, 0, 0]}}
+{driven}pressures:
+  - press: {{face: block.zmax, value: 300}}
+forces:
+  - push: {{face: block.zmin, value: [{push}, 0, 0], ramp: across}}
+contact:
+  - joint: {{mortar: ground.zmax, nonmortar: block.zmin, {law}}}
+load: {{factors: {down}}}
+ramps:
+  - across: {{factors: {across}}}
+"""
+
+
+def slide(push, law, across=(0, 0.5, 1), driven="", material=""):
+    return SLIDE.format(push=push, law=law, across=list(across), down=[1] * len(across), driven=driven, material=material)
+
+
+def cylinder(name, depth, center, cells):
+    return f"""  - {name}:
+      shape: half_ellipse
+      axis: y
+      depth: {depth}
+      center: [0, 0, {center}]
+      semi_axes: [1, 1]
+      extent: [0, 0.02]
+      patches: [6, {cells}, 14]
+      grading: [1, 40, 0.05]
+      even: [1, {cells // 2}, 4]
+      layers: 1
+      young: 1000
+      poisson: 0.3
+"""
+
+
+CYLINDERS = f"""problem: cattaneo
+bodies:
+{cylinder("upper", "-z", 1, 24)}{cylinder("lower", "z", -1, 20)}
+faces:
+  - top: {{of: upper.arc, upper: [inf, inf, 0.15]}}
+  - bottom: {{of: lower.arc, lower: [-inf, -inf, -0.15]}}
+displacements:
+  - fix: {{face: lower.flat, value: [0, 0, 0]}}
+  - down: {{face: upper.flat, value: [free, free, -0.012], ramp: down}}
+  - across: {{face: upper.flat, value: [0.0036, free, free], ramp: across}}
+symmetry: [upper.lmin, upper.lmax, lower.lmin, lower.lmax]
+contact:
+  - touch: {{mortar: lower.bottom, nonmortar: upper.top, friction: 0.3}}
+load: {{steps: 3}}
+ramps:
+  - down: {{factors: [1, 1, 1]}}
+  - across: {{factors: [0, 0.5, 1]}}
+"""
+
+SHAFT = """problem: shaft
+bodies:
+  - hub: {shape: tube_arc, axis: z, radii: [25, 40], angles: [0, 90], extent: [0, 20], cells: [4, 14, 4], young: 200000, poisson: 0.3}
+  - shaft: {shape: tube_arc, axis: z, radii: [15, 25.02], angles: [0, 90], extent: [0, 20], cells: [4, 12, 4], young: 200000, poisson: 0.3}
+displacements:
+  - base: {face: hub.outer, value: [free, free, 0]}
+  - push: {face: shaft.inner, value: [free, free, 0.05], ramp: push}
+symmetry: [hub.amin, hub.amax, shaft.amin, shaft.amax]
+contact:
+  - fit: {mortar: hub.inner, nonmortar: shaft.outer, friction: 0.12, interference: true}
+load: {steps: 3}
+ramps:
+  - push: {factors: [0, 0.2, 1]}
+"""
+
+DRIVEN = "  - carry: {face: block.zmax, value: [0.02, 0, free], ramp: across}\n"
+CYCLE = slide(0, "friction: 0.3", (0, 0.5, 1, 0.5, 0, -0.5, -1, 0, 1), DRIVEN)
+
+SCENES = {
+    "sticks": slide(178.2, "friction: 0.3"),
+    "slides": slide(181.8, "friction: 0.3"),
+    "limited": slide(0, "shear_limit: 50", driven=DRIVEN),
+    "capped": slide(0, "friction: 0.3, shear_limit: 50", driven=DRIVEN),
+    "rough": slide(0, "stick: true", driven=DRIVEN.replace("0.02", "0.01")),
+    "oiled": slide(0, "friction: 1e-6", driven=DRIVEN),
+    "grips": slide(0, "friction: 10", driven=DRIVEN),
+    "finite": slide(0, "friction: 0.3", driven=DRIVEN, material=", material: neohookean"),
+    "cycle": CYCLE,
+    "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
+    "cattaneo": CYLINDERS,
+    "shaft": SHAFT,
+}
+
+
+def verdict(what, value, limit):
+    print(f"{what}: below {limit:g}" if value <= limit else f"{what}: {value:.3g} is above {limit:g}")
+
+
+def load(name):
+    try:
+        with open(name + ".json") as file:
+            return json.load(file)
+    except OSError:
+        return None
+
+
+def last(name):
+    run = load(name)
+    return run["steps"][-1]["pairs"][0]
+
+
+def imbalance(step, first):
+    """Work against what is stored and dissipated, relative to the work, since a step whose energy is no work of loads"""
+    return abs(step["energy"] - first["energy"] + step["dissipated"] - first["dissipated"] - (step["work"] - first["work"])) / step["work"]
+
+
+def slip_law(name, coefficient, limit, tolerance=2e-3):
+    pair = last(name)
+    verdict(f"{name}, friction over its law", abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
+
+
+def judge():
+    sticks, slides = load("sticks"), load("slides")
+    verdict("block that sticks, force", abs(last("sticks")["force"][0] / -178.2 - 1), 1e-6)
+    verdict("block that sticks, energy balance", imbalance(sticks["steps"][-1], sticks["steps"][0]), 1e-3)
+    print("block that slides away:", "converged" if slides["converged"] else "not converged, exit code %d" % slides["exit_code"])
+    slip_law("finite", 0.3, math.inf)
+    slip_law("limited", math.inf, 50)
+    slip_law("capped", 0.3, 50, 0.02)  # less where the pressure is low
+    print("slip area where all sticks: %g" % last("rough")["slip_area"], "converged" if load("rough")["converged"] else "not converged")
+    print("coefficients of 1e-6 and 10:", "converged" if load("oiled")["converged"] and load("grips")["converged"] else "not converged")
+    for name in "cycle", "node":
+        run = load(name)
+        dissipated = [step["dissipated"] for step in run["steps"]]
+        slip_law(name, 0.3, math.inf)
+        verdict(f"{name}, energy balance", max(imbalance(step, run["steps"][0]) for step in run["steps"][1:]), 2e-3)
+        verdict(f"{name}, dissipation that is taken back", max(a - b for a, b in zip(dissipated, dissipated[1:])) / dissipated[-1], 0.02)
+    for name in "cycle", "cattaneo":
+        one, three = load(name + "_1rank") or load(name), load(name + "_3")
+        worst = max(abs(a["pairs"][0]["force"][k] - b["pairs"][0]["force"][k]) for a, b in zip(one["steps"], three["steps"]) for k in range(3))
+        verdict(f"{name}, 3 ranks against 1", worst / one["steps"][-1]["pairs"][0]["normal_force"], 1e-6)
+    whole, parts = load("cycle"), load("cycle_restarted")
+    a, b = whole["steps"][-1], parts["steps"][-1]
+    verdict("restarted, force", abs(a["pairs"][0]["force"][0] / b["pairs"][0]["force"][0] - 1), 1e-6)
+    verdict("restarted, dissipated", abs(a["dissipated"] / b["dissipated"] - 1), 1e-6)
+    shaft = last("shaft")
+    verdict("shaft, force over friction x pressure x area", abs(-shaft["force"][2] / (0.12 * shaft["normal_force"]) - 1), 5e-3)
+    cattaneo()
+
+
+def cattaneo():
+    """Traction of a cylinder that sticks within c = a sqrt(1 - Q / (mu P)): mu p0 (sqrt(1 - x^2/a^2) - c/a sqrt(1 - x^2/c^2))"""
+    import h5py
+    import numpy as np
+
+    mu, length = 0.3, 0.02
+    modulus, radius = 1000 / (2 * (1 - 0.09)), 0.5
+    run = load("cattaneo")
+    with h5py.File("cattaneo.h5") as mesh:
+        x = mesh["vertices"][...]
+    for step in run["steps"][1:]:
+        force = step["pairs"][0]["force"]
+        P, Q = force[2] / length, -force[0] / length
+        a = math.sqrt(4 * P * radius / (math.pi * modulus))
+        c, p0 = a * math.sqrt(1 - Q / (mu * P)), 2 * P / (math.pi * a)
+        with h5py.File("cattaneo_%04d.h5" % step["step"]) as fields:
+            on = ~np.isnan(fields["contact_gap"][...]) & (x[:, 2] > 1e-12) & (x[:, 1] < 1e-9)
+            shear, status = np.abs(fields["contact_shear"][...][on, 0]), fields["contact_status"][...][on]
+        order = np.argsort(x[on, 0])
+        s = x[on, 0][order]
+        half = lambda r: np.sqrt(np.maximum(0, 1 - s**2 / r**2))
+        exact = mu * p0 * (half(a) - c / a * half(c))
+        verdict("Cattaneo, traction in the mean at Q = %.1f mu P" % (Q / (mu * P)), (np.diff(s) * 0.5 * (np.abs(shear[order] - exact)[1:] + np.abs(shear[order] - exact)[:-1])).sum() / Q, 0.2)
+        cell = np.diff(s).min()
+        held, gives = np.abs(s[status[order] == 1]).max(), np.abs(s[status[order] == 2]).min()
+        verdict("Cattaneo, border of the sticking area, in cells", max(held - c, c - gives) / cell, 1.5)
+
+
+if len(sys.argv) > 1 and sys.argv[1] == "scenes":
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+    judge()

@@ -1,0 +1,32 @@
+# Friction against closed forms and statics (friction.py), on several numbers of ranks, restarted, and what is refused
+"$PYTHON" "$AMGF_DIR/tests/friction.py" scenes
+run() {
+  name=$1
+  scene=$2
+  shift 2
+  timeout 300 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json" $options 2> "$name.err" || sed 's/: KKT error [^;]*//' "$name.err"
+}
+for scene in sticks slides limited capped rough oiled grips finite cycle node shaft; do run $scene $scene; done
+options="-output cattaneo" run cattaneo cattaneo
+for scene in cycle cattaneo; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
+options="-checkpoint_every 4 -checkpoint cycle.h5" run part cycle
+options="-restart cycle.h5" run cycle_restarted cycle
+"$PYTHON" "$AMGF_DIR/tests/friction.py"
+
+refuse() {
+  sed "$1" cycle.yaml > wrong.yaml
+  shift
+  "$AMGF_DIR/bin/contact" wrong.yaml -quiet "$@" 2>&1 | sed "s|$AMGF_DIR|.|"
+  echo "exit code ${PIPESTATUS[0]}"
+}
+refuse 's/friction: 0.3/friction: -0.3/'
+refuse 's/friction: 0.3/friction: nan/'
+refuse 's/friction: 0.3/fricton: 0.3/'
+refuse 's/friction: 0.3/friction: 0.3, stick: true/'
+refuse 's/friction: 0.3/shear_limit: -1/'
+refuse 's/friction: 0.3/stick: true, friction_ramp: across/'
+refuse 's/friction: 0.3/friction: 0.3, friction_ramp: across/'
+refuse 's/^load/displacement_bounds: 3\nload/'
+refuse '' -contact_penalty 100
+refuse '' -tao_type almm
+refuse '' -contact_normals facet
