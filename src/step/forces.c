@@ -322,6 +322,8 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
 /* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none */
 PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, StepReport *report)
 {
+  PetscReal largest = 0.0;
+
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
     BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar), *mortar = ForcesFindBody(report, sim->scene->pairs[p].mortar);
@@ -338,10 +340,11 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, St
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
   if (ties) PetscCall(ForcesSumTies(sim, ties, report));
   report->balance = 0.0;
+  for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 
-    body->balance   = body->balance > 0.0 ? ForceSize(body->residual) / body->balance : 0.0;
+    body->balance   = largest > 0.0 ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest) : 0.0; /* rounding is no force */
     report->balance = PetscMax(report->balance, body->balance);
   }
   PetscFunctionReturn(0);
