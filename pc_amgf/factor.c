@@ -171,13 +171,13 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
 /* Numerical factorization, with more work space each time that MUMPS finds its own estimate too small */
 static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
 {
-  const PetscInt first = 20, limit = 320; /* per cent */
-  MatFactorInfo  info;
+  PetscInt      relaxation = 0;
+  MatFactorInfo info;
 
   PetscFunctionBegin;
   PetscCall(MatFactorInfoInitialize(&info));
   *error = MAT_FACTOR_OUTMEMORY;
-  for (PetscInt relaxation = first; *error == MAT_FACTOR_OUTMEMORY && relaxation <= limit; relaxation *= 2) {
+  while (*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &relaxation)) {
     PetscCall(AMGFMumpsSetIcntl(F, 14, relaxation));
     PetscCall(MatCholeskyFactorNumeric(F, A, &info));
     PetscCall(MatFactorGetError(F, error));

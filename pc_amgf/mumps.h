@@ -11,6 +11,19 @@
   #define AMGF_HAVE_MUMPS 1
 #endif
 
+#define AMGF_MUMPS_RELAXATION 20 /* per cent of work space beyond MUMPS's estimate: its own default */
+
+/* Work space beyond the estimate, which may be too small: `first` per cent where there is none yet, else twice what did not suffice; false where that was
+   16 times the first */
+static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
+{
+  const PetscInt last = 16 * first;
+
+  if (*relaxation >= last) return PETSC_FALSE;
+  *relaxation = *relaxation ? 2 * *relaxation : first;
+  return PETSC_TRUE;
+}
+
 /* Whether MUMPS factors matrices of a type; everything below is for those it does */
 static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor, PetscBool *factors)
 {

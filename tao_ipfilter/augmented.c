@@ -191,15 +191,14 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
 /* Factors, with more work space each time that MUMPS finds it too small */
 static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
 {
-  const PetscInt  first = 100, limit = 1600; /* per cent of work space beyond the estimate */
+  const PetscInt  first = 100; /* per cent of work space beyond the estimate */
   const PetscReal pivot = 1e-6;
 
   PetscFunctionBegin;
-  if (!aug->relaxation) aug->relaxation = first;
+  if (!aug->relaxation) (void)AMGFMumpsMoreSpace(first, &aug->relaxation);
   if (aug->pivot == 0.0) aug->pivot = pivot;
   PetscCall(AugmentedFactorOnce(aug, failed));
-  while (*failed == PC_FACTOR_OUTMEMORY && aug->relaxation < limit) {
-    aug->relaxation *= 2;
+  while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
     PetscCall(KSPReset(aug->ksp)); /* PETSc takes an error of MUMPS for one of its analysis from then on */
     PetscCall(AugmentedFactorOnce(aug, failed));
   }

@@ -99,15 +99,14 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
    A factorization that failed is not to be reused. */
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
-  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect      *direct = &ip->direct;
-  const PetscInt first = 20, limit = 320; /* per cent of work space beyond the estimate */
-  MatFactorInfo  info;
-  PetscBool      again, allows;
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect     *direct = &ip->direct;
+  MatFactorInfo info;
+  PetscBool     again, allows;
 
   PetscFunctionBegin;
   PetscCall(MatFactorInfoInitialize(&info));
-  if (!direct->relaxation) direct->relaxation = first;
+  if (!direct->relaxation) (void)AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation);
   do {
     *error = MAT_FACTOR_OTHER;
     PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
@@ -119,8 +118,7 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
     PetscCall(MatFactorGetError(direct->F, error));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
     PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)direct->memory, (int)*error));
-    again = (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && direct->relaxation < limit);
-    if (again) direct->relaxation *= 2;
+    again = (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation));
     if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&direct->F));
   } while (again);
   PetscFunctionReturn(0);
