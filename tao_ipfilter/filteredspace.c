@@ -9,6 +9,7 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
   PetscCall(IPReducedDestroy(&f->reduced));
+  PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));
   PetscCall(VecDestroy(&f->gradient));
   PetscCall(VecDestroy(&f->c));
@@ -224,7 +225,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPKept *kept, Vec r, PetscBool *extende
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
   PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
-  PetscCall(VecISSet(d, ip->cond.filter, 0.0));
+  PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
     PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
@@ -262,7 +263,7 @@ PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possibl
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, basis));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, ip->cond.filter, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c, basis, possible));
   PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));

@@ -37,19 +37,29 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints touch few enough unknowns, and some; auto: few against all */
-static PetscErrorCode FilteredIsThin(Tao tao, PetscBool *thin)
+/* Takes W: the constraints' unknowns with their neighbours, so that what the preconditioner does not know of ends within it, unless that is too much of all, or
+   K may be indefinite there, where constraints do not hold it. Whether the constraints touch few enough unknowns, and some; auto: few against all. */
+static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
-  PetscInt        n, nw;
+  PetscInt        n, touched, grown;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
   PetscCall(IPSubspaceUpdate(tao));
-  PetscCall(ISGetSize(ip->cond.filter, &nw));
   PetscCall(VecGetSize(tao->solution, &n));
-  *thin = (PetscBool)(nw > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || nw <= fraction * n));
+  PetscCall(ISGetSize(ip->cond.filter, &touched));
+  *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
+  if (!*thin) PetscFunctionReturn(0);
+  PetscCall(ISDestroy(&ip->filtered.W));
+  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &ip->filtered.W));
+  PetscCall(ISGetSize(ip->filtered.W, &grown));
+  if (grown > fraction * n || ip->filtered.newton || ip->terms.n) {
+    PetscCall(PetscObjectReference((PetscObject)ip->cond.filter));
+    PetscCall(ISDestroy(&ip->filtered.W));
+    ip->filtered.W = ip->cond.filter;
+  }
   PetscFunctionReturn(0);
 }
 
@@ -185,7 +195,7 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscFunctionBegin;
   PetscCall(VecAXPBY(r, -1.0, 0.0, ip->rx));
   PetscCall(VecNorm(r, NORM_2, &all));
-  PetscCall(VecISSet(r, ip->cond.filter, 0.0));
+  PetscCall(VecISSet(r, ip->filtered.W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all && PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
   if (ip->filtered.nfutile && ip->filtered.nfutile % for_long == 0) *exact = PETSC_FALSE;
@@ -253,7 +263,6 @@ static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *fo
   f->nfutile = f->ncentred = 0;
   f->halved                = PETSC_INFINITY;
   ip->mu                   = 0.0;
-  f->newton                = (PetscBool)(f->linear && !f->constant);
   if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   else {
     PetscCall(FilteredCentreHere(tao, basis));
@@ -270,8 +279,9 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
   IPKept       *kept;
 
   PetscFunctionBegin;
+  f->newton = (PetscBool)(f->linear && !f->constant);
   PetscCall(FilteredApplies(tao, begun));
-  if (*begun) PetscCall(FilteredIsThin(tao, begun));
+  if (*begun) PetscCall(FilteredTakeW(tao, begun));
   if (!*begun) {
     if (f->kept) PetscCall(IPKeptGet(tao, &kept));
     if (f->kept) PetscCall(IPKeptReset(kept));

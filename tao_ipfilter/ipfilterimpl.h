@@ -478,6 +478,7 @@ typedef struct {
   PetscBool      on;
   PetscBool      newton; /* by Newton's method, as the objective is not quadratic */
   PetscContainer kept;   /* an IPKept */
+  IS             W;      /* the unknowns that V has all of: those of the constraints, and their neighbours */
   IPReduced      reduced;
   Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
   PetscReal      f;                   /* and f there */
@@ -727,7 +728,7 @@ PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 PETSC_INTERN PetscErrorCode IPSubspaceOf(Tao, Mat, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
-PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, IS *);
+PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, Mat, IS, IS *);
 
 /* condense.c */
 PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);

@@ -179,7 +179,7 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 
   PetscFunctionBegin;
   *max = ip->opt.subspace_max;
-  if (!*max && ip->filtered.linear && !ip->filtered.constant) *max = newton;
+  if (!*max && ip->filtered.newton) *max = newton;
   if (*max) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
@@ -215,7 +215,7 @@ PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
   kept->K_id    = ((PetscObject)K)->id;
   kept->K_state = state;
   if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
-  PetscCall(IPBasisRestrict(&kept->basis, K, ip->cond.filter));
+  PetscCall(IPBasisRestrict(&kept->basis, K, ip->filtered.W));
   PetscFunctionReturn(0);
 }
 

@@ -62,7 +62,7 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscCall(GetAMGF(tao, &pc));
   *done = PETSC_FALSE;
   if (!pc || !ip->cond.filter || !ip->lin.filtered) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceGrow(tao, &wide));
+  PetscCall(IPSubspaceGrow(tao, ip->cond.A, ip->cond.filter, &wide));
   PetscCall(ISGetSize(ip->cond.filter, &before));
   PetscCall(ISGetSize(wide, &after));
   PetscCall(VecGetSize(tao->solution, &n));

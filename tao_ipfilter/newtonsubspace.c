@@ -22,7 +22,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   PetscCall(VecScale(r, -1.0));
   PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
   PetscCall(IPFixedZero(tao, r));
-  PetscCall(VecISSet(r, ip->cond.filter, 0.0));
+  PetscCall(VecISSet(r, ip->filtered.W, 0.0));
   PetscCall(VecNorm(r, NORM_2, norm));
   PetscFunctionReturn(0);
 }

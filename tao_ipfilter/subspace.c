@@ -68,29 +68,28 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Marks the filter's unknowns in v by numbers so irregular that couplings to them do not cancel */
-static PetscErrorCode SubspaceMark(Tao tao, Vec v)
+/* Marks the unknowns of a set in v by numbers so irregular that couplings to them do not cancel: squares, as a fraction of the places alone is linear, but for whole numbers, and
+   an operator of differences makes nothing of it */
+static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal golden = 0.6180339887498949;
   const PetscInt *rows;
   PetscInt        n;
 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
-  PetscCall(ISGetLocalSize(ip->cond.filter, &n));
-  PetscCall(ISGetIndices(ip->cond.filter, &rows));
-  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i], 1.0), INSERT_VALUES));
-  PetscCall(ISRestoreIndices(ip->cond.filter, &rows));
+  PetscCall(ISGetLocalSize(set, &n));
+  PetscCall(ISGetIndices(set, &rows));
+  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i] * rows[i], 1.0), INSERT_VALUES));
+  PetscCall(ISRestoreIndices(set, &rows));
   PetscCall(VecAssemblyBegin(v));
   PetscCall(VecAssemblyEnd(v));
   PetscFunctionReturn(0);
 }
 
-/* The filter's unknowns with those that A couples to them */
-PetscErrorCode IPSubspaceGrow(Tao tao, IS *is)
+/* The unknowns of a set with those that A couples to them */
+PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
 {
-  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
   const PetscReal    weak = 1e-8;
   Vec                marked, coupled;
   const PetscScalar *coupling, *a;
@@ -99,9 +98,10 @@ PetscErrorCode IPSubspaceGrow(Tao tao, IS *is)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &marked));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &coupled));
-  PetscCall(SubspaceMark(tao, marked));
-  PetscCall(MatMult(ip->cond.A, marked, coupled));
-  PetscCall(MatGetDiagonal(ip->cond.A, marked));
+  PetscCall(SubspaceMark(set, marked));
+  PetscCall(MatMult(A, marked, coupled));
+  PetscCall(VecISSet(coupled, set, PETSC_MAX_REAL)); /* whatever becomes of their own couplings */
+  PetscCall(MatGetDiagonal(A, marked));
   PetscCall(VecGetOwnershipRange(marked, &rstart, NULL));
   PetscCall(VecGetLocalSize(marked, &n));
   PetscCall(PetscMalloc1(n, &idx));
