@@ -202,12 +202,13 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscFunctionReturn(0);
 }
 
-/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left */
+/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left; twice as many as so far until a digit is
+   gained, as the rate says nothing while the active set is looked for */
 static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
   const PetscInt  n = ip->rec.napplications, every = 8;
-  const PetscReal error = IPBothErrors(ip), least = 0.5;
+  const PetscReal error = IPBothErrors(ip), least = 1.0;
   PetscReal       gained, left;
 
   PetscFunctionBegin;
@@ -216,7 +217,7 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possi
   if (n == 0 || n % every) PetscFunctionReturn(0);
   gained = PetscLog10Real(ip->filtered.begin / error);
   left   = PetscLog10Real(PetscMax(error / ip->tol, 1.0));
-  PetscCall(IPKeptReconsider(tao, kept, n * left / PetscMax(gained, least), possible));
+  PetscCall(IPKeptReconsider(tao, kept, gained < least ? 2.0 * n : n * left / gained, possible));
   PetscFunctionReturn(0);
 }
 
