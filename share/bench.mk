@@ -3,7 +3,7 @@
 # BENCH="--only tolerance" runs some; build/bench/README.md is the page, bench-page takes it into share/bench
 BENCH ?=
 
-.PHONY: bench bench-quick bench-page
+.PHONY: bench bench-quick bench-page bench-calculix
 
 build/bench/triad: share/bench/triad.c makefile share/bench.mk
 	@mkdir -p $(@D)
@@ -19,6 +19,11 @@ bench: dependencies
 bench-quick: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all build/bench/triad
 	@$(bench_run) --size quick $(BENCH)
+
+# The two-block problem beside CalculiX, a quarter of an hour; nothing without ccx
+bench-calculix: dependencies
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	$(PYTHON) -B share/bench/calculix.py --page share/bench/calculix.md
 
 bench-page:
 	cp build/bench/README.md build/bench/bench.csv build/bench/*.png share/bench

@@ -6,8 +6,10 @@ import csv
 import json
 import math
 import os
+import re
 import sys
 
+import calculix
 import growth
 import references
 import roofline
@@ -91,6 +93,15 @@ def check_built_in():
     say("what the bench calls built in is", seen[0] == seen[1], seen)
 
 
+def check_calculix():
+    """The input file has the nodes and cells of the scene, and no cell without its nodes"""
+    for factor, nodes, cells in (1, 713, 424), (2, 4460, 3392):
+        blocks = re.split(r"^\*", calculix.deck(factor, "CalculiX, mortar"), flags=re.M)
+        lines = {kind: [list(map(float, line.split(","))) for block in blocks if block.startswith(kind + ",") for line in block.splitlines()[1:]] for kind in ("NODE", "ELEMENT")}
+        known = {int(line[0]) for line in lines["NODE"]}
+        say(f"CalculiX, mesh {factor}: nodes and cells", (len(known), len(lines["ELEMENT"])) == (nodes, cells) and all(set(map(int, line[1:])) <= known for line in lines["ELEMENT"]), (len(known), len(lines["ELEMENT"])))
+
+
 def check_memory():
     """A program's peak is its own, not that of the process which started it, as getrusage() has it"""
     large = b"1" * 700_000_000
@@ -100,6 +111,7 @@ def check_memory():
 
 
 check_extrapolation()
+check_calculix()
 check_growth()
 check_front()
 check_roofline()
