@@ -442,7 +442,7 @@ typedef struct {
   PetscReal     length;              /* size of the terms of a motion */
   PetscBool    *closed, *slips, factored;
   PetscInt      na, k, *rows, *place; /* rows that take part, and where a row stands among them; directions in V */
-  PetscReal    *M, *V, *H, *F, *Fy;
+  PetscReal    *M, *V, *Z, *ZV, *H, *F, *Fy;
   PetscBLASInt *pivots, *directions; /* of M and of H */
 } IPTermSet;
 

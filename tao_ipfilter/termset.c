@@ -19,7 +19,7 @@ PetscErrorCode IPTermSetDestroy(IPTermSet *set)
   PetscCall(PetscFree5(set->theta, set->way, set->dead, set->F, set->pivots));
   PetscCall(PetscFree2(set->Fy, set->directions));
   PetscCall(PetscFree(set->M));
-  PetscCall(PetscFree(set->V));
+  PetscCall(PetscFree3(set->V, set->Z, set->ZV));
   PetscCall(PetscFree(set->H));
   PetscCall(PetscMemzero(set, sizeof(*set)));
   PetscFunctionReturn(0);
@@ -156,7 +156,7 @@ static void TermSetResistances(IPTermSet *set, const IPCompliance *c)
     PetscReal      larger;
 
     if (set->place[r] < 0) continue;
-    larger = PetscMax(IPComplianceColumn(c, r)[r], IPComplianceColumn(c, r + 1)[r + 1]);
+    larger      = PetscMax(IPComplianceColumn(c, r)[r], IPComplianceColumn(c, r + 1)[r + 1]);
     set->rho[i] = 1.0 / larger;
   }
 }
@@ -344,6 +344,26 @@ static PetscErrorCode TermSetDivide(const IPTermSet *set, PetscInt columns, Pets
   PetscFunctionReturn(0);
 }
 
+/* Z^T V, Z the rows of RZ that take part: the columns of new directions, then their rows */
+static PetscErrorCode TermSetCouple(IPTermSet *set, const IPReducedSystem *s)
+{
+  const PetscReal one = 1.0, zero = 0.0;
+  const size_t    n = (size_t)set->na, old = (size_t)set->k;
+  PetscBLASInt    m, k, before, added, ld;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(set->na, &m));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  PetscCall(PetscBLASIntCast(set->k, &before));
+  PetscCall(PetscBLASIntCast(s->kmax, &ld));
+  added = k - before;
+  if (!m) PetscCall(PetscArrayzero(set->ZV, s->kmax * s->kmax));
+  if (!m || !added) PetscFunctionReturn(0);
+  PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &k, &added, &m, &one, set->Z, &m, set->V + old * n, &m, &zero, set->ZV + old * (size_t)s->kmax, &ld));
+  if (before) PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &added, &before, &m, &one, set->Z + old * n, &m, set->V, &m, &zero, set->ZV + old, &ld));
+  PetscFunctionReturn(0);
+}
+
 /* V = M^-1 B, B the derivative of the rows' equations by -y: the columns that are new */
 static PetscErrorCode TermSetAppend(IPTermSet *set, const IPReducedSystem *s)
 {
@@ -351,8 +371,8 @@ static PetscErrorCode TermSetAppend(IPTermSet *set, const IPReducedSystem *s)
 
   PetscFunctionBegin;
   if (!set->k) {
-    PetscCall(PetscFree(set->V));
-    PetscCall(PetscMalloc1(n * (size_t)s->kmax, &set->V));
+    PetscCall(PetscFree3(set->V, set->Z, set->ZV));
+    PetscCall(PetscMalloc3(n * (size_t)s->kmax, &set->V, n * (size_t)s->kmax, &set->Z, s->kmax * s->kmax, &set->ZV));
   }
   for (PetscInt r = 0; r < set->na; r++) {
     PetscReal      by_v[2], by_f[2], by_lambda;
@@ -364,9 +384,11 @@ static PetscErrorCode TermSetAppend(IPTermSet *set, const IPReducedSystem *s)
       const PetscReal *RZ = &s->JZ[(size_t)j * (size_t)s->m];
 
       set->V[(size_t)r + (size_t)j * n] = by_v[0] * RZ[first] + (i < 0 ? 0.0 : by_v[1] * RZ[first + 1]);
+      set->Z[(size_t)r + (size_t)j * n] = RZ[set->rows[r]];
     }
   }
   PetscCall(TermSetDivide(set, s->k - set->k, set->V + (size_t)set->k * n));
+  PetscCall(TermSetCouple(set, s));
   set->k = s->k;
   PetscFunctionReturn(0);
 }
@@ -375,7 +397,6 @@ static PetscErrorCode TermSetAppend(IPTermSet *set, const IPReducedSystem *s)
 static PetscErrorCode TermSetFactorDirections(IPTermSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal shift = 1e-14;
-  const size_t    n     = (size_t)set->na;
   PetscBLASInt    k, info;
 
   PetscFunctionBegin;
@@ -384,13 +405,7 @@ static PetscErrorCode TermSetFactorDirections(IPTermSet *set, const IPReducedSys
   PetscCall(PetscFree(set->H));
   PetscCall(PetscMalloc1((size_t)s->k * (size_t)s->k, &set->H));
   for (PetscInt j = 0; j < s->k; j++) {
-    for (PetscInt i = 0; i < s->k; i++) {
-      const PetscReal *RZ = &s->JZ[(size_t)i * (size_t)s->m], *V = &set->V[(size_t)j * n];
-      PetscReal        sum = s->T[i + j * s->kmax];
-
-      for (PetscInt r = 0; r < set->na; r++) sum += RZ[set->rows[r]] * V[r];
-      set->H[i + j * s->k] = sum;
-    }
+    for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax] + set->ZV[i + j * s->kmax];
     set->H[j + j * s->k] += shift * s->G[j + j * s->kmax];
   }
   PetscCall(PetscBLASIntCast(s->k, &k));
@@ -408,9 +423,9 @@ static PetscErrorCode TermSetCorrect(IPTermSet *set, const IPReducedSystem *s)
   PetscCall(PetscBLASIntCast(s->k, &k));
   PetscCall(TermSetDivide(set, 1, set->F));
   for (PetscInt j = 0; j < s->k; j++) {
-    const PetscReal *RZ = &s->JZ[(size_t)j * (size_t)s->m];
+    const PetscReal *Z = &set->Z[(size_t)j * (size_t)set->na];
 
-    for (PetscInt r = 0; r < set->na; r++) set->Fy[j] -= RZ[set->rows[r]] * set->F[r];
+    for (PetscInt r = 0; r < set->na; r++) set->Fy[j] -= Z[r] * set->F[r];
   }
   if (k) PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &k, &one, set->H, &k, set->directions, set->Fy, &k, &info));
   for (PetscInt r = 0; r < set->na; r++) s->lambda[set->rows[r]] -= set->F[r];

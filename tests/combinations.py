@@ -60,6 +60,11 @@ def node(scene):
     scene.lists["contact"][-1] = "touch: {mortar: low.zmax, nonmortar: top.zmin, gap: node}"
 
 
+def friction(scene):
+    contact(scene)
+    scene.lists["contact"][-1] = "touch: {mortar: low.zmax, nonmortar: top.zmin, friction: 0.3}"
+
+
 def tie(scene):
     scene.bodies += BODY % ("cap", [0.5, 0.5, 2], [2.5, 1.5, 2.5], LAW)
     scene.add("pressures", "cap: {face: cap.zmax, value: 0.02}")
@@ -97,6 +102,7 @@ def restart(scene):
 EFFECTS = {
     "contact": contact,
     "gap node": node,
+    "friction": friction,
     "finite strain": law("material: neohookean, "),
     "Saint Venant": law("material: saint_venant, "),
     "bbar": law("element: bbar, "),
