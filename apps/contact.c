@@ -1,4 +1,4 @@
-static char help[] = "Quasi-static frictionless contact of elastic bodies: contact SCENE.yaml [options].\n\
+static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml [options].\n\
   -refine N            uniform refinements of the scene's level 0\n\
   -load_steps N        load steps of equal size\n\
   -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
