@@ -284,24 +284,38 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
   if (i >= 0 && set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
 }
 
-/* Entries of one row of M; columns of C are those of forces, so that row r of C is read across them */
-static void TermSetFillRow(IPTermSet *set, const IPCompliance *c, PetscInt k)
+/* M, column by column of C: what its rows take of v; then of f */
+static PetscErrorCode TermSetFill(IPTermSet *set, const IPCompliance *c)
 {
-  const PetscInt r = set->rows[k];
-  const size_t   n = (size_t)set->na;
-  PetscReal      by_v[2], by_f[2], by_lambda;
-  PetscInt       a = 0;
-  const PetscInt i = TermOfRow(set, r, &a), first = i < 0 ? r : TermRow(set, i);
+  const size_t n = (size_t)set->na;
+  PetscReal   *by_v, *by_f;
+  PetscInt    *first, *second;
 
-  TermSetRow(set, r, by_v, by_f, &by_lambda);
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc4(2 * n, &by_v, 3 * n, &by_f, n, &first, n, &second));
+  for (size_t k = 0; k < n; k++) {
+    PetscInt       a = 0;
+    const PetscInt i = TermOfRow(set, set->rows[k], &a);
+
+    TermSetRow(set, set->rows[k], &by_v[2 * k], &by_f[3 * k], &by_f[3 * k + 2]);
+    first[k] = second[k] = i < 0 ? set->rows[k] : TermRow(set, i);
+    if (i >= 0) second[k]++;
+  }
   for (size_t j = 0; j < n; j++) {
     const PetscReal *column = IPComplianceColumn(c, set->rows[j]);
+    PetscReal       *M      = set->M + j * n;
 
-    set->M[(size_t)k + j * n] = by_v[0] * column[first] + (i < 0 ? 0.0 : by_v[1] * column[first + 1]);
+    for (size_t k = 0; k < n; k++) M[k] = by_v[2 * k] * column[first[k]] + by_v[2 * k + 1] * column[second[k]];
   }
-  if (i < 0) return;
-  for (PetscInt b = 0; b < 2; b++) set->M[(size_t)k + (size_t)set->place[first + b] * n] += by_f[b];
-  if (by_lambda != 0.0 && set->place[i] >= 0) set->M[(size_t)k + (size_t)set->place[i] * n] += by_lambda;
+  for (size_t k = 0; k < n; k++) {
+    PetscInt       a = 0;
+    const PetscInt i = TermOfRow(set, set->rows[k], &a);
+
+    for (PetscInt b = 0; i >= 0 && b < 2; b++) set->M[k + (size_t)set->place[first[k] + b] * n] += by_f[3 * k + b];
+    if (i >= 0 && by_f[3 * k + 2] != 0.0 && set->place[i] >= 0) set->M[k + (size_t)set->place[i] * n] += by_f[3 * k + 2];
+  }
+  PetscCall(PetscFree4(by_v, by_f, first, second));
+  PetscFunctionReturn(0);
 }
 
 /* L U = M, the diagonal raised by as little as makes dependent rows no obstacle; *factored is false where no small number does. Rows of terms depend on one another
@@ -317,10 +331,8 @@ static PetscErrorCode TermSetFactor(IPTermSet *set, const IPCompliance *c, const
   PetscCall(PetscFree(set->M));
   PetscCall(PetscMalloc1((size_t)set->na * (size_t)set->na, &set->M));
   for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
-    for (PetscInt k = 0; k < set->na; k++) {
-      TermSetFillRow(set, c, k);
-      set->M[(size_t)k * (size_t)(set->na + 1)] += (set->rows[k] < set->m ? shift : PetscMax(shift, terms)) * IPComplianceColumn(c, set->rows[k])[set->rows[k]];
-    }
+    PetscCall(TermSetFill(set, c));
+    for (PetscInt k = 0; k < set->na; k++) set->M[(size_t)k * (size_t)(set->na + 1)] += (set->rows[k] < set->m ? shift : PetscMax(shift, terms)) * IPComplianceColumn(c, set->rows[k])[set->rows[k]];
     if (n) PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&n, &n, set->M, &n, set->pivots, &info));
     else info = 0;
   }
