@@ -30,6 +30,23 @@ done
 mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -checkpoint_every 2 -load_steps 3 -checkpoint two.h5 -summary whole.json
 mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -load_steps 3 -restart two.h5 -summary part.json
 judge "from two ranks to two" 1e-12 whole.json part.json
+# Six cells in a row: ranks of one cell in the middle own no vertices
+cat > row.yaml << 'END'
+problem: row
+bodies:
+  - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 5], young: 1, poisson: 0.3}
+  - lid: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [1, 1, 1], young: 1, poisson: 0.3}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+  - push: {face: lid.zmax, value: [0, 0, -0.01]}
+contact:
+  - joint: {mortar: low.zmax, nonmortar: lid.zmin}
+load: {steps: 3}
+END
+"$contact" row.yaml $options -summary whole.json
+timeout 60 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 || echo "a rank without vertices: exit code $?"
+"$contact" row.yaml $options -restart row.h5 -summary part.json
+judge "from ranks without vertices" 1e-9 whole.json part.json
 "$contact" linear.yaml $options -refine 1 -summary whole.json
 "$contact" linear.yaml $options -refine 1 -restart linear.h5 -summary part.json
 judge "refined" 1e-9 whole.json part.json energy

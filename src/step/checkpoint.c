@@ -38,13 +38,14 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
   const struct {
     const char *name;
     PetscInt    components;
+    PetscBool   friction; /* of pairs that have it */
     PetscReal  *memory;
   } kept[] = {
-    {"pressure", 1, sim->memory.pressure},
-    {"slack", 1, sim->memory.slack},
-    {"shear", 3, sim->memory.settled},
-    {"slip_path", 1, sim->memory.slip_path},
-    {"dissipated", 1, sim->memory.dissipated},
+    {"pressure", 1, PETSC_FALSE, sim->memory.pressure},
+    {"slack", 1, PETSC_FALSE, sim->memory.slack},
+    {"shear", 3, PETSC_TRUE, sim->memory.settled},
+    {"slip_path", 1, PETSC_TRUE, sim->memory.slip_path},
+    {"dissipated", 1, PETSC_TRUE, sim->memory.dissipated},
   };
 
   PetscFunctionBegin;
@@ -54,7 +55,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
       char           name[128];
       PetscReal     *values;
 
-      if (!kept[k].memory || (k > 1 && !SceneContactPairRubs(&sim->scene->pairs[p]))) continue;
+      if (kept[k].friction && !SceneContactPairRubs(&sim->scene->pairs[p])) continue;
       PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, sim->scene->pairs[p].name));
       if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
       else PetscCall(CheckpointAddField(checkpoint, name, components, nvertices, &values));

@@ -154,7 +154,7 @@ static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, c
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (sentence) PetscCall(PetscStrstr(sentence, "unbounded", &unbounded));
   if (unbounded) PetscCall(FlightReport(sim, u, report));
-  if (reason < 0 && sim->memory.shear) PetscCall(OptimizerSuspectFriction(report));
+  if (reason < 0 && sim->linearization && sim->linearization->slip) PetscCall(OptimizerSuspectFriction(report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
