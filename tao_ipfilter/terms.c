@@ -246,7 +246,7 @@ PetscReal IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force)
 }
 
 /* |tau - P(tau - rho v)| / rho of the two components */
-static PetscReal TermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho, PetscReal bound)
+PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho, PetscReal bound)
 {
   PetscReal b[2], size, square = 0.0;
 
@@ -344,7 +344,7 @@ PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
   PetscCall(VecGetArrayRead(terms->force, &tau));
   PetscCall(VecGetArrayRead(terms->rho, &rho));
   for (PetscInt i = 0; i < n; i++) {
-    if (PetscRealPart(rho[i]) > 0.0) local = PetscMax(local, TermViolation(tau + 2 * i, value + 2 * i, PetscRealPart(rho[i]), PetscRealPart(b[i])));
+    if (PetscRealPart(rho[i]) > 0.0) local = PetscMax(local, IPTermViolation(tau + 2 * i, value + 2 * i, PetscRealPart(rho[i]), PetscRealPart(b[i])));
   }
   PetscCall(VecRestoreArrayRead(terms->rho, &rho));
   PetscCall(VecRestoreArrayRead(terms->force, &tau));

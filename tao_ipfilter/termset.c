@@ -458,12 +458,11 @@ static PetscReal TermSetMerit(const IPTermSet *set, const IPCompliance *c, const
     else merit += PetscSqr(PetscMin(0.0, s->gap[i]));
   }
   for (PetscInt i = 0; i < set->n; i++) {
-    PetscReal b[2], size, bound;
+    PetscReal v[2];
 
     if (set->place[TermRow(set, i)] < 0) continue;
-    size  = TermTrial(set, s, i, b);
-    bound = TermGetBound(set, s, i);
-    for (PetscInt a = 0; a < 2; a++) merit += PetscSqr((s->lambda[TermRow(set, i) + a] - (size > bound ? bound / size : 1.0) * b[a]) / set->rho[i]);
+    TermMotion(set, s, i, v);
+    merit += PetscSqr(IPTermViolation(&s->lambda[TermRow(set, i)], v, set->rho[i], TermGetBound(set, s, i)));
   }
   return merit;
 }
