@@ -1,10 +1,11 @@
 """gap_cycle.py write N: a ring of hexahedra, N around, as a Gmsh file, and a scene that presses it between two plates; judge: what the runs of gap_cycle.sh say."""
+import functools
 import math
 import sys
 
 from summaries import load, say
 
-AROUND, ACROSS, INNER, OUTER, PUSH = int(sys.argv[2]) if len(sys.argv) > 2 else 0, 3, 4.0, 10.0, 4.0  # cells, radii, how far the upper plate moves
+ACROSS, INNER, OUTER, PUSH = 3, 4.0, 10.0, 4.0  # cells, radii, how far the upper plate moves
 
 SCENE = f"""bodies:
   - ring: {{mesh: ring.msh, volume: ring, material: neohookean, young: 1000, poisson: 0.3}}
@@ -25,34 +26,35 @@ contact:
 """
 
 
-def node(y, r, a):
-    return 1 + (y * (ACROSS + 1) + r) * AROUND + a % AROUND
+def node(around, y, r, a):
+    return 1 + (y * (ACROSS + 1) + r) * around + a % around
 
 
-def cells():
+def cells(around):
     """Physical name -> its cells, quadrangles from outside"""
     found = {name: [] for name in ("outer", "inner", "front", "back", "ring")}
+    at = functools.partial(node, around)
     for r in range(ACROSS):
-        for a in range(AROUND):
-            front, back = ([node(y, r, a), node(y, r + 1, a), node(y, r + 1, a + 1), node(y, r, a + 1)] for y in (0, 1))
+        for a in range(around):
+            front, back = ([at(y, r, a), at(y, r + 1, a), at(y, r + 1, a + 1), at(y, r, a + 1)] for y in (0, 1))
             found["ring"].append(back + front)
             found["front"].append(front)
             found["back"].append(back)
             for name, layer in (("inner", 0), ("outer", ACROSS)):
                 if layer in (r, r + 1) and layer - r == (name == "outer"):
-                    found[name].append([node(0, layer, a), node(0, layer, a + 1), node(1, layer, a + 1), node(1, layer, a)])
+                    found[name].append([at(0, layer, a), at(0, layer, a + 1), at(1, layer, a + 1), at(1, layer, a)])
     return found
 
 
-def write():
-    groups = cells()
+def write(around):
+    groups = cells(around)
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(groups)]
-    lines += [f'{3 if name == "ring" else 2} {tag} "{name}"' for tag, name in enumerate(groups, 1)] + ["$EndPhysicalNames", "$Nodes", 2 * (ACROSS + 1) * AROUND]
+    lines += [f'{3 if name == "ring" else 2} {tag} "{name}"' for tag, name in enumerate(groups, 1)] + ["$EndPhysicalNames", "$Nodes", 2 * (ACROSS + 1) * around]
     for y in range(2):
         for r in range(ACROSS + 1):
-            for a in range(AROUND):
-                radius, angle = INNER + (OUTER - INNER) * r / ACROSS, 2 * math.pi * (a + 0.5) / AROUND
-                lines.append(f"{node(y, r, a)} {radius * math.cos(angle):.17g} {y} {OUTER + radius * math.sin(angle):.17g}")
+            for a in range(around):
+                radius, angle = INNER + (OUTER - INNER) * r / ACROSS, 2 * math.pi * (a + 0.5) / around
+                lines.append(f"{node(around, y, r, a)} {radius * math.cos(angle):.17g} {y} {OUTER + radius * math.sin(angle):.17g}")
     lines += ["$EndNodes", "$Elements", sum(map(len, groups.values()))]
     elements = ((tag, cell) for tag, name in enumerate(groups, 1) for cell in groups[name])
     lines += [f"{number} {5 if len(cell) == 8 else 3} 2 {tag} {tag} {' '.join(map(str, cell))}" for number, (tag, cell) in enumerate(elements, 1)]
@@ -82,4 +84,4 @@ def judge():
 
 
 if __name__ == "__main__":
-    {"write": write, "judge": judge}[sys.argv[1]]()
+    {"write": lambda: write(int(sys.argv[2])), "judge": judge}[sys.argv[1]]()

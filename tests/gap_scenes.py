@@ -93,7 +93,7 @@ def scenes():
 
 
 def write():
-    gap_cycle.write()
+    gap_cycle.write(16)
     for name, scene, _, _ in scenes():
         with open(name.replace(",", "").replace(" ", "_") + ".yaml", "w") as file:
             file.write(scene)
