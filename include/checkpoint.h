@@ -23,6 +23,26 @@ typedef struct _n_Checkpoint {
   CheckpointField *fields;
 } * Checkpoint;
 
+/* What is kept of every contact pair at its vertices */
+typedef enum {
+  CHECKPOINT_PRESSURE,
+  CHECKPOINT_SLACK,
+  CHECKPOINT_SHEAR,
+  CHECKPOINT_SLIP_PATH,
+  CHECKPOINT_DISSIPATED,
+  CHECKPOINT_PAIR_FIELDS
+} CheckpointPairKind;
+
+typedef struct {
+  const char *name; /* the pair's follows */
+  PetscInt    components;
+  PetscBool   sum;      /* over vertices, as a force is: on another mesh it stays where it is, in place of being interpolated */
+  PetscBool   friction; /* of pairs that have it alone */
+} CheckpointPairField;
+PETSC_EXTERN const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS];
+/* kept: whether the pair has this field, and under which name */
+PETSC_EXTERN PetscErrorCode CheckpointNamePairField(const SceneContactPair *, CheckpointPairKind, size_t length, char name[], PetscBool *kept);
+
 /* A name's length is cut where it is too long for a field */
 PETSC_EXTERN PetscErrorCode CheckpointAddField(Checkpoint, const char name[], PetscInt components, PetscInt nvertices, PetscReal **values);
 PETSC_EXTERN PetscErrorCode CheckpointGetField(Checkpoint, const char name[], const PetscReal **values);

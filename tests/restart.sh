@@ -47,6 +47,8 @@ END
 timeout 60 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 || echo "a rank without vertices: exit code $?"
 "$contact" row.yaml $options -restart row.h5 -summary part.json
 judge "from ranks without vertices" 1e-9 whole.json part.json
+mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -restart row.h5 -summary part.json
+judge "to ranks without vertices" 1e-9 whole.json part.json
 "$contact" linear.yaml $options -refine 1 -summary whole.json
 "$contact" linear.yaml $options -refine 1 -restart linear.h5 -summary part.json
 judge "refined" 1e-9 whole.json part.json energy

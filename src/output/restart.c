@@ -241,24 +241,12 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
   for (PetscInt p = 0; p < r->scene->npairs; ++p) {
-    static const struct {
-      const char *name;
-      PetscInt    components;
-      PetscBool   force, friction; /* a sum over vertices; of pairs with friction alone */
-    } kept[] = {
-      {"pressure", 1, PETSC_FALSE, PETSC_FALSE},
-      {"slack", 1, PETSC_FALSE, PETSC_FALSE},
-      {"shear", 3, PETSC_TRUE, PETSC_TRUE},
-      {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
-      {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
-    };
+    for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
+      char      name[128];
+      PetscBool kept;
 
-    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kept); ++k) {
-      char name[128];
-
-      if (kept[k].friction && !SceneContactPairRubs(&r->scene->pairs[p])) continue;
-      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, r->scene->pairs[p].name));
-      PetscCall(RestartReadField(r, name, kept[k].components, kept[k].force, checkpoint));
+      PetscCall(CheckpointNamePairField(&r->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
+      if (kept) PetscCall(RestartReadField(r, name, CheckpointPairFields[k].components, CheckpointPairFields[k].sum, checkpoint));
     }
   }
   PetscFunctionReturn(0);

@@ -31,36 +31,31 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* Of every pair pressure and slack, of those that rub what friction remembers, under its name */
 static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
 {
-  const PetscInt nvertices = sim->memory.nowned;
-  const struct {
-    const char *name;
-    PetscInt    components;
-    PetscBool   friction; /* of pairs that have it */
-    PetscReal  *memory;
-  } kept[] = {
-    {"pressure", 1, PETSC_FALSE, sim->memory.pressure},
-    {"slack", 1, PETSC_FALSE, sim->memory.slack},
-    {"shear", 3, PETSC_TRUE, sim->memory.settled},
-    {"slip_path", 1, PETSC_TRUE, sim->memory.slip_path},
-    {"dissipated", 1, PETSC_TRUE, sim->memory.dissipated},
+  const PetscInt   nvertices                      = sim->memory.nowned;
+  PetscReal *const memory[CHECKPOINT_PAIR_FIELDS] = {
+    [CHECKPOINT_PRESSURE]   = sim->memory.pressure,
+    [CHECKPOINT_SLACK]      = sim->memory.slack,
+    [CHECKPOINT_SHEAR]      = sim->memory.settled,
+    [CHECKPOINT_SLIP_PATH]  = sim->memory.slip_path,
+    [CHECKPOINT_DISSIPATED] = sim->memory.dissipated,
   };
 
   PetscFunctionBegin;
   for (PetscInt p = 0; sim->contact && p < sim->scene->npairs; ++p) {
-    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kept); ++k) {
-      const PetscInt components = kept[k].components;
+    for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
+      const PetscInt components = CheckpointPairFields[k].components;
       char           name[128];
+      PetscBool      kept;
       PetscReal     *values;
 
-      if (kept[k].friction && !SceneContactPairRubs(&sim->scene->pairs[p])) continue;
-      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", kept[k].name, sim->scene->pairs[p].name));
+      PetscCall(CheckpointNamePairField(&sim->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
+      if (!kept) continue;
       if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
       else PetscCall(CheckpointAddField(checkpoint, name, components, nvertices, &values));
-      if (back) PetscCall(PetscArraycpy(kept[k].memory + components * p * nvertices, values, components * nvertices));
-      else PetscCall(PetscArraycpy(values, kept[k].memory + components * p * nvertices, components * nvertices));
+      if (back) PetscCall(PetscArraycpy(memory[k] + components * p * nvertices, values, components * nvertices));
+      else PetscCall(PetscArraycpy(values, memory[k] + components * p * nvertices, components * nvertices));
     }
   }
   PetscFunctionReturn(0);

@@ -2,6 +2,42 @@
 #include "stepimpl.h"
 #include <string.h>
 
+const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
+  [CHECKPOINT_PRESSURE]   = {"pressure", 1, PETSC_FALSE, PETSC_FALSE},
+  [CHECKPOINT_SLACK]      = {"slack", 1, PETSC_FALSE, PETSC_FALSE},
+  [CHECKPOINT_SHEAR]      = {"shear", 3, PETSC_TRUE, PETSC_TRUE},
+  [CHECKPOINT_SLIP_PATH]  = {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
+  [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
+};
+
+/*@C
+   CheckpointNamePairField - The name of what a checkpoint keeps of a contact pair
+
+   Not Collective
+
+   Input Parameters:
++  pair   - the pair
+.  kind   - which of CheckpointPairFields
+-  length - of the name
+
+   Output Parameters:
++  name - of the field
+-  kept - whether it is kept of this pair
+
+   Level: developer
+
+.seealso: `CheckpointAddField()`
+@*/
+PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length, char name[], PetscBool *kept)
+{
+  const CheckpointPairField *field = &CheckpointPairFields[kind];
+
+  PetscFunctionBegin;
+  *kept = (PetscBool)(!field->friction || SceneContactPairRubs(pair));
+  PetscCall(PetscSNPrintf(name, length, "%s_%s", field->name, pair->name));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    CheckpointAddField - Adds zeros at the vertices that this rank owns
 
@@ -52,12 +88,14 @@ PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], Pets
 @*/
 PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], const PetscReal **values)
 {
+  const CheckpointField *found = NULL;
+
   PetscFunctionBegin;
-  *values = NULL;
   for (PetscInt f = 0; f < checkpoint->nfields; ++f) {
-    if (!strcmp(checkpoint->fields[f].name, name)) *values = checkpoint->fields[f].values;
+    if (!strcmp(checkpoint->fields[f].name, name)) found = &checkpoint->fields[f];
   }
-  PetscCheck(*values, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "the checkpoint has no field \"%s\"", name);
+  PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "the checkpoint has no field \"%s\"", name);
+  *values = found->values;
   PetscFunctionReturn(0);
 }
 
