@@ -397,6 +397,17 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* What is misspelt, and what of a scene's own options has no use, is told by ourselves; PETSc since 3.19 would warn of every option that this run did not need */
+static PetscErrorCode AppLeaveUnusedOptions(void)
+{
+  PetscBool given;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-options_left", &given));
+  if (!given) PetscCall(PetscOptionsSetValue(NULL, "-options_left", "0"));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end)
 {
   AppOptions app;
@@ -410,6 +421,7 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end
   if (!app.quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
+  PetscCall(AppLeaveUnusedOptions());
   if (app.check) PetscCall(AppCheckScene(scene));
   else {
     PetscCall(AppSolve(&app, scene, end));

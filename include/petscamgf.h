@@ -94,6 +94,8 @@ PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
+PETSC_EXTERN PetscErrorCode PCAMGFSetFilterRanks(PC, PetscInt);
+PETSC_EXTERN PetscErrorCode PCAMGFGetFilterPivots(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFactor(PC, PCAMGFFactorUse);
 PETSC_EXTERN PetscErrorCode PCAMGFExpect(PC, PetscReal applications, PetscReal solves);

@@ -9,6 +9,7 @@ static PetscErrorCode PCReset_AMGF(PC pc)
   PetscCall(PCReset(amgf->amg));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
   PetscCall(KSPReset(amgf->filter));
+  PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
   PetscCall(PCAMGFResetGalerkin_Private(amgf));
   PetscCall(PCAMGFResetSubspace_Private(amgf));
   PetscCall(PCAMGFLagReset_Private(&amgf->lag));
@@ -47,6 +48,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_`
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the prefix `amgf_filter_`
 .  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
+.  -pc_amgf_filter_ranks <0>        - how many ranks the direct solver has, unless its type is given; 0: one for every 10,000 rows
 .  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says
                                       that it is the cheaper
 -  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
@@ -68,7 +70,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a row, no aggressive level, one sweep of
    l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its
    restriction does not conjugate, and a smoothed interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with Cholesky, with
-   complex scalars LU, by MUMPS; if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What the user sets wins.
+   complex scalars LU, by MUMPS, on the first few ranks where it is small (`PCAMGFSetFilterRanks()`); if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What the user sets wins.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
 
@@ -85,7 +87,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
-          `PCAMGFGetFilterKSP()`, `PCAMGFGetCounts()`, `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
+          `PCAMGFGetFilterKSP()`, `PCAMGFSetFilterRanks()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`, `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
 {

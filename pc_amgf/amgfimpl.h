@@ -52,6 +52,19 @@ typedef struct {
   char            why[160];               /* the last choice */
 } AMGFFactor;
 
+/* The filtered system on the first few ranks */
+typedef struct {
+  PetscInt    wanted; /* as PCAMGFSetFilterRanks() */
+  PetscMPIInt nranks; /* that solve it; 0: not set up */
+  PetscBool   solves; /* this rank does */
+  AMGFStamp   stamp;  /* of A_w */
+  MPI_Comm    comm;   /* of those that solve, and of the others */
+  PC          pc;     /* of those that solve, as A, b and x are */
+  Mat         moved, rows, A;
+  Vec         at, b, x; /* at: of all ranks, its entries on those that solve; NULL: all do, with the matrix as it is */
+  VecScatter  scatter;
+} AMGFFewRanks;
+
 /* Estimates [s] */
 typedef struct {
   PetscReal factor, solve; /* by factorization */
@@ -97,8 +110,9 @@ typedef struct {
   Vec          rc, ec, wc; /* n_c */
   Vec          w[2];       /* n */
 
-  AMGFLag    lag;
-  AMGFFactor factor;
+  AMGFLag      lag;
+  AMGFFactor   factor;
+  AMGFFewRanks few;
 } PC_AMGF;
 
 /* The files of this folder, each after those it builds on, and what they define for others */
@@ -121,6 +135,13 @@ PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 /* galerkin.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
 PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
+/* direct.c */
+PETSC_INTERN PetscErrorCode PCAMGFSetDirectSolver_Private(PC, PetscBool *);
+/* fewranks.c */
+PETSC_INTERN PetscErrorCode PCAMGFFewRanksBegin_Private(PC, AMGFFewRanks *);
+PETSC_INTERN PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *);
+PETSC_INTERN PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC, PetscInt);
+PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
 /* inner.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);

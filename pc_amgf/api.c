@@ -126,6 +126,8 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGAge_C", PCAMGFGetAMGAge_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterRanks_C", PCAMGFSetFilterRanks_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterPivots_C", PCAMGFGetFilterPivots_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCounts_C", PCAMGFGetCounts_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFactor_C", PCAMGFSetFactor_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFExpect_C", PCAMGFExpect_AMGF));
@@ -137,7 +139,7 @@ PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
   static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
                                       "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C", "PCAMGFSetFactor_C",
-                                      "PCAMGFExpect_C", "PCAMGFGetFactored_C"};
+                                      "PCAMGFExpect_C", "PCAMGFGetFactored_C", "PCAMGFSetFilterRanks_C", "PCAMGFGetFilterPivots_C"};
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));

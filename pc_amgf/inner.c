@@ -1,6 +1,5 @@
 /* Defaults and options of the inner solvers */
 #include "amgfimpl.h"
-#include "mumps.h"
 
 typedef struct {
   const char *name, *value;
@@ -112,26 +111,21 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky: MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every rank. PETSc has no Hermitian Cholesky by MUMPS, so complex numbers take LU. */
-static PetscErrorCode InnerSetDirectSolver(PC inner)
+/* By MUMPS, as many ranks as its size asks for; all where the user chose another solver, or PETSc has no MUMPS */
+static PetscErrorCode InnerSetFilterSolver(PC pc, PC inner)
 {
-  const MatFactorType factor = PetscDefined(USE_COMPLEX) ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY;
-  const PCType        type   = PetscDefined(USE_COMPLEX) ? PCLU : PCCHOLESKY;
-  PetscBool           mumps;
-  PetscMPIInt         size;
+  PetscOptions options;
+  char         full[PETSC_MAX_OPTION_NAME];
+  PetscBool    given, mumps;
+  PetscMPIInt  size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)inner), &size));
-  PetscCall(AMGFMumpsFactors(size > 1 ? MATMPIAIJ : MATSEQAIJ, factor, &mumps));
-  if (!mumps && size > 1) {
-    KSP redundant;
-
-    PetscCall(PCSetType(inner, PCREDUNDANT));
-    PetscCall(PCRedundantGetKSP(inner, &redundant));
-    PetscCall(KSPGetPC(redundant, &inner));
-  }
-  PetscCall(PCSetType(inner, type));
-  if (mumps) PetscCall(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS));
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
+  PetscCall(PetscObjectGetOptions((PetscObject)inner, &options));
+  PetscCall(InnerOptionName((PetscObject)inner, "-pc_type", full, sizeof(full)));
+  PetscCall(PetscOptionsHasName(options, NULL, full, &given));
+  PetscCall(PCAMGFSetDirectSolver_Private(inner, &mumps));
+  if (size > 1 && mumps && !given) PetscCall(PCAMGFFewRanksBegin_Private(inner, &((PC_AMGF *)pc->data)->few));
   PetscFunctionReturn(0);
 }
 
@@ -147,7 +141,7 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
   if (!ksptype) PetscCall(KSPSetType(filter, KSPPREONLY));
   PetscCall(KSPGetPC(filter, &inner));
   PetscCall(PCGetType(inner, &pctype));
-  if (!pctype) PetscCall(InnerSetDirectSolver(inner));
+  if (!pctype) PetscCall(InnerSetFilterSolver(pc, inner));
   PetscCall(KSPSetFromOptions(filter));
   PetscFunctionReturn(0);
 }

@@ -24,6 +24,7 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
   PC_AMGF        *amgf = (PC_AMGF *)pc->data;
   PCAMGFCycle     cycle;
   PetscReal       detect = amgf->detect;
+  PetscInt        ranks  = amgf->few.wanted;
   char            file[PETSC_MAX_PATH_LEN], lag[32];
   PetscBool       flg;
   PCAMGFFactorUse use;
@@ -38,6 +39,8 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
     PetscCall(ISDestroy(&amgf->file_is));
     if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
   }
+  PetscCall(PetscOptionsInt("-pc_amgf_filter_ranks", "Ranks that solve the filtered system; 0: by its size", "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
+  if (flg) PetscCall(PCAMGFSetFilterRanks(pc, ranks));
   PetscCall(PetscOptionsReal("-pc_amgf_detect", "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect, NULL));
   PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
   amgf->detect = detect;

@@ -39,7 +39,10 @@ static PetscErrorCode SetUpFilter(PC pc)
     PetscCall(PCAMGFUpdateGalerkin_Private(pc, same));
     PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
     /* a factored matrix of another size cannot be replaced in place */
-    if (!same) PetscCall(KSPReset(amgf->filter));
+    if (!same) {
+      PetscCall(KSPReset(amgf->filter));
+      PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
+    }
     PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
     PetscCall(KSPSetUp(amgf->filter));
     PetscCall(KSPGetPC(amgf->filter, &inner));
@@ -49,6 +52,7 @@ static PetscErrorCode SetUpFilter(PC pc)
     PetscCall(SetUpWarn(pc));
     PetscCall(PCAMGFResetGalerkin_Private(amgf));
     PetscCall(KSPReset(amgf->filter));
+    PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
   }
   PetscCall(PetscLogEventEnd(PC_AMGF_FltSetUp, pc, 0, 0, 0));
   PetscFunctionReturn(0);

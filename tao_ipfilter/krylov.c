@@ -1,6 +1,5 @@
 /* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the record of iterations. */
 #include "ipfilterimpl.h"
-#include "../pc_amgf/mumps.h"
 
 /* The KSP's own convergence test, and what tells that a run is not worth going on with */
 typedef struct {
@@ -193,28 +192,19 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
    that the filter leaves few iterations may not meet. Looked at only where the problem has shown that it is not convex, and its constraints have an interior. */
 static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
 {
-  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  PetscInt      negative = 0;
-  PetscBool     amgf, mumps = PETSC_FALSE, drowned = PETSC_TRUE;
-  KSP           filter;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt      negative;
+  PetscBool     amgf, drowned;
   PC            pc;
-  Mat           F;
-  MatSolverType solver;
 
   PetscFunctionBegin;
   *indefinite = PETSC_FALSE;
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf || !ip->lin.filtered || !ip->bar.curved || ip->relax.times) PetscFunctionReturn(0);
-  PetscCall(PCAMGFGetFilterKSP(pc, &filter));
-  PetscCall(KSPGetPC(filter, &pc));
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCCHOLESKY, &mumps));
-  if (mumps) PetscCall(PCFactorGetMatSolverType(pc, &solver));
-  if (mumps) PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
   PetscCall(KrylovDrowned(tao, &drowned));
-  if (!mumps || drowned) PetscFunctionReturn(0);
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(AMGFMumpsGetInfog(F, 12, &negative));
+  if (drowned) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFilterPivots(pc, &negative));
   *indefinite = (PetscBool)(negative > 0);
   PetscFunctionReturn(0);
 }
