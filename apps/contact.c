@@ -389,7 +389,7 @@ static PetscErrorCode AppCheckScene(Scene scene)
   DM dm;
 
   PetscFunctionBeginUser;
-  PetscCall(MeshCreate(PETSC_COMM_WORLD, scene->nbodies, scene->bodies, scene->refine, &dm));
+  PetscCall(MeshCreateScene(PETSC_COMM_WORLD, scene, &dm));
   PetscCall(MeshCheckScene(dm, scene));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));

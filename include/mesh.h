@@ -18,6 +18,13 @@
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
+/* A scene's, refined where it says so */
+PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, DM *);
+/* Which vertices hang amid an edge or a facet of a coarser cell, and of which others they are the mean; NULL: none */
+PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
+PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
+/* Of the facets of this rank, from the first on, those that bound the bodies */
+PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
 /* Are the shape's parameters sound, or does the mesh file have the volume? Are the faces that the body cuts out of others sound? */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
 /* Names of a body's faces, without the body's: the shape's, or the physical surfaces of the Gmsh file; then those that it cuts out of them */

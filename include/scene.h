@@ -180,6 +180,16 @@ typedef struct {
   PetscReal distance;  /* facets further apart are not joined [length]; 0: chosen from their size */
 } SceneTie;
 
+/* Cells that are refined more often than the others: near a face, near both faces of a contact pair, or in a box */
+typedef struct {
+  char     *name;
+  char     *face[2];            /* "<body>.<face>"; NULL: none */
+  PetscInt  body;               /* PETSC_DECIDE: any */
+  PetscReal lower[3], upper[3]; /* where there is no face [length] */
+  PetscReal distance;           /* from each face, or from the box [length] */
+  PetscInt  levels;             /* refinements beyond the uniform ones */
+} SceneRefinement;
+
 /* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
 typedef struct {
   char     *name;
@@ -215,6 +225,8 @@ typedef struct {
   SceneContactPair  *pairs;
   PetscInt           nties;
   SceneTie          *ties;
+  PetscInt           nrefinements;
+  SceneRefinement   *refinements;
   PetscInt           nprobes;
   SceneProbe        *probes;
   PetscInt           nsteps; /* load steps, at least 1 */

@@ -100,6 +100,7 @@ static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupl
     PetscCall(MatSetType(coupling->mat[c], MATAIJ));
     PetscCall(MatSetPreallocationCOO(coupling->mat[c], as->n, row, node));
     PetscCall(MatSetValuesCOO(coupling->mat[c], as->value[c], INSERT_VALUES));
+    PetscCall(ContactShareMatrix(contact, &coupling->mat[c]));
   }
   if (as->dim > 1) PetscCall(PetscFree2(row, node));
   PetscFunctionReturn(0);
@@ -140,7 +141,7 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
   PetscCall(PetscCalloc1(rows->nlocal, &norm));
-  PetscCall(VecGetArrayRead(rows->mass, &mass));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
     CouplingRow r = {0};
 
@@ -151,7 +152,7 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
     PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
     largest = PetscMax(largest, norm[i]);
   }
-  PetscCall(VecRestoreArrayRead(rows->mass, &mass));
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
   *nkept = 0;
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
@@ -205,6 +206,15 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
+/* What was added up by the rows, and a matrix of so many columns here */
+static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEntries *entries, Mat *mat)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, entries, mat));
+  PetscCall(ContactShareMatrix(contact, mat));
+  PetscFunctionReturn(0);
+}
+
 /*
   From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does not close its gap. Where
   the mean is zero, as under pressure, both are the same.
@@ -227,7 +237,7 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscCall(VecRestoreArrayRead(as->cover, &cover));
   PetscCall(VecRestoreArray(mean, &m));
   PetscCall(MatGetLocalSize(slopes, NULL, &n));
-  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->by_cover, &by_cover));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->by_cover, &by_cover));
   PetscCall(MatDiagonalScale(by_cover, mean, NULL));
   PetscCall(MatAXPY(slopes, -1.0, by_cover, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&by_cover));
@@ -243,10 +253,10 @@ static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *ri
 
   PetscFunctionBegin;
   PetscCall(MatGetLocalSize(contact->bends.slopes, NULL, &n));
-  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->rigid, rigid));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->rigid, rigid));
   PetscCall(SlopesHoldCover(contact, as, *rigid));
-  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, &as->by_node, bending));
-  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, 3 * contact->bends.nlocal, &as->by_bend, &bend));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->by_node, bending));
+  PetscCall(SlopesCreateMatrix(contact, 3 * contact->bends.nlocal, &as->by_bend, &bend));
   PetscCall(MatMatMult(bend, contact->bends.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
   PetscCall(MatAXPY(*bending, 1.0, through, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&through));
@@ -302,7 +312,7 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   nlocal = 3 * (cend - cstart);
   PetscCall(CouplingRowSpace(coupling, slopes, &space));
   PetscCall(PetscMalloc4(space, &column, space, &entry, nkept, &diagonal, nkept, &offdiagonal));
-  PetscCall(VecGetArrayRead(rows->mass, &mass));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
   PetscCall(MatCreate(contact->comm, J));
   PetscCall(MatSetSizes(*J, nkept, nlocal, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(*J, MATAIJ));
@@ -330,7 +340,7 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   }
   PetscCall(MatAssemblyBegin(*J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*J, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecRestoreArrayRead(rows->mass, &mass));
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
   PetscCall(PetscFree4(column, entry, diagonal, offdiagonal));
   PetscFunctionReturn(0);
 }
@@ -348,7 +358,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscCall(VecDuplicate(lin->g, &lin->mass));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->vertex));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->pair));
-  PetscCall(VecGetArrayRead(rows->mass, &mass));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
   PetscCall(VecGetArrayRead(as->gap, &gap));
   PetscCall(VecGetArray(lin->mass, &m));
   PetscCall(VecGetArray(lin->g, &g));
@@ -364,7 +374,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscCall(VecRestoreArray(lin->g, &g));
   PetscCall(VecRestoreArray(lin->mass, &m));
   PetscCall(VecRestoreArrayRead(as->gap, &gap));
-  PetscCall(VecRestoreArrayRead(rows->mass, &mass));
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
   PetscFunctionReturn(0);
 }
 
@@ -417,6 +427,8 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(VecAssemblyEnd(as->gap));
   PetscCall(VecAssemblyBegin(as->cover));
   PetscCall(VecAssemblyEnd(as->cover));
+  PetscCall(ContactShareVector(contact, as->gap));
+  PetscCall(ContactShareVector(contact, as->cover));
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));

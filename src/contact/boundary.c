@@ -1,37 +1,6 @@
 /* The boundary of all bodies, undeformed: how large they are, and what is inside them */
 #include <mesh.h>
-#include <petscsf.h>
 #include "contactimpl.h"
-
-/* Marks the facets that bound the bodies: one cell here, and no copy on another rank */
-static PetscErrorCode BoundaryMarkFacets(DM dm, PetscInt start, PetscInt end, PetscBool boundary[])
-{
-  PetscSF         sf;
-  PetscInt        nroots, nleaves;
-  const PetscInt *leaves, *degree;
-
-  PetscFunctionBegin;
-  for (PetscInt f = start; f < end; ++f) {
-    PetscInt ncells;
-
-    PetscCall(DMPlexGetSupportSize(dm, f, &ncells));
-    boundary[f - start] = (PetscBool)(ncells == 1);
-  }
-  PetscCall(DMGetPointSF(dm, &sf));
-  PetscCall(PetscSFGetGraph(sf, &nroots, &nleaves, &leaves, NULL));
-  if (nroots < 0) PetscFunctionReturn(0);
-  PetscCall(PetscSFComputeDegreeBegin(sf, &degree));
-  PetscCall(PetscSFComputeDegreeEnd(sf, &degree));
-  for (PetscInt f = start; f < end; ++f) {
-    if (degree[f]) boundary[f - start] = PETSC_FALSE;
-  }
-  for (PetscInt i = 0; i < nleaves; ++i) {
-    const PetscInt f = leaves ? leaves[i] : i;
-
-    if (f >= start && f < end) boundary[f - start] = PETSC_FALSE;
-  }
-  PetscFunctionReturn(0);
-}
 
 /* Number of bodies, on all ranks */
 static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
@@ -64,7 +33,7 @@ PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
   PetscCall(BoundaryCountBodies(dm, &b->nbodies));
   PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
   PetscCall(PetscMalloc1(end - start, &boundary));
-  PetscCall(BoundaryMarkFacets(dm, start, end, boundary));
+  PetscCall(MeshMarkBoundary(dm, boundary));
   for (PetscInt f = start; f < end; ++f) b->n += boundary[f - start];
   PetscCall(PetscMalloc2(b->n, &b->body, 12 * b->n, &b->x));
   b->n = 0;

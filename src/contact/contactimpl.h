@@ -278,6 +278,8 @@ typedef struct {
   PetscReal *normal;         /* [3 nlocal] averaged unit normals */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;           /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight;         /* the same, with that of hanging vertices at those they hang between */
+  Mat        share;          /* which rows what is added up for a row goes to; NULL: no vertex hangs, and it stays */
 } ContactRows;
 
 /* What the normals of all smooth surfaces change with a displacement; a rank has those of its own facets' corners */
@@ -320,6 +322,11 @@ struct _n_Contact {
 /* rows.c: the rows there may be */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
+
+/* share.c: rows of hanging vertices */
+PETSC_INTERN PetscErrorCode ContactShareCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactShareVector(Contact, Vec sums);
+PETSC_INTERN PetscErrorCode ContactShareMatrix(Contact, Mat *sums);
 
 /* bends.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings' displacement */
 PETSC_INTERN PetscErrorCode ContactBendsCreate(Contact);

@@ -117,5 +117,7 @@ PetscErrorCode ContactRowsDestroy(Contact contact)
   PetscCall(PetscFree(rows->held));
   PetscCall(PetscFree2(rows->normal, rows->x));
   PetscCall(VecDestroy(&rows->mass));
+  PetscCall(VecDestroy(&rows->weight));
+  PetscCall(MatDestroy(&rows->share));
   PetscFunctionReturn(0);
 }

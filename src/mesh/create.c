@@ -36,7 +36,7 @@ static PetscErrorCode MeshCheckNames(MPI_Comm comm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves)
+static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *hanging)
 {
   PetscPartitioner partitioner;
   DM               distributed;
@@ -49,10 +49,73 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves)
   PetscCall(DMPlexDistribute(*dm, 0, &migration, &distributed));
   if (distributed) {
     PetscCall(MeshCurvesDistribute(migration, distributed, curves));
+    PetscCall(MeshHangingDistribute(migration, *dm, hanging));
     PetscCall(PetscSFDestroy(&migration));
     PetscCall(DMDestroy(dm));
     *dm = distributed;
   }
+  PetscFunctionReturn(0);
+}
+
+/* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
+static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, const MeshLocalRefinement *local, DM *dm)
+{
+  PetscMPIInt size;
+  PetscInt64  ncells = 0, nvertices = 0, finecells;
+  PetscInt    before = 0;
+  MeshBody   *meshes;
+  MeshCurves  curves;
+  MeshHanging hanging = {NULL, NULL};
+
+  PetscFunctionBegin;
+  PetscCall(MeshInitializePackage());
+  PetscCall(PetscLogEventBegin(MESH_Create, 0, 0, 0, 0));
+  PetscCall(MeshCheckNames(comm, nbodies, bodies));
+  PetscCheck(refine >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "The number of refinements must not be negative, but is %" PetscInt_FMT, refine);
+  PetscCall(PetscCalloc1(nbodies, &meshes));
+  PetscCall(MeshCreateBodies(comm, nbodies, bodies, meshes));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    ncells += meshes[b].ncells;
+    nvertices += meshes[b].nvertices;
+  }
+  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE, "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
+  finecells = ncells;
+  for (PetscInt l = 0; l < refine; ++l) {
+    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers", refine, ncells);
+    finecells *= 8;
+  }
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
+
+  PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, dm));
+  PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, &curves));
+  PetscCall(MeshDestroyBodies(nbodies, meshes));
+  PetscCall(PetscFree(meshes));
+  if (local->nzones) before = refine;
+  else if (size > 1) {
+    for (PetscInt64 n = ncells; before < refine && n < MESH_MIN_CELLS_PER_RANK * size; n *= 8) ++before;
+  }
+  if (before) {
+    PetscCall(MeshRefine(dm, before));
+    PetscCall(MeshCurvesApply(&curves, before, *dm, PETSC_FALSE));
+    PetscCall(MeshCurvesRefine(before, *dm, &curves));
+  }
+  if (local->nzones) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
+  if (size > 1) PetscCall(MeshDistribute(dm, &curves, &hanging));
+  PetscCall(MeshRefine(dm, refine - before));
+  PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
+  PetscCall(MeshSetSection(*dm, bodies));
+  PetscCall(MeshCreateNodes(*dm, nbodies, bodies));
+  PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(MeshCurvesApply(&curves, refine - before, *dm, PETSC_TRUE));
+  PetscCall(MeshCurvesDestroy(&curves));
+  PetscCall(MeshHangingFinish(*dm, &hanging));
+  PetscCall(MeshHangingPlace(*dm));
+  PetscCall(MeshUpdateVertices(*dm));
+  PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));
+  PetscCall(DMViewFromOptions(*dm, NULL, "-dm_view"));
+  PetscCall(PetscLogEventEnd(MESH_Create, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 
@@ -90,54 +153,39 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves)
 @*/
 PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, DM *dm)
 {
-  PetscMPIInt size;
-  PetscInt64  ncells = 0, nvertices = 0, finecells;
-  PetscInt    before = 0;
-  MeshBody   *meshes;
-  MeshCurves  curves;
+  const MeshLocalRefinement none = {0, NULL};
 
   PetscFunctionBegin;
-  PetscCall(MeshInitializePackage());
-  PetscCall(PetscLogEventBegin(MESH_Create, 0, 0, 0, 0));
-  PetscCall(MeshCheckNames(comm, nbodies, bodies));
-  PetscCheck(refine >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "The number of refinements must not be negative, but is %" PetscInt_FMT, refine);
-  PetscCall(PetscCalloc1(nbodies, &meshes));
-  PetscCall(MeshCreateBodies(comm, nbodies, bodies, meshes));
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    ncells += meshes[b].ncells;
-    nvertices += meshes[b].nvertices;
-  }
-  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE, "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
-  finecells = ncells;
-  for (PetscInt l = 0; l < refine; ++l) {
-    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers", refine, ncells);
-    finecells *= 8;
-  }
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
+  PetscCall(MeshCreateRefined(comm, nbodies, bodies, refine, &none, dm));
+  PetscFunctionReturn(0);
+}
 
-  PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, dm));
-  PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, &curves));
-  PetscCall(MeshDestroyBodies(nbodies, meshes));
-  PetscCall(PetscFree(meshes));
-  if (size > 1) {
-    for (PetscInt64 n = ncells; before < refine && n < MESH_MIN_CELLS_PER_RANK * size; n *= 8) ++before;
-    PetscCall(MeshRefine(dm, before));
-    PetscCall(MeshCurvesApply(&curves, before, *dm, PETSC_FALSE));
-    PetscCall(MeshCurvesRefine(before, *dm, &curves));
-    PetscCall(MeshDistribute(dm, &curves));
-  }
-  PetscCall(MeshRefine(dm, refine - before));
-  PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
-  PetscCall(MeshSetSection(*dm, bodies));
-  PetscCall(MeshCreateNodes(*dm, nbodies, bodies));
-  PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(MeshCurvesApply(&curves, refine - before, *dm, PETSC_TRUE));
-  PetscCall(MeshCurvesDestroy(&curves));
-  PetscCall(MeshUpdateVertices(*dm));
-  PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));
-  PetscCall(DMViewFromOptions(*dm, NULL, "-dm_view"));
-  PetscCall(PetscLogEventEnd(MESH_Create, 0, 0, 0, 0));
+/*@
+  MeshCreateScene - Creates the mesh of a scene, its cells refined where it says so
+
+  Collective
+
+  Input Parameters:
++ comm  - communicator
+- scene - the scene, the same on all ranks
+
+  Output Parameter:
+. dm - the mesh, a `DMPLEX` with one component a body
+
+  Level: beginner
+
+  Notes:
+  Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the mesh is distributed; neighbours of
+  finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer cells
+  are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is curved.
+
+.seealso: `MeshCreate()`, `MeshGetHanging()`, `MeshCheckScene()`
+@*/
+PetscErrorCode MeshCreateScene(MPI_Comm comm, Scene scene, DM *dm)
+{
+  const MeshLocalRefinement local = {scene->nrefinements, scene->refinements};
+
+  PetscFunctionBegin;
+  PetscCall(MeshCreateRefined(comm, scene->nbodies, scene->bodies, scene->refine, &local, dm));
   PetscFunctionReturn(0);
 }

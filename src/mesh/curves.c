@@ -158,6 +158,47 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
+/* Those of the parts of cells that local refinement made */
+PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *curves)
+{
+  MeshCurves         there = {NULL, NULL};
+  PetscInt           pend, n;
+  const PetscScalar *from;
+  PetscScalar       *to;
+
+  PetscFunctionBegin;
+  if (!curves->section) PetscFunctionReturn(0);
+  PetscCall(DMPlexGetChart(fine, NULL, &pend));
+  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)fine), &there.section));
+  PetscCall(PetscSectionSetChart(there.section, 0, pend));
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    PetscCall(PetscSectionGetDof(curves->section, hexes->root[c], &n));
+    PetscCall(PetscSectionSetDof(there.section, c, n));
+  }
+  PetscCall(PetscSectionSetUp(there.section));
+  PetscCall(PetscSectionGetStorageSize(there.section, &n));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &there.places));
+  PetscCall(VecGetArrayRead(curves->places, &from));
+  PetscCall(VecGetArrayWrite(there.places, &to));
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    const PetscInt *place = &hexes->place[4 * c];
+    PetscInt        whole, part;
+    PetscReal       corners[8][3];
+
+    PetscCall(PetscSectionGetDof(there.section, c, &n));
+    if (!n) continue;
+    PetscCall(PetscSectionGetOffset(curves->section, hexes->root[c], &whole));
+    PetscCall(PetscSectionGetOffset(there.section, c, &part));
+    for (PetscInt i = 0; i < 24; ++i) corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
+    CurveCut(from + whole, (const PetscReal(*)[3])corners, to + part);
+  }
+  PetscCall(VecRestoreArrayWrite(there.places, &to));
+  PetscCall(VecRestoreArrayRead(curves->places, &from));
+  PetscCall(MeshCurvesDestroy(curves));
+  *curves = there;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fine, PetscBool nodes)
 {
   PetscInt           nchildren, cend, n;

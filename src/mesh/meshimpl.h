@@ -231,6 +231,22 @@ PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody
 /* refine.c: so many uniform refinements of a mesh in place */
 PETSC_INTERN PetscErrorCode MeshRefine(DM *, PetscInt levels);
 
+/* hexes.c: hexahedra on one rank, some refined more often than others; of a mesh whose cells are their roots */
+typedef struct {
+  PetscInt               ncells, *vertex;                 /* 8 a cell, in tensor order */
+  PetscInt              *root, *place;                    /* 4 numbers a cell: where in its root the lower corner is, in cells of its size, and how often the root was refined */
+  PetscInt               nvertices, maxvertices, *parent; /* 4 a vertex: those that it was made amid, on an edge or a side; the others are negative */
+  PetscReal             *x;                               /* 3 a vertex, as the mesh has them */
+  struct _n_MeshMiddles *middles;
+} MeshHexes;
+PETSC_INTERN PetscErrorCode MeshHexesCreate(DM, MeshHexes *);
+PETSC_INTERN PetscErrorCode MeshHexesRefine(MeshHexes *, PetscBool marked[]);
+PETSC_INTERN PetscErrorCode MeshHexesFindHanging(const MeshHexes *, PetscBool hangs[]);
+PETSC_INTERN PetscErrorCode MeshHexesDestroy(MeshHexes *);
+
+/* zones.c: what the scene refines */
+PETSC_INTERN PetscErrorCode MeshHexesRefineZones(DM, const SceneBody[], PetscInt n, const SceneRefinement[], MeshHexes *);
+
 /* curves.c: the quadratic cells of a mesh: [81 a cell of a quadratic body, 0 of others], carried along as it is distributed */
 typedef struct {
   PetscSection section; /* NULL: no body has any */
@@ -241,11 +257,31 @@ PETSC_INTERN PetscErrorCode MeshCurvesDistribute(PetscSF, DM distributed, MeshCu
 /* fine: the mesh that the curves belong to, refined. Moves its vertices onto them, or all its nodes; replaces them by those of its cells */
 PETSC_INTERN PetscErrorCode MeshCurvesApply(const MeshCurves *, PetscInt levels, DM fine, PetscBool nodes);
 PETSC_INTERN PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *);
+PETSC_INTERN PetscErrorCode MeshCurvesCutOut(const MeshHexes *, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
+
+/* hanging.c: vertices amid an edge or a side of a cell; what is carried along as the mesh is distributed, and what becomes of it */
+typedef struct {
+  PetscSection section; /* NULL: there was no local refinement */
+  PetscInt    *numbers;
+} MeshHanging;
+PETSC_INTERN PetscErrorCode MeshHangingCreate(const MeshHexes *, DM, MeshHanging *);
+PETSC_INTERN PetscErrorCode MeshHangingDistribute(PetscSF, DM before, MeshHanging *);
+PETSC_INTERN PetscErrorCode MeshHangingFinish(DM, MeshHanging *);
+PETSC_INTERN PetscErrorCode MeshHangingPlace(DM);
+PETSC_INTERN PetscErrorCode MeshHangingDestroy(MeshHanging *);
+
+/* local.c: local refinement, in place; the mesh is that of the first rank, with its curves */
+#define MESH_INNER_LABEL "inner" /* of facets inside a body that have one cell */
+typedef struct {
+  PetscInt               nzones;
+  const SceneRefinement *zones;
+} MeshLocalRefinement;
+PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const SceneBody[], DM *, MeshCurves *, MeshHanging *);
 
 /* level0.c: all bodies at level 0, on rank 0, with their labels */
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], DM *);
 
-/* metis.c, create.c, support.c: the partitioner, MeshCreate(), and whether the scene holds its bodies, public */
+/* boundary.c, metis.c, create.c, support.c: the partitioner, MeshCreate(), and whether the scene holds its bodies, public */
 
 #endif

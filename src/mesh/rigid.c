@@ -1,60 +1,38 @@
 /* Rigid bodies: a label for each, as for a face, of all points that have unknowns and the facets of the boundary */
 #include "meshimpl.h"
-#include <petscsf.h>
 
-static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, DMLabel whole)
+/* boundary: of the facets, from number fstart on */
+static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[], DMLabel whole)
 {
-  PetscInt n, fstart, fend, *closure = NULL;
+  PetscInt n, *closure = NULL;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, &fend));
   PetscCall(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &n, &closure));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt point  = closure[2 * i];
-    PetscInt       ncells = 1;
+    const PetscInt point = closure[2 * i];
 
-    if (point >= fstart && point < fend) PetscCall(DMPlexGetSupportSize(dm, point, &ncells));
-    if (ncells == 1) PetscCall(DMLabelSetValue(whole, point, 1));
+    if (point < fstart || point >= fend || boundary[point - fstart]) PetscCall(DMLabelSetValue(whole, point, 1));
   }
   PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &n, &closure));
-  PetscFunctionReturn(0);
-}
-
-/* A facet that other ranks have a cell of is none of the boundary */
-static PetscErrorCode RigidClearShared(DM dm, DMLabel whole)
-{
-  PetscSF         sf;
-  const PetscInt *degree, *leaves;
-  PetscInt        nroots, nleaves, fstart, fend;
-
-  PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, &fend));
-  PetscCall(DMGetPointSF(dm, &sf));
-  PetscCall(PetscSFGetGraph(sf, &nroots, &nleaves, &leaves, NULL));
-  if (nroots < 0) PetscFunctionReturn(0);
-  PetscCall(PetscSFComputeDegreeBegin(sf, &degree));
-  PetscCall(PetscSFComputeDegreeEnd(sf, &degree));
-  for (PetscInt f = fstart; f < fend; ++f) {
-    if (degree[f]) PetscCall(DMLabelClearValue(whole, f, 1));
-  }
-  for (PetscInt i = 0; i < nleaves; ++i) {
-    const PetscInt point = leaves ? leaves[i] : i;
-
-    if (point >= fstart && point < fend) PetscCall(DMLabelClearValue(whole, point, 1));
-  }
   PetscFunctionReturn(0);
 }
 
 /* After the last refinement */
 PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
 {
-  DMLabel  body, whole;
-  PetscInt cstart, cend;
-  char     name[256];
+  DMLabel    body, whole;
+  PetscInt   cstart, cend, fstart, fend;
+  PetscBool *boundary, any = PETSC_FALSE;
+  char       name[256];
 
   PetscFunctionBegin;
+  for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || bodies[b].material.type == MATERIAL_RIGID);
+  if (!any) PetscFunctionReturn(0);
   PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &body));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, &fend));
+  PetscCall(PetscMalloc1(fend - fstart, &boundary));
+  PetscCall(MeshMarkBoundary(dm, boundary));
   for (PetscInt b = 0; b < nbodies; ++b) {
     if (bodies[b].material.type != MATERIAL_RIGID) continue;
     PetscCall(PetscSNPrintf(name, sizeof(name), "%s" SCENE_WHOLE_BODY, bodies[b].name));
@@ -64,9 +42,9 @@ PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
       PetscInt of;
 
       PetscCall(DMLabelGetValue(body, c, &of));
-      if (of == b) PetscCall(RigidLabelCell(dm, c, whole));
+      if (of == b) PetscCall(RigidLabelCell(dm, c, fstart, fend, boundary, whole));
     }
-    PetscCall(RigidClearShared(dm, whole));
   }
+  PetscCall(PetscFree(boundary));
   PetscFunctionReturn(0);
 }

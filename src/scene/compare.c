@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Top level keys that say how a simulation goes on, and how it is solved */
-static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "model", "contact_updates", "displacement_bounds", "solver"};
+static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model", "contact_updates", "displacement_bounds", "solver"};
 
 /*@C
    SceneGetText - The scene as `SceneView()` prints it

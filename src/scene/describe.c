@@ -229,6 +229,27 @@ static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Where cells are refined more often, and how many vertices hang between coarser and finer cells */
+static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer)
+{
+  PetscInt nhanging;
+
+  PetscFunctionBegin;
+  if (!scene->nrefinements) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Refinements\n"));
+  for (PetscInt r = 0; r < scene->nrefinements; ++r) {
+    const SceneRefinement *here = &scene->refinements[r];
+    const char            *both = here->face[1] ? " and " : "";
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " levels within %.6g of ", here->name, here->levels, (double)here->distance));
+    if (here->face[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s\n", here->face[0], both, here->face[1] ? here->face[1] : ""));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, "a box, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", (double)here->lower[0], (double)here->upper[0], (double)here->lower[1], (double)here->upper[1], (double)here->lower[2], (double)here->upper[2]));
+  }
+  PetscCall(MeshCountHanging(dm, &nhanging));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  vertices that hang between coarser and finer cells: %" PetscInt_FMT "\n", nhanging));
+  PetscFunctionReturn(0);
+}
+
 /* An error where one is in no body */
 static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
 {
@@ -362,6 +383,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
   PetscCall(DescribeTies(scene, viewer));
+  PetscCall(DescribeRefinements(scene, dm, viewer));
   PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
   PetscCall(DescribeEffects(scene, viewer));

@@ -118,6 +118,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadBodyForces(keys, s));
   PetscCall(SceneReadContact(keys, s));
   PetscCall(SceneReadTies(keys, s));
+  PetscCall(SceneReadRefinements(keys, s));
   PetscCall(SceneReadProbes(keys, s));
   PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));
@@ -172,6 +173,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->pairs));
   PetscCall(SceneDestroyTractions(s));
   PetscCall(SceneDestroyTies(s));
+  PetscCall(SceneDestroyRefinements(s));
   PetscCall(SceneDestroyProbes(s));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {

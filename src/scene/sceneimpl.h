@@ -130,6 +130,12 @@ PETSC_INTERN PetscErrorCode SceneViewTie(Scene, PetscViewer, PetscInt tie);
 PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, const char file[], Scene);
 PETSC_INTERN PetscErrorCode SceneDestroyTies(Scene);
 
+/* refinements.c */
+PETSC_INTERN PetscErrorCode SceneReadRefinements(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneViewRefinement(Scene, PetscViewer, PetscInt refinement);
+PETSC_INTERN PetscErrorCode SceneValidateRefinements(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneDestroyRefinements(Scene);
+
 /* probes.c */
 PETSC_INTERN PetscErrorCode SceneReadProbes(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewProbe(Scene, PetscViewer, PetscInt probe);

@@ -95,5 +95,6 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
   PetscCall(SceneValidateTies(comm, file, scene));
+  PetscCall(SceneValidateRefinements(comm, file, scene));
   PetscFunctionReturn(0);
 }

@@ -218,6 +218,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
   PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));
   PetscCall(SceneViewEntries(scene, viewer, "ties", scene->nties, SceneViewTie));
+  PetscCall(SceneViewEntries(scene, viewer, "refinements", scene->nrefinements, SceneViewRefinement));
   PetscCall(SceneViewEntries(scene, viewer, "probes", scene->nprobes, SceneViewProbe));
   PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));

@@ -85,19 +85,6 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
-/* Forces on tied rows go to the others; ties: the forces on the bodies that this makes, NULL where nothing is tied */
-static PetscErrorCode MeasureTies(Simulation sim, Vec force, Vec *ties)
-{
-  PetscFunctionBegin;
-  *ties = NULL;
-  if (!sim->ties.C) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(force, ties));
-  PetscCall(VecCopy(force, *ties));
-  PetscCall(TiesGather(&sim->ties, force));
-  PetscCall(VecAXPY(*ties, -1.0, force));
-  PetscFunctionReturn(0);
-}
-
 /*
    All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
    = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization error
@@ -128,7 +115,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));
   }
-  PetscCall(MeasureTies(sim, force, &ties));
+  PetscCall(TiesGetForces(&sim->ties, force, &ties));
   PetscCall(WorkAdd(p, u, force, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, report));

@@ -95,7 +95,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(StepEventsRead(&sim->start));
   PetscCall(ResidentGet(sim->comm, &sim->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreate(sim->comm, scene->nbodies, scene->bodies, scene->refine, &sim->dm));
+  PetscCall(MeshCreateScene(sim->comm, scene, &sim->dm));
   PetscCall(MeshCheckScene(sim->dm, scene));
   PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));

@@ -154,7 +154,8 @@ typedef struct {
 
 /* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
 typedef struct {
-  Mat      C, K; /* u = C x; stiffness of the bodies, K of the simulation being C^T K C */
+  Mat      C, K;    /* u = C x; stiffness of the bodies, K of the simulation being C^T K C */
+  Mat      hanging; /* that which hanging vertices have of C; NULL: there are none */
   PetscInt n, *rows;
   Vec      work;
 } Ties;
@@ -215,6 +216,7 @@ PETSC_INTERN PetscErrorCode TiesTangent(Simulation, Vec u, Mat);
 PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
 PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
 PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
+PETSC_INTERN PetscErrorCode TiesGetForces(const Ties *, Vec force, Vec *ties);
 PETSC_INTERN PetscErrorCode TiesMeasure(Simulation, Vec forces, PetscReal bodies[]);
 PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 

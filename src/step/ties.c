@@ -1,5 +1,5 @@
 /*
-   Tied faces and symmetry planes along no axis: displacements there are those that others give them, u = C x, and no unknowns. x is u with other numbers
+   Tied faces, symmetry planes along no axis and hanging vertices: displacements there are those that others give them, u = C x, and no unknowns. x is u with other numbers
    at their rows, which mean nothing: energy, forces and gaps are those of C x, forces C^T f, the stiffness C^T K C with a diagonal in those rows.
    Prescribed rows are not tied.
 */
@@ -72,6 +72,28 @@ static PetscErrorCode TiesCheckChains(Simulation sim, Mat all, const PetscInt ti
   PetscFunctionReturn(0);
 }
 
+/* Nor hang: the forces that it ties would not be those of a uniform stress */
+static PetscErrorCode TiesCheckHanging(Simulation sim, const PetscInt tied[])
+{
+  PetscInt start, end, hangs = -1;
+  Mat      means;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetHanging(sim->dm, &means));
+  if (!means) PetscFunctionReturn(0);
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    if (n && tied[i - start] >= 0) hangs = tied[i - start];
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
+  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange the two faces", sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
+  PetscFunctionReturn(0);
+}
+
 /* Longest row of this rank */
 static PetscErrorCode TiesLongestRow(Mat all, PetscInt *longest)
 {
@@ -135,20 +157,66 @@ static PetscErrorCode TiesCreateJoints(Simulation sim, const PetscBool prescribe
   for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
   PetscCall(TiesCollect(sim, &all, tied));
   PetscCall(TiesCheckChains(sim, all, tied));
+  PetscCall(TiesCheckHanging(sim, tied));
   PetscCall(TiesExpand(sim, all, tied, prescribed, C, follows));
   PetscCall(MatDestroy(&all));
   PetscCall(PetscFree(tied));
   PetscFunctionReturn(0);
 }
 
-/* What is tied follows nodes on symmetry planes, and may be on them itself: the planes come first and last */
-static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat *C)
+/* NULL where no vertex hangs; those of faces with prescribed displacements have theirs */
+static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+{
+  PetscInt start, end, *hangs;
+  Mat      means;
+
+  PetscFunctionBegin;
+  *C = NULL;
+  PetscCall(MeshGetHanging(sim->dm, &means));
+  if (!means) PetscFunctionReturn(0);
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  PetscCall(PetscMalloc1(end - start, &hangs));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    hangs[i - start] = n ? 0 : -1;
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCall(TiesExpand(sim, means, hangs, prescribed, C, follows));
+  PetscCall(PetscFree(hangs));
+  PetscFunctionReturn(0);
+}
+
+/* C = A C; C NULL: A */
+static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
+{
+  Mat product;
+
+  PetscFunctionBegin;
+  if (!A) PetscFunctionReturn(0);
+  if (*C) {
+    PetscCall(MatMatMult(A, *C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+    PetscCall(MatDestroy(C));
+    *C = product;
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *C = A;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What is tied follows nodes on symmetry planes and hanging ones, and may be such a node itself: these come first and last. What hangs does so between nodes on planes */
+static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
-  if (joints && planes) PetscCall(MatMatMatMult(planes, joints, planes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, C));
-  else {
-    *C = joints ? joints : planes;
-    PetscCall(PetscObjectReference((PetscObject)*C));
+  *C = NULL;
+  PetscCall(TiesApplyNext(planes, C));
+  PetscCall(TiesApplyNext(hanging, C));
+  if (joints) {
+    PetscCall(TiesApplyNext(joints, C));
+    PetscCall(TiesApplyNext(planes, C));
+    PetscCall(TiesApplyNext(hanging, C));
   }
   PetscCall(MatDestroy(&joints));
   PetscCall(MatDestroy(&planes));
@@ -171,8 +239,9 @@ PetscErrorCode TiesCreate(Simulation sim)
   PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
   PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
   PetscCall(TiesCreateJoints(sim, prescribed, &joints, follows));
-  if (planes || joints) {
-    PetscCall(TiesCompose(joints, planes, &ties->C));
+  PetscCall(TiesCreateHanging(sim, prescribed, &ties->hanging, follows));
+  if (planes || joints || ties->hanging) {
+    PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
     PetscCall(PetscMalloc1(n, &ties->rows));
     for (PetscInt i = 0; i < n; ++i) {
       if (follows[i]) ties->rows[ties->n++] = rstart + i;
@@ -201,6 +270,20 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
   if (!ties->C) PetscFunctionReturn(0);
   PetscCall(VecCopy(f, ties->work));
   PetscCall(MatMultTranspose(ties->C, ties->work, f));
+  PetscFunctionReturn(0);
+}
+
+/* Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those between hanging vertices and the cells that they hang on. NULL where nothing follows */
+PetscErrorCode TiesGetForces(const Ties *t, Vec force, Vec *ties)
+{
+  PetscFunctionBegin;
+  *ties = NULL;
+  if (!t->C) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(force, ties));
+  if (t->hanging) PetscCall(MatMultTranspose(t->hanging, force, *ties));
+  else PetscCall(VecCopy(force, *ties));
+  PetscCall(TiesGather(t, force));
+  PetscCall(VecAXPY(*ties, -1.0, force));
   PetscFunctionReturn(0);
 }
 
@@ -321,6 +404,7 @@ PetscErrorCode TiesDestroy(Ties *ties)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&ties->C));
   PetscCall(MatDestroy(&ties->K));
+  PetscCall(MatDestroy(&ties->hanging));
   PetscCall(VecDestroy(&ties->work));
   PetscCall(PetscFree(ties->rows));
   PetscFunctionReturn(0);
