@@ -1,5 +1,5 @@
 /*
-   Elasticity of the bodies of a mesh: energy, internal force and tangent of trilinear hexahedra.
+   Elasticity of the bodies of a mesh: energy, internal force and tangent of hexahedra and tetrahedra.
    Vectors are the DM's global vectors (3 components a vertex). Prescribed rows stay in the tangent: rows and
    columns zeroed, diagonal kept at the stiffness's scale.
 */
@@ -42,7 +42,7 @@ PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[]
 PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], Vec force);
 /* Stiffness of springs to the ground, one a row, in energy, force and tangent; NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness);
-/* Row-sum lumped mass: integral of each vertex's shape function, for each of its 3 components [length^3] */
+/* Lumped mass: integral of each node's shape function, or where that is negative of its square, scaled; for each of its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);

@@ -1,10 +1,10 @@
 /*
-   Meshes: one DMPlex of hexahedra for all bodies (disjoint components), distributed and refined.
+   Meshes: one DMPlex of hexahedra and tetrahedra for all bodies (disjoint components), distributed and refined.
 
    Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
    facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components per node, interleaved,
-   block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a body of order 2 also its edges, facets and
-   cells. Coordinates are the reference geometry.
+   block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a body of order 2 also its edges, and of
+   hexahedra its facets and cells. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
 #define MESH_H
@@ -15,6 +15,22 @@
 #define MESH_BODY_LABEL      "body"
 #define MESH_MAX_NODES       27 /* of a cell */
 #define MESH_MAX_FACET_NODES 9
+
+/* What the number of a cell's nodes says: tetrahedra have 4 or 10, hexahedra 8 or 27 */
+static inline PetscBool MeshIsTetrahedron(PetscInt nnodes)
+{
+  return (PetscBool)(nnodes == 4 || nnodes == 10);
+}
+
+static inline PetscInt MeshOrder(PetscInt nnodes)
+{
+  return nnodes == 10 || nnodes == 27 ? 2 : 1;
+}
+
+static inline PetscInt MeshCorners(PetscInt nnodes)
+{
+  return MeshIsTetrahedron(nnodes) ? 4 : 8;
+}
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
@@ -39,24 +55,29 @@ PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 4 vertices of a facet, counterclockwise seen from outside the body; the 8 of a hexahedron in tensor order, x fastest */
+/* The 4 vertices of a facet, counterclockwise seen from outside the body, the last of a triangle's twice; the 8 of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
-/* The nodes of a facet: 4 as above, or 9 with the edges and itself; of a hexahedron: 8, or 27, in tensor order */
+/* The nodes of a facet: 4 as above, or 9 with the edges and itself, of a triangle 3 or 6; of a hexahedron: 8, or 27, in tensor order; of a tetrahedron 4, or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
-/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from outside */
+/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from outside, the last of a triangle's twice */
 #define MESH_MAX_FACET_PIECES 4
 PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
+/* The corners that each node of a tetrahedron is between; values and derivatives of its shape functions */
+PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
+PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
+/* The order of every body, on all ranks: the one it asks for, or that of its cells */
+PETSC_EXTERN PetscErrorCode MeshGetOrders(DM, PetscInt nbodies, PetscInt orders[]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
-/* Where a point is in a mesh: a cell, and the values there of its nodes' shape functions, in tensor order */
+/* Where a point is in a mesh: a cell, and the values there of its nodes' shape functions, in the order of the nodes */
 typedef struct {
   PetscReal distance; /* of the point from the cell [length] */
   PetscReal size;     /* of the cell: diagonal of its box [length] */
-  PetscInt  cell, n;  /* nodes of the cell: 8 or 27 */
+  PetscInt  cell, n;  /* nodes of the cell */
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 

@@ -77,7 +77,7 @@ typedef struct {
   PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
   Material         material;
   ElementType      element;
-  PetscInt         order;      /* of the displacements in a cell, 1 or 2; 0 stands for 1 */
+  PetscInt         order;      /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
   PetscReal        grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells; half_ellipse:
                                           of the core along depth and across, of the ring to the arc; 0 stands for 1 */
   PetscInt         even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */

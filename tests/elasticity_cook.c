@@ -167,5 +167,8 @@ int main(int argc, char **argv)
       test:
          suffix: order2
          args: -order 2 -element bbar -material {{linear neohookean}separate output}
+      test:
+         suffix: tetrahedra
+         args: -tetrahedra -order 2 -element bbar -material {{linear neohookean}separate output}
 
 TEST*/

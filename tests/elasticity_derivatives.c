@@ -377,6 +377,22 @@ int main(int argc, char **argv)
          suffix: order2_neohookean_bbar
          args: -material neohookean -element bbar
 
+   testset:
+      nsize: {{1 3}}
+      args: -tetrahedra -order 2
+      test:
+         suffix: tetrahedra
+         args: -elasticity_mat_type {{baij aij sbaij}}
+      test:
+         suffix: tetrahedra_neohookean
+         args: -material neohookean
+      test:
+         suffix: tetrahedra_neohookean_bbar
+         args: -material neohookean -element bbar
+      test:
+         suffix: tetrahedra_order1
+         args: -order 1 -material neohookean
+
    test:
       suffix: saint_venant
       nsize: {{1 3}}

@@ -281,4 +281,13 @@ int main(int argc, char **argv)
          suffix: order2_bbar
          args: -element bbar -material {{linear neohookean}}
 
+   testset:
+      nsize: {{1 3}}
+      args: -tetrahedra -material {{linear neohookean}} -element {{full bbar}}
+      test:
+         suffix: tetrahedra
+      test:
+         suffix: tetrahedra_order2
+         args: -order 2
+
 TEST*/

@@ -5,6 +5,7 @@
 #include <mesh.h>
 #include <elasticity.h>
 #include <petscksp.h>
+#include "elasticity_tetrahedra.h"
 
 /* A box; material, element and all the rest are the caller's to set */
 static inline void ProblemBox(char name[], const PetscReal lower[3], const PetscReal upper[3], const PetscInt cells[3], SceneBody *body)
@@ -47,14 +48,19 @@ static inline PetscErrorCode ProblemOptions(MaterialType *type, ElementType *ele
   PetscFunctionReturn(0);
 }
 
-/* -order of bodies */
+/* -order of bodies, and -tetrahedra in place of boxes */
 static inline PetscErrorCode ProblemSetOrder(PetscInt nbodies, SceneBody bodies[])
 {
-  PetscInt order = 1;
+  PetscInt  order      = 1;
+  PetscBool tetrahedra = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
-  for (PetscInt b = 0; b < nbodies; ++b) bodies[b].order = order;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-tetrahedra", &tetrahedra, NULL));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    bodies[b].order = order;
+    if (tetrahedra) PetscCall(TetrahedraFromBox(&bodies[b]));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -124,7 +124,7 @@ static PetscErrorCode TestMemory(void)
     PetscInt    body;
   } work[] = {
     {"the grid of a box", "ShapeGridCreate", 0},
-    {"the mesh of all bodies", "MeshJoinGrids", 0},
+    {"the mesh of all bodies", "MeshJoinVertices", 0},
     {"the graph of the mesh", "MetisGatherArray", 0},
     {"the graph for METIS", "MetisPartitionGraph", 0},
     {"the partition", "MetisPartitionGathered", 0},
@@ -142,11 +142,11 @@ static PetscErrorCode TestMemory(void)
   PetscFunctionReturn(0);
 }
 
-/* One tetrahedron, on the first rank */
-static PetscErrorCode TestTetrahedron(void)
+/* One prism, on the first rank */
+static PetscErrorCode TestPrism(void)
 {
-  const PetscInt  cell[4]  = {0, 1, 2, 3};
-  const PetscReal x[12]    = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const PetscInt  cell[6]  = {0, 1, 2, 3, 4, 5};
+  const PetscReal x[18]    = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1};
   const Material  material = {MATERIAL_LINEAR, 1.0, 0.3};
   PetscInt        pstart, pend, vstart, vend;
   PetscSection    section;
@@ -156,7 +156,7 @@ static PetscErrorCode TestTetrahedron(void)
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_WORLD, 3, rank ? 0 : 1, rank ? 0 : 4, 4, PETSC_TRUE, cell, 3, x, &dm));
+  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_WORLD, 3, rank ? 0 : 1, rank ? 0 : 6, 6, PETSC_TRUE, cell, 3, x, &dm));
   PetscCall(DMCreateLabel(dm, MESH_BODY_LABEL));
   if (!rank) PetscCall(DMSetLabelValue(dm, MESH_BODY_LABEL, 0, 0));
   PetscCall(DMPlexGetChart(dm, &pstart, &pend));
@@ -167,7 +167,7 @@ static PetscErrorCode TestTetrahedron(void)
   PetscCall(PetscSectionSetUp(section));
   PetscCall(DMSetLocalSection(dm, section));
   PetscCall(PetscSectionDestroy(&section));
-  ATTEMPT("a tetrahedron on the first rank", ElasticityCreate(dm, 1, &material, NULL, &elasticity));
+  ATTEMPT("a prism on the first rank", ElasticityCreate(dm, 1, &material, NULL, &elasticity));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
@@ -225,7 +225,7 @@ int main(int argc, char **argv)
   PetscCall(TestRanks());
   PetscCall(TestScene());
   PetscCall(TestMemory());
-  PetscCall(TestTetrahedron());
+  PetscCall(TestPrism());
   PetscCall(TestRow());
   PetscCall(PetscFinalize());
   return 0;

@@ -17,6 +17,20 @@ static const char tets[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames
                            "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
                            "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 1 2 3 4\n$EndElements\n";
 
+static const char inside_out[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+                                 "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+                                 "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 2 1 3 4\n$EndElements\n";
+
+/* The same, curved: the edge from 2 to 3 bulges */
+static const char tets10[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+                             "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .6 .6 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n"
+                             "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
+
+/* A tetrahedron on a cube, of one volume */
+static const char both[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+                           "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n$EndNodes\n"
+                           "$Elements\n3\n1 3 2 2 1 1 4 8 5\n2 5 2 1 1 1 2 3 4 5 6 7 8\n3 4 2 1 1 5 6 7 9\n$EndElements\n";
+
 static const char hex20[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
                             "$Nodes\n20\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n$EndNodes\n"
                             "$Elements\n2\n2 16 2 2 1 1 4 8 5 10 16 18 11\n1 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n";
@@ -53,6 +67,9 @@ static const Mistake mistakes[] = {
   {"surface inside the body", "1 3 2 2 1 1 4 8 5\n", "1 3 2 2 1 2 3 7 6\n", HELD},
   {"surface that is no facet", "1 3 2 2 1 1 4 8 5\n", "1 3 2 2 1 1 3 8 5\n", HELD},
   {"tetrahedra", sound, tets, HELD},
+  {"10-node tetrahedra", sound, tets10, HELD},
+  {"inverted tetrahedron", sound, inside_out, HELD},
+  {"a tetrahedron among hexahedra", sound, both, HELD},
   {"a prism among hexahedra", "2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7", "2 3 2 3 2 2 9 11 6\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 6 2 1 1 2 9 3 6 11 7", HELD},
   {"20-node hexahedra", sound, hex20, HELD},
   {"27-node hexahedra", sound, hex27, HELD},
@@ -151,7 +168,7 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 3}}
       args: -malloc_dump 0
-      filter: sed -e "s|mesh of hexahedra: .*|mesh of hexahedra|"
+      filter: sed -e "s|whole Gmsh mesh: .*|whole Gmsh mesh|"
       output_file: output/mesh_gmsh_1.out
 
 TEST*/

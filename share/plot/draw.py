@@ -20,8 +20,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-# quadrilaterals of a VTK/XDMF hexahedron, outward
-FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+# quadrilaterals of a VTK/XDMF hexahedron, outward; triangles of tetrahedra, with the last corner twice, of 10 nodes cut into four at these
+HEXAHEDRON = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+TETRAHEDRON = [[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [0, 3, 2, 2]]
+EDGES = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
+KINDS = {6: 4, 38: 10, 9: 8}  # nodes of XDMF's kinds of cells
 LABELS = {"von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "gap", "contact_status": "contact", "displacement": "displacement, norm", "body": "body"}
 
 
@@ -56,11 +59,33 @@ def step_file(args):
     return steps[-1]
 
 
+def cut(triangle):
+    """The four triangles that the middles of its edges cut a triangle into"""
+    a, b, c = triangle[:3]
+    ab, bc, ca = (EDGES[tuple(sorted(edge))] for edge in ((a, b), (b, c), (c, a)))
+    return [[a, ab, ca, ca], [b, bc, ab, ab], [c, ca, bc, bc], [ab, bc, ca, ca]]
+
+
+FACES = {8: HEXAHEDRON, 4: TETRAHEDRON, 10: [piece for triangle in TETRAHEDRON for piece in cut(triangle)]}
+
+
+def read_cells(mesh):
+    """The nodes of each cell"""
+    if "cells" in mesh:
+        return list(mesh["cells"][:])
+    numbers, cells, at = mesh["mixed_cells"][:].ravel(), [], 0
+    while at < len(numbers):
+        n = KINDS[numbers[at]]
+        cells.append(numbers[at + 1 : at + 1 + n])
+        at += 1 + n
+    return cells
+
+
 def load(args):
     """Cells, reference vertices, displacement, a field by cell or by vertex, and which vertices are in contact pairs."""
     name = step_file(args)
     with h5py.File(args.base + ".h5") as mesh, h5py.File(name) as step:
-        cells, vertices, body = mesh["cells"][:], mesh["vertices"][:], mesh["body"][:].ravel()
+        cells, vertices, body = read_cells(mesh), mesh["vertices"][:], mesh["body"][:].ravel()
         displacement = step["displacement"][:]
         if args.field == "body":
             field = body.astype(float)
@@ -89,16 +114,17 @@ def selected(args, cells, vertices, body):
         keep &= np.isin(body, [int(b) for b in args.only.split(",")])
     if args.hide:
         axis, side, value = args.hide[0], args.hide[1], float(args.hide[2:])
-        centre = vertices[cells][:, :, "xyz".index(axis)].mean(axis=1)
+        centre = np.array([vertices[cell, "xyz".index(axis)].mean() for cell in cells])
         keep &= ~((centre < value) if side == "<" else (centre > value))
     return np.flatnonzero(keep)
 
 
 def boundary(cells, chosen):
     """Quadrilaterals of the chosen cells that no second chosen cell shares, and the cell of each."""
-    quads = cells[chosen][:, FACES].reshape(-1, 4)
-    owner = np.repeat(chosen, len(FACES))
-    _, first, count = np.unique(np.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
+    quads = np.concatenate([cells[c][FACES[len(cells[c])]] for c in chosen])
+    owner = np.repeat(chosen, [len(FACES[len(cells[c])]) for c in chosen])
+    key = np.where((quads[:, 2] == quads[:, 3])[:, None] & (np.arange(4) == 3), -1, quads)
+    _, first, count = np.unique(np.sort(key, axis=1), axis=0, return_index=True, return_counts=True)
     alone = first[count == 1]
     return quads[alone], owner[alone]
 

@@ -1,4 +1,4 @@
-/* Shape functions of hexahedra at tensor Gauss points */
+/* Shape functions of hexahedra at tensor Gauss points, and of tetrahedra */
 #include "elasticityimpl.h"
 #include <petscdt.h>
 
@@ -20,12 +20,51 @@ static void BasisLine(PetscInt n, PetscReal xi, PetscReal L[3], PetscReal s[3])
   }
 }
 
-PetscErrorCode CellBasisCreate(PetscInt order, PetscInt n, CellBasis *basis)
+/* Places with the same barycentric coordinates in all orders: n of them, the coordinates that differ from the others */
+typedef struct {
+  PetscInt  n;
+  PetscReal place, weight; /* of the whole, each */
+} BasisOrbit;
+
+/* Next of n points of an orbit: of 4, one coordinate is 1 - 3 place; of 6, two are 1/2 - place */
+static void BasisAddPoint(const BasisOrbit *orbit, PetscInt i, CellBasis *basis)
 {
-  const PetscInt width = order + 1;
+  const PetscReal other = orbit->n == 4 ? 1 - 3 * orbit->place : 0.5 - orbit->place;
+  const PetscInt  p = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][0], q = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][1];
+
+  for (PetscInt d = 0; d < 3; ++d) basis->xi[basis->npoints][d] = p == d + 1 || q == d + 1 ? other : orbit->place;
+  basis->weight[basis->npoints++] = orbit->weight / 6;
+}
+
+/* Of degree 2 with 4 points, and of degree 5 with 14 (N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000) */
+static void BasisSetTetrahedron(PetscInt nnodes, CellBasis *basis)
+{
+  static const BasisOrbit second[1] = {
+    {4, 0.13819660112501051518, 0.25}};
+  static const BasisOrbit fifth[3] = {
+    {4, 0.31088591926330060980, 0.11268792571801585080},
+    {4, 0.09273525031089122640, 0.073493043116361949544},
+    {6, 0.04550370412564964949, 0.042546020777081466438}};
+  const BasisOrbit *orbits = nnodes == 4 ? second : fifth;
+
+  basis->nnodes  = nnodes;
+  basis->npoints = 0;
+  for (PetscInt k = 0; k < (nnodes == 4 ? 1 : 3); ++k) {
+    for (PetscInt i = 0; i < orbits[k].n; ++i) BasisAddPoint(&orbits[k], i, basis);
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) MeshTetrahedronShape(nnodes, basis->xi[q], basis->N[q], basis->dN[q]);
+}
+
+PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt n, CellBasis *basis)
+{
+  const PetscInt width = MeshOrder(nnodes) + 1;
   PetscReal      x[3], w[3];
 
   PetscFunctionBegin;
+  if (MeshIsTetrahedron(nnodes)) {
+    BasisSetTetrahedron(nnodes, basis);
+    PetscFunctionReturn(0);
+  }
   PetscCheck(n == 2 || n == 3, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, n);
   PetscCall(PetscDTGaussQuadrature(n, -1, 1, x, w));
   basis->nnodes  = width * width * width;

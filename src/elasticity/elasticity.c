@@ -19,15 +19,16 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
 /* The basis of cells with so many nodes, and the body's element on it */
 static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
 {
-  const PetscInt order = nnodes == 27 ? 2 : 1;
+  const PetscInt order = MeshOrder(nnodes);
+  CellBasis    **basis = &e->basis[order - 1 + (MeshIsTetrahedron(nnodes) ? 2 : 0)];
 
   PetscFunctionBegin;
-  if (!e->basis[order - 1]) {
-    PetscCall(PetscNew(&e->basis[order - 1]));
-    PetscCall(CellBasisCreate(order, order == 1 ? e->quadrature : 3, e->basis[order - 1]));
+  if (!*basis) {
+    PetscCall(PetscNew(basis));
+    PetscCall(CellBasisCreate(nnodes, order == 1 ? e->quadrature : 3, *basis));
   }
-  PetscCheck(!body->basis || body->basis == e->basis[order - 1], PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The cells of a body are of different order");
-  body->basis = e->basis[order - 1];
+  PetscCheck(!body->basis || body->basis == *basis, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The cells of a body are of different kinds");
+  body->basis = *basis;
   PetscCall(ElementGet(body->type, nnodes, &body->element));
   PetscFunctionReturn(0);
 }
@@ -57,16 +58,16 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
 }
 
 /* Where the nodes of each cell begin */
-static PetscErrorCode ElasticityCountNodes(Elasticity e, PetscSection section, PetscInt start)
+static PetscErrorCode ElasticityCountNodes(Elasticity e, PetscInt start)
 {
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(e->ncells + 1, &e->cellstart, e->ncells, &e->cellbody));
   e->cellstart[0] = 0;
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    PetscInt within;
+    PetscInt n, nodes[MESH_MAX_NODES];
 
-    PetscCall(PetscSectionGetDof(section, start + c, &within));
-    e->cellstart[c + 1] = e->cellstart[c] + (within ? 27 : 8);
+    PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
+    e->cellstart[c + 1] = e->cellstart[c] + n;
   }
   PetscCall(PetscMalloc1(e->cellstart[e->ncells], &e->cellnodes));
   PetscFunctionReturn(0);
@@ -89,16 +90,16 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   PetscCall(PetscSectionGetStorageSize(section, &size));
   e->nnodes = size / 3;
   e->ncells = end - start;
-  PetscCall(ElasticityCountNodes(e, section, start));
   PetscCall(RankErrorBegin(&error));
-  ierr = ElasticityNumberCells(e, label, start);
+  ierr = ElasticityCountNodes(e, start);
+  if (!ierr) ierr = ElasticityNumberCells(e, label, start);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscFunctionReturn(0);
 }
 
 /*@
-  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of hexahedra of order 1 and 2
+  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of hexahedra and tetrahedra of order 1 and 2
 
   Collective
 
@@ -224,7 +225,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   PetscCall(PetscFree((*e)->bodies));
   PetscCall(PetscFree2((*e)->cellstart, (*e)->cellbody));
   PetscCall(PetscFree((*e)->cellnodes));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree((*e)->basis[k]));
+  for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(VecDestroy(&(*e)->springs));
   PetscCall(PetscFree(*e));

@@ -1,5 +1,5 @@
 /*
-   Elasticity, private: the map of src/elasticity. From the hexahedron to the object, every file builds on those before it.
+   Elasticity, private: the map of src/elasticity. From the cell to the object, every file builds on those before it.
 */
 #ifndef ELASTICITYIMPL_H
 #define ELASTICITYIMPL_H
@@ -9,7 +9,7 @@
 #include <petscsf.h>
 
 /*
-   basis.c: hexahedra of 8 and of 27 nodes on [-1,1]^3. Arrays over nodes come last, for the compiler to vectorize; n is the number
+   basis.c: hexahedra of 8 and of 27 nodes on [-1,1]^3, tetrahedra of 4 and of 10 between the origin and the ends of the unit vectors. Arrays over nodes come last, for the compiler to vectorize; n is the number
    of nodes, which CELL_CALL() makes a constant for 8.
 */
 #define CELL_MAX_NODES  27
@@ -23,8 +23,8 @@ typedef struct {
   PetscReal dN[CELL_MAX_POINTS][3][CELL_MAX_NODES]; /* dN/dxi_k */
 } CellBasis;
 
-/* Order 1 or 2; Gauss points per axis: 2 or 3 */
-PETSC_INTERN PetscErrorCode CellBasisCreate(PetscInt order, PetscInt gausspoints, CellBasis *);
+/* Nodes of a cell: 4, 8, 10 or 27; Gauss points per axis of a hexahedron: 2 or 3 */
+PETSC_INTERN PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt gausspoints, CellBasis *);
 
 #define CELL_CALL(function, basis, ...) ((basis)->nnodes == 8 ? function(8, basis, __VA_ARGS__) : function((int)(basis)->nnodes, basis, __VA_ARGS__))
 
@@ -165,7 +165,7 @@ struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
   PetscBool        mattype_given; /* by an option */
-  CellBasis       *basis[2];      /* of order 1 and 2; NULL: no such cells on this rank */
+  CellBasis       *basis[4];      /* of order 1 and 2, hexahedra and tetrahedra; NULL: no such cells on this rank */
   PetscInt         nbodies;
   Body            *bodies;
   PetscInt         quadrature;     /* Gauss points per axis of order 1 */
@@ -212,7 +212,7 @@ PETSC_INTERN PetscErrorCode SpringsAddEnergy(Elasticity, Vec u, PetscReal *energ
 PETSC_INTERN PetscErrorCode SpringsAddForce(Elasticity, Vec u, Vec force);
 PETSC_INTERN PetscErrorCode SpringsAddTangent(Elasticity, PetscBool all, const PetscInt global[], Mat);
 
-/* facet.c: a facet of a face, of 4 or 9 nodes: where they stand in local vectors, and where they are; shape functions on [0,1]^2 */
+/* facet.c: a facet of a face, of 4 or 9 nodes, or a triangle of 3 or 6: where they stand in local vectors, and where they are; shape functions on [0,1]^2, or half of it */
 #define FACET_MAX_NODES MESH_MAX_FACET_NODES
 
 typedef struct {
@@ -220,7 +220,9 @@ typedef struct {
   PetscReal X[FACET_MAX_NODES][3];
 } Facet;
 
-PETSC_INTERN void           FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[]);
+PETSC_INTERN void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[]);
+/* Quadrature of a facet of n nodes, with so many Gauss points per direction, 2 or 3: place and weight of point q */
+PETSC_INTERN PetscReal      FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscReal *s, PetscReal *t);
 PETSC_INTERN PetscErrorCode FacetGet(Elasticity, PetscInt point, const PetscScalar x[], Facet *);
 
 /* force.c, stress.c, loads.c, faces.c: loops over the cells and facets, all of them public */
@@ -238,6 +240,12 @@ typedef struct {
   PetscReal n; /* polynomials that were continued to a node on the surface */
   PetscReal value[ELEMENT_STRAINS];
 } RecoveredNode;
+
+/* The corner nodes of a cell, whose polynomials are continued to its other nodes */
+static inline PetscInt RecoveryCorner(PetscInt nnodes, PetscInt corner)
+{
+  return nnodes == 27 ? 2 * (corner & 1) + 6 * (corner >> 1 & 1) + 18 * (corner >> 2) : corner;
+}
 
 PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
 PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *values);

@@ -12,7 +12,7 @@ PetscErrorCode ElementGet(ElementType type, PetscInt nnodes, const Element **ele
     *element = &ElementBbar;
     break;
   case ELEMENT_INCOMPATIBLE:
-    PetscCheck(nnodes == 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "Incompatible modes are for cells of 8 nodes, not of %" PetscInt_FMT, nnodes);
+    PetscCheck(nnodes == 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "Incompatible modes are for hexahedra of 8 nodes, not for cells of %" PetscInt_FMT, nnodes);
     *element = &ElementIncompatible;
     break;
   default:

@@ -96,7 +96,7 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
 /* Selects bodies that remain, takes them off, and recovers them; more: whether others remain */
 PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[], PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {
-  PetscBool second = (PetscBool)(e->basis[1] != NULL);
+  PetscBool second = (PetscBool)(e->basis[1] || e->basis[3]);
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));

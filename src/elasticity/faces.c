@@ -41,15 +41,14 @@ static PetscErrorCode FaceDestroy(Face *face)
   PetscFunctionReturn(0);
 }
 
-/* 3 x 3 Gauss points of a facet: exact where it is plane */
+/* 3 x 3 points of a facet: exact where it is plane */
 static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
 {
-  const PetscReal gauss[3] = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)}, weight[3] = {5. / 18, 8. / 18, 5. / 18};
-
   for (int q = 0; q < FACE_POINTS; ++q) {
-    PetscReal Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0;
+    PetscReal       Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0, s, t;
+    const PetscReal weight = FacetQuadrature(facet->n, 3, q, &s, &t);
 
-    FacetShape(facet->n, gauss[q % 3], gauss[q / 3], points[q].N, Ns, Nt);
+    FacetShape(facet->n, s, t, points[q].N, Ns, Nt);
     for (int d = 0; d < 3; ++d) {
       points[q].x[d] = 0;
       for (PetscInt a = 0; a < facet->n; ++a) {
@@ -59,7 +58,7 @@ static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
       }
     }
     for (int d = 0; d < 3; ++d) square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
-    points[q].area = weight[q % 3] * weight[q / 3] * PetscSqrtReal(square);
+    points[q].area = weight * PetscSqrtReal(square);
   }
 }
 

@@ -1,6 +1,38 @@
 /* Facets of the bodies' faces: their nodes and shape functions */
 #include "elasticityimpl.h"
 
+/* Of a triangle of 3 nodes, or of 6, then of its edges, from the sides s = 0, t = 0 and s + t = 1 */
+static void FacetTriangleShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
+{
+  static const PetscReal by_s[3] = {-1, 1, 0}, by_t[3] = {-1, 0, 1};
+  const PetscReal        l[3] = {1 - s - t, s, t};
+
+  for (PetscInt a = 0; a < n; ++a) {
+    const PetscInt  p = a % 3, q = (a + 1) % 3;
+    const PetscReal slope = n == 3 ? 1 : 4 * l[p] - 1;
+
+    N[a]  = n == 3 ? l[p] : a < 3 ? l[p] * (2 * l[p] - 1)
+                                  : 4 * l[p] * l[q];
+    Ns[a] = a < 3 ? slope * by_s[p] : 4 * (by_s[p] * l[q] + l[p] * by_s[q]);
+    Nt[a] = a < 3 ? slope * by_t[p] : 4 * (by_t[p] * l[q] + l[p] * by_t[q]);
+  }
+}
+
+/* Gauss points of the square; those of a triangle lie on rays from its second corner, exact to degree 2 or 4 */
+PetscReal FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscReal *s, PetscReal *t)
+{
+  static const PetscReal weight[2][3] = {{0.5, 0.5, 0}, {5. / 18, 8. / 18, 5. / 18}};
+  const PetscReal        off          = gausspoints == 2 ? PetscSqrtReal(3) / 6 : PetscSqrtReal(0.15);
+  const PetscInt         i = q % gausspoints, j = q / gausspoints, last = gausspoints - 1;
+  const PetscReal        w = weight[gausspoints - 2][i] * weight[gausspoints - 2][j];
+
+  *s = 0.5 + off * (PetscReal)(2 * i - last) / (PetscReal)last;
+  *t = 0.5 + off * (PetscReal)(2 * j - last) / (PetscReal)last;
+  if (n == 4 || n == 9) return w;
+  *t *= 1 - *s;
+  return w * (1 - *s);
+}
+
 /* Shape functions of a facet on [0,1]^2 and their derivatives, of 4 nodes around it, or of 9: then of its edges, and of its middle */
 void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
 {
@@ -8,6 +40,10 @@ void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal N
   const PetscReal       at[2]       = {s, t};
   PetscReal             L[2][3], D[2][3];
 
+  if (n == 3 || n == 6) {
+    FacetTriangleShape(n, s, t, N, Ns, Nt);
+    return;
+  }
   for (PetscInt d = 0; d < 2; ++d) {
     const PetscReal x = at[d];
 

@@ -38,8 +38,55 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const Pet
   PetscFunctionReturn(0);
 }
 
+/* Adds to the values of a tetrahedron's 10 nodes what they lack to be in proportion to the integrals of the squared shape functions, those of the corners' own being negative */
+static void ElasticityEvenMass(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+{
+  PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
+
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients(10, basis, q, X, G);
+
+    whole += w;
+    for (PetscInt a = 0; a < 10; ++a) {
+      square[a] += w * PetscSqr(basis->N[q][a]);
+      sum += w * PetscSqr(basis->N[q][a]);
+      mass[a] -= w * basis->N[q][a];
+    }
+  }
+  for (PetscInt a = 0; a < 10; ++a) mass[a] += whole / sum * square[a];
+}
+
+/* The same over all cells */
+static PetscErrorCode ElasticityAddEvenMass(Elasticity e, Vec total)
+{
+  Vec                coordinates, local;
+  const PetscScalar *x;
+  PetscScalar       *l;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(VecGetArray(local, &l));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt n = e->cellstart[c + 1] - e->cellstart[c], *nodes = e->cellnodes + e->cellstart[c];
+    PetscReal      X[3][CELL_MAX_NODES], mass[CELL_MAX_NODES]        = {0};
+
+    if (n != 10) continue;
+    CellGather(n, nodes, x, X);
+    ElasticityEvenMass(e->bodies[e->cellbody[c]].basis, X, mass);
+    for (PetscInt i = 0; i < 3 * n; ++i) l[3 * nodes[i / 3] + i % 3] += mass[i / 3];
+  }
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
 /*@
-  ElasticityLumpedMass - Computes the row-sum lumped mass of unit density, the integral of each node's shape function
+  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape function
 
   Collective
 
@@ -47,9 +94,15 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const Pet
 . elasticity - the context
 
   Output Parameter:
-. mass - new global vector, the same value for the 3 components of a node [length^3]
+. mass - new global vector, the same positive value for the 3 components of a node [length^3]
 
   Level: intermediate
+
+  Notes:
+  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of the mass matrix.
+
+  References:
+  Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
 
 .seealso: `ElasticityCreate()`, `ElasticityAddBodyForce()`
 @*/
@@ -61,6 +114,7 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
   PetscCall(DMCreateGlobalVector(e->dm, mass));
   PetscCall(VecZeroEntries(*mass));
   PetscCall(ElasticityAddVolume(e, PETSC_DECIDE, one, *mass));
+  PetscCall(ElasticityAddEvenMass(e, *mass));
   PetscFunctionReturn(0);
 }
 
@@ -90,19 +144,17 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
 }
 
 /* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
-   are exact, or 3 x 3 */
+   are exact, or 3 x 3; as on triangles with 3 or 6, where the degree is 1, or 4 */
 static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
 {
-  const PetscReal two[2] = {0.5 - PetscSqrtReal(3) / 6, 0.5 + PetscSqrtReal(3) / 6}, three[3] = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)};
-  const PetscReal halves[2] = {0.5, 0.5}, eighteenths[3] = {5. / 18, 8. / 18, 5. / 18};
-  const PetscInt  npoints = n == 4 ? 2 : 3;
+  const PetscInt npoints = n <= 4 ? 2 : 3;
 
   for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
   for (PetscInt q = 0; q < npoints * npoints; ++q) {
-    const PetscReal *gauss = n == 4 ? two : three, *w = n == 4 ? halves : eighteenths, weight = w[q % npoints] * w[q / npoints];
-    PetscReal        N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0};
+    PetscReal       N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
+    const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
 
-    FacetShape(n, gauss[q % npoints], gauss[q / npoints], N, Ns, Nt);
+    FacetShape(n, s, t, N, Ns, Nt);
     for (PetscInt a = 0; a < n; ++a) {
       for (int d = 0; d < 3; ++d) {
         xs[d] += Ns[a] * X[a][d];
@@ -115,17 +167,18 @@ static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3
   }
 }
 
-/* Adds to the vector of a facet's nodes those of the bilinear facets that they cut it into */
+/* The vectors of a facet's nodes are those of the bilinear facets, or triangles, that they cut it into */
 static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
 {
   for (PetscInt a = 0; a < facet->n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
   for (PetscInt k = 0; k < 4; ++k) {
-    const PetscInt node[4] = {k, 4 + k, 8, 4 + (k + 3) % 4};
+    const PetscInt quarter[4] = {k, 4 + k, 8, 4 + (k + 3) % 4}, triangle[4] = {k, k < 3 ? 3 + k : 4, 3 + (k + 2) % 3};
+    const PetscInt n = facet->n == 9 ? 4 : 3, *node = facet->n == 9 ? quarter : triangle;
     PetscReal      X[4][3], f[4][3];
 
-    for (PetscInt i = 0; i < 12; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
-    ElasticityFacetNormals(4, X, f);
-    for (PetscInt i = 0; i < 12; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
+    for (PetscInt i = 0; i < 3 * n; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
+    ElasticityFacetNormals(n, X, f);
+    for (PetscInt i = 0; i < 3 * n; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
   }
 }
 
@@ -153,7 +206,7 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
     PetscReal F[FACET_MAX_NODES][3];
 
     PetscCall(FacetGet(e, f[i], x, &facet));
-    if (cut && facet.n == 9) ElasticityPieceNormals(&facet, F);
+    if (cut && facet.n > 4) ElasticityPieceNormals(&facet, F);
     else ElasticityFacetNormals(facet.n, facet.X, F);
     for (PetscInt a = 0; a < facet.n; ++a) {
       for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += factor * F[a][d];

@@ -38,15 +38,15 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
 
   *cell = (CellSample){0};
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = CellGradients(8, basis, q, state->X, G);
+    const PetscReal w = CellGradients((int)state->n, basis, q, state->X, G);
     PetscReal       s[ELEMENT_STRAINS];
 
-    CellDisplacementGradient(8, state->U, G, s);
+    CellDisplacementGradient((int)state->n, state->U, G, s);
     s[9] = law->dilatation(s, C);
     volume += w;
     for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {
-      for (int a = 0; a < 8; ++a) {
+      for (PetscInt a = 0; a < state->n; ++a) {
         cell->x[d] += w * basis->N[q][a] * state->X[d][a];
         cell->B[d][a] += w * G[d][a];
       }
@@ -179,10 +179,10 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
     CellState  state;
     CellSample cell;
 
-    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 8) continue;
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 1) continue;
     ElasticityGetCell(e, c, x, u, &state);
     CellSampleAverages(&state, &cell);
-    for (int a = 0; a < 8; ++a) NodeSumsAdd(&patches[state.nodes[a]].sums, state.X, a, &cell);
+    for (int a = 0; a < state.n; ++a) NodeSumsAdd(&patches[state.nodes[a]].sums, state.X, a, &cell);
   }
   PetscCall(ElasticitySumRecords(sf, sizeof(NodePatch) / sizeof(PetscReal), (PetscReal *)patches));
   for (PetscInt v = 0; v < e->nnodes; ++v) NodePatchFit(&patches[v]);
@@ -190,13 +190,13 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
 }
 
 /* Continues the polynomials of a cell's interior vertices to the others */
-static void CellContinue(const NodePatch patches[], const PetscInt nodes[8], PetscReal X[3][CELL_MAX_NODES], RecoveredNode recovered[])
+static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES], RecoveredNode recovered[])
 {
-  for (int a = 0; a < 8; ++a) {
+  for (int a = 0; a < n; ++a) {
     RecoveredNode *r = &recovered[nodes[a]];
 
     if (patches[nodes[a]].polynomial.inside) continue;
-    for (int b = 0; b < 8; ++b) {
+    for (int b = 0; b < n; ++b) {
       const NodePolynomial *p    = &patches[nodes[b]].polynomial;
       const PetscReal       d[3] = {X[0][a] - X[0][b], X[1][a] - X[1][b], X[2][a] - X[2][b]};
 
@@ -218,9 +218,9 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   for (PetscInt c = 0; c < e->ncells; ++c) {
     CellState state;
 
-    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 8) continue;
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 1) continue;
     ElasticityGetCell(e, c, x, u, &state);
-    CellContinue(patches, state.nodes, state.X, recovered);
+    CellContinue(patches, state.n, state.nodes, state.X, recovered);
   }
   PetscCall(ElasticitySumRecords(sf, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)recovered));
   for (PetscInt v = 0; v < e->nnodes; ++v) {

@@ -1,6 +1,6 @@
 /*
    Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8 samples a cell, at the
-   2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, fitted by quadratic polynomials over the cells around a
+   2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, or 4 a tetrahedron, at the points of its rule of degree 2, fitted by quadratic polynomials over the cells around a
    vertex: second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of their cells'
    vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that the samples do not
    determine are left out, as the square across one layer of cells.
@@ -18,11 +18,9 @@ typedef struct {
 } QuadraticPatch;
 
 typedef struct {
+  PetscInt  n;                                                         /* samples, as many as vertices */
   PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3]; /* places, values; int grad N of the vertices */
 } QuadraticCell;
-
-/* The vertices i + 2 j + 4 k among the 27 nodes */
-static const PetscInt quadratic_corner[8] = {0, 2, 6, 8, 18, 20, 24, 26};
 
 static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
 {
@@ -48,13 +46,46 @@ static void QuadraticLine(PetscReal weight[2][3])
   }
 }
 
+/* Weights that take values at the points of a tetrahedron to its 4 samples, in each of which one barycentric coordinate is the largest: those of the linear
+   polynomial that is nearest in the mean */
+static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
+{
+  const PetscReal place = 0.1381966011250105;
+
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal *xi = basis->xi[q], l[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
+
+    for (int s = 0; s < 4; ++s) {
+      weight[s][q] = -4;
+      for (int i = 0; i < 4; ++i) weight[s][q] += 20 * l[i] * (i == s ? 1 - 3 * place : place);
+      weight[s][q] *= 6 * basis->weight[q];
+    }
+  }
+}
+
+/* Weights that take values at the points of a cell to its samples, of which there are n */
+static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
+{
+  PetscReal line[2][3];
+
+  *n = MeshCorners(basis->nnodes);
+  if (*n == 4) {
+    QuadraticTetrahedron(basis, weight);
+    return;
+  }
+  QuadraticLine(line);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    for (int s = 0; s < SAMPLES; ++s) weight[s][q] = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
+  }
+}
+
 static void QuadraticSample(CellState *state, QuadraticCell *cell)
 {
   const CellBasis *basis = state->body->basis;
-  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES], line[2][3];
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES], weight[SAMPLES][CELL_MAX_POINTS];
 
   *cell = (QuadraticCell){0};
-  QuadraticLine(line);
+  QuadraticWeights(basis, &cell->n, weight);
   state->body->element->strains(basis, &state->body->material, state->X, state->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal x[3] = {0, 0, 0};
@@ -62,13 +93,11 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
     (void)CellGradients((int)state->n, basis, q, state->X, G);
     for (int d = 0; d < 3; ++d) {
       for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
-      for (int c = 0; c < 8; ++c) cell->B[c][d] += w[q] * G[d][quadratic_corner[c]];
+      for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
     }
-    for (int s = 0; s < SAMPLES; ++s) {
-      const PetscReal weight = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
-
-      for (int d = 0; d < 3; ++d) cell->x[s][d] += weight * x[d];
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight * H[q][k];
+    for (int s = 0; s < cell->n; ++s) {
+      for (int d = 0; d < 3; ++d) cell->x[s][d] += weight[s][q] * x[d];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight[s][q] * H[q][k];
     }
   }
 }
@@ -77,7 +106,7 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
 {
   PetscReal length = 0;
 
-  for (int s = 0; s < SAMPLES; ++s) {
+  for (int s = 0; s < cell->n; ++s) {
     const PetscReal d[3] = {cell->x[s][0] - at[0], cell->x[s][1] - at[1], cell->x[s][2] - at[2]};
     PetscReal       t[TERMS];
 
@@ -142,10 +171,10 @@ static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
   return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
-/* How far a vertex's polynomial is to be trusted at node `a` of a cell: most inside the body, else the more cells it is of; more at the vertex itself */
-static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscInt a, PetscInt corner)
+/* How far a vertex's polynomial is to be trusted at a node of a cell: most inside the body, else the more cells it is of; more at the vertex itself */
+static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscBool itself)
 {
-  return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (a == quadratic_corner[corner] ? 1 : 0);
+  return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (itself ? 1 : 0);
 }
 
 static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], RecoveredNode *node)
@@ -165,13 +194,13 @@ static void QuadraticContinue(const CellState *state, const PetscInt number[], c
   for (PetscInt a = 0; a < state->n; ++a) {
     const PetscInt node = state->nodes[a];
 
-    for (int c = 0; c < 8; ++c) {
-      const PetscInt        b     = quadratic_corner[c];
+    for (int c = 0; c < MeshCorners(state->n); ++c) {
+      const PetscInt        b     = RecoveryCorner(state->n, c);
       const QuadraticPatch *patch = &patches[number[state->nodes[b]]];
       const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b], state->X[2][a] - state->X[2][b]};
 
-      if (!sums) rank[node] = PetscMax(rank[node], QuadraticRank(patch, a, c));
-      else if (rank[node] == QuadraticRank(patch, a, c)) QuadraticNodeAdd(patch, d, &sums[node]);
+      if (!sums) rank[node] = PetscMax(rank[node], QuadraticRank(patch, (PetscBool)(a == b)));
+      else if (rank[node] == QuadraticRank(patch, (PetscBool)(a == b))) QuadraticNodeAdd(patch, d, &sums[node]);
     }
   }
 }
@@ -188,8 +217,10 @@ static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt numb
   *n = 0;
   for (PetscInt v = 0; v < e->nnodes; ++v) number[v] = -1;
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    for (int k = 0; e->cellstart[c + 1] - e->cellstart[c] == 27 && k < 8; ++k) {
-      PetscInt *v = &number[e->cellnodes[e->cellstart[c] + quadratic_corner[k]]];
+    const PetscInt nnodes = e->cellstart[c + 1] - e->cellstart[c];
+
+    for (int k = 0; MeshOrder(nnodes) == 2 && k < MeshCorners(nnodes); ++k) {
+      PetscInt *v = &number[e->cellnodes[e->cellstart[c] + RecoveryCorner(nnodes, k)]];
 
       if (*v < 0) *v = (*n)++;
     }
@@ -221,11 +252,11 @@ static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscB
     CellState     state;
     QuadraticCell cell;
 
-    if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 2) continue;
     ElasticityGetCell(e, c, x, u, &state);
     QuadraticSample(&state, &cell);
-    for (int k = 0; k < 8; ++k) {
-      const PetscInt  a     = quadratic_corner[k];
+    for (int k = 0; k < cell.n; ++k) {
+      const PetscInt  a     = RecoveryCorner(state.n, k);
       const PetscReal at[3] = {state.X[0][a], state.X[1][a], state.X[2][a]};
 
       QuadraticPatchAdd(&cell, k, at, &patches[number[state.nodes[a]]]);
@@ -247,7 +278,7 @@ static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool 
     for (PetscInt c = 0; c < e->ncells; ++c) {
       CellState state;
 
-      if (!selected[e->cellbody[c]] || e->cellstart[c + 1] - e->cellstart[c] != 27) continue;
+      if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 2) continue;
       ElasticityGetCell(e, c, x, u, &state);
       QuadraticContinue(&state, number, patches, rank, pass ? sums : NULL);
     }

@@ -40,6 +40,7 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
 
   PetscFunctionBegin;
   PetscCall(shape->size(comm, body, &mesh->ncells, &mesh->nvertices));
+  mesh->ncorners = 8;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = shape->create(body, &mesh->grid);
@@ -50,7 +51,7 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
 
 static PetscErrorCode MeshReadGrid(MPI_Comm comm, const SceneBody *body, GmshFile *file, MeshBody *mesh)
 {
-  PetscInt64 size[3];
+  PetscInt64 size[4];
 
   PetscFunctionBegin;
   PetscCall(GmshFileOpen(comm, body, file));
@@ -58,10 +59,12 @@ static PetscErrorCode MeshReadGrid(MPI_Comm comm, const SceneBody *body, GmshFil
   size[0] = mesh->grid.ncells;
   size[1] = mesh->grid.nvertices;
   size[2] = mesh->grid.curve ? 1 : 0;
-  PetscCallMPI(MPI_Bcast(size, 3, MPIU_INT64, 0, comm));
+  size[3] = mesh->grid.ncorners;
+  PetscCallMPI(MPI_Bcast(size, 4, MPIU_INT64, 0, comm));
   mesh->ncells    = size[0];
   mesh->nvertices = size[1];
   mesh->quadratic = size[2] ? PETSC_TRUE : PETSC_FALSE;
+  mesh->ncorners  = (PetscInt)size[3];
   PetscFunctionReturn(0);
 }
 
@@ -78,6 +81,8 @@ PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody
     PetscCall(MeshGetFaceNames(comm, &bodies[b], &meshes[b].nfaces, &meshes[b].faces));
     if (shape) PetscCall(MeshCreateGrid(comm, &bodies[b], shape, &meshes[b]));
     else PetscCall(MeshReadGrid(comm, &bodies[b], &file, &meshes[b]));
+    meshes[b].order = bodies[b].order ? bodies[b].order : meshes[b].ncorners == 4 ? 2
+                                                                                  : 1; /* straight tetrahedra of order 1 are far too stiff */
   }
   PetscCall(GmshFileClose(&file));
   PetscFunctionReturn(0);

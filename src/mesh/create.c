@@ -57,12 +57,35 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
+/* The numbers of cells and vertices, refined so many times, against the ranks and PETSc's integers; ncells: at level 0 */
+static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine, PetscInt64 *ncells)
+{
+  PetscMPIInt size;
+  PetscInt64  nvertices = 0, finecells;
+
+  PetscFunctionBegin;
+  *ncells = 0;
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    *ncells += meshes[b].ncells;
+    nvertices += meshes[b].nvertices;
+  }
+  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE, "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
+  finecells = *ncells;
+  for (PetscInt l = 0; l < refine; ++l) {
+    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers", refine, *ncells);
+    finecells *= 8;
+  }
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
+  PetscFunctionReturn(0);
+}
+
 /* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, const MeshLocalRefinement *local, DM *dm)
 {
   PetscMPIInt size;
-  PetscInt64  ncells = 0, nvertices = 0, finecells;
-  PetscInt    before = 0;
+  PetscInt64  ncells = 0;
+  PetscInt    before = 0, *orders;
   MeshBody   *meshes;
   MeshCurves  curves;
   MeshHanging hanging = {NULL, NULL};
@@ -73,19 +96,14 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscCall(MeshCheckNames(comm, nbodies, bodies));
   PetscCheck(refine >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "The number of refinements must not be negative, but is %" PetscInt_FMT, refine);
   PetscCall(PetscCalloc1(nbodies, &meshes));
+  PetscCall(PetscMalloc1(nbodies, &orders));
   PetscCall(MeshCreateBodies(comm, nbodies, bodies, meshes));
+  PetscCall(MeshCheckSize(comm, nbodies, meshes, refine, &ncells));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    ncells += meshes[b].ncells;
-    nvertices += meshes[b].nvertices;
-  }
-  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE, "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
-  finecells = ncells;
-  for (PetscInt l = 0; l < refine; ++l) {
-    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers", refine, ncells);
-    finecells *= 8;
+    orders[b] = meshes[b].order;
+    PetscCheck(!local->nzones || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP, "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the mesh file", bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
 
   PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, dm));
   PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, &curves));
@@ -104,8 +122,9 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   if (size > 1) PetscCall(MeshDistribute(dm, &curves, &hanging));
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
-  PetscCall(MeshSetSection(*dm, bodies));
-  PetscCall(MeshCreateNodes(*dm, nbodies, bodies));
+  PetscCall(MeshSetSection(*dm, orders));
+  PetscCall(MeshCreateNodes(*dm, nbodies, orders));
+  PetscCall(PetscFree(orders));
   PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(MeshCurvesApply(&curves, refine - before, *dm, PETSC_TRUE));
   PetscCall(MeshCurvesDestroy(&curves));
@@ -120,7 +139,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 }
 
 /*@
-  MeshCreate - Creates the hexahedral mesh of all bodies: generated, distributed, refined, with the displacements laid out
+  MeshCreate - Creates the mesh of all bodies, of hexahedra and tetrahedra: generated, distributed, refined, with the displacements laid out
 
   Collective
 
@@ -145,7 +164,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file
   of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
-  Bodies never share vertices, also where they come from one Gmsh file and touch there.
+  Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order open, 0, has order 1 of
+  hexahedra and order 2 of tetrahedra.
 
   It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is inverted or flat.
 

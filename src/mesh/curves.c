@@ -1,11 +1,15 @@
 /* Cells with quadratic edges and facets, of bodies whose mesh file has them: refined vertices lie on these */
 #include "meshimpl.h"
 
-#define CURVE_SIZE 81 /* coordinates of 27 places */
+/* Coordinates of the places of a cell of so many corners */
+static PetscInt CurveSize(PetscInt ncorners)
+{
+  return ncorners == 4 ? 30 : 81;
+}
 
 PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[], MeshCurves *curves)
 {
-  PetscInt  pstart, pend, first = 0, n;
+  PetscInt  pstart, pend, n, *first;
   PetscBool any = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -16,23 +20,25 @@ PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[]
   PetscCall(DMPlexGetChart(dm, &pstart, &pend));
   PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)dm), &curves->section));
   PetscCall(PetscSectionSetChart(curves->section, pstart, pend));
+  PetscCall(PetscMalloc1(nbodies, &first));
+  PetscCall(MeshGetFirstCells(nbodies, meshes, first));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c) PetscCall(PetscSectionSetDof(curves->section, first + c, CURVE_SIZE));
-    first += meshes[b].grid.ncells;
+    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c) PetscCall(PetscSectionSetDof(curves->section, first[b] + c, CurveSize(meshes[b].ncorners)));
   }
   PetscCall(PetscSectionSetUp(curves->section));
   PetscCall(PetscSectionGetStorageSize(curves->section, &n));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &curves->places));
-  first = 0;
   for (PetscInt b = 0; b < nbodies; ++b) {
     PetscScalar *x;
+    PetscInt     offset;
 
-    if (!meshes[b].quadratic) continue;
+    if (!meshes[b].quadratic || !meshes[b].grid.ncells) continue;
+    PetscCall(PetscSectionGetOffset(curves->section, first[b], &offset));
     PetscCall(VecGetArray(curves->places, &x));
-    for (PetscInt i = 0; i < CURVE_SIZE * meshes[b].grid.ncells; ++i) x[first + i] = meshes[b].grid.curve[i];
+    for (PetscInt i = 0; i < CurveSize(meshes[b].ncorners) * meshes[b].grid.ncells; ++i) x[offset + i] = meshes[b].grid.curve[i];
     PetscCall(VecRestoreArray(curves->places, &x));
-    first += CURVE_SIZE * meshes[b].grid.ncells;
   }
+  PetscCall(PetscFree(first));
   PetscFunctionReturn(0);
 }
 
@@ -60,11 +66,25 @@ PetscErrorCode MeshCurvesDistribute(PetscSF sf, DM distributed, MeshCurves *curv
   PetscFunctionReturn(0);
 }
 
+/* Place of a point of a tetrahedron */
+static void CurveEvaluateTetrahedron(const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
+{
+  PetscReal N[10], dN[3][MESH_MAX_NODES];
+
+  MeshTetrahedronShape(10, xi, N, dN);
+  x[0] = x[1] = x[2] = 0;
+  for (PetscInt i = 0; i < 30; ++i) x[i % 3] += N[i / 3] * PetscRealPart(places[i]);
+}
+
 /* Place of a point of a cell, xi in [0, 1]^3 */
-static void CurveEvaluate(const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
+static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
 {
   PetscReal n[3][3];
 
+  if (ncorners == 4) {
+    CurveEvaluateTetrahedron(places, xi, x);
+    return;
+  }
   for (PetscInt d = 0; d < 3; ++d) {
     n[d][0] = (1 - xi[d]) * (1 - 2 * xi[d]);
     n[d][1] = 4 * xi[d] * (1 - xi[d]);
@@ -78,41 +98,63 @@ static void CurveEvaluate(const PetscScalar places[], const PetscReal xi[3], Pet
   }
 }
 
-/* What refinement makes of one cell, in DMPlex's order, which is that of every cell: corners, 8 a child in tensor order, in [0, 1]^3 */
-static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt *n, PetscReal (**corners)[8][3])
+/* What refinement makes of one cell, in DMPlex's order, which is that of every cell: corners, as many a child as a cell has, in [0, 1]^3 */
+typedef struct {
+  PetscInt n;
+  PetscReal (*corners)[8][3];
+} CurveChildren;
+
+static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, CurveChildren *children)
 {
-  PetscInt  cell[8], cstart, cend;
-  PetscReal x[8][3];
-  DM        dm;
+  PetscInt        cell[8], cstart, cend, n;
+  PetscReal       x[8][3];
+  const PetscInt *order = MeshPlexCorners(ncorners);
+  DM              dm;
 
   PetscFunctionBegin;
-  for (PetscInt a = 0; a < 8; ++a) {
-    cell[MeshHexTensorOrder[a]] = a;
+  for (PetscInt a = 0; a < ncorners; ++a) {
+    cell[order[a]] = a;
     for (PetscInt d = 0; d < 3; ++d) x[a][d] = (PetscReal)(a >> d & 1);
+    if (ncorners == 4) MeshTetrahedronPlace(a, x[a]);
   }
-  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_SELF, 3, 1, 8, 8, PETSC_TRUE, cell, 3, &x[0][0], &dm));
+  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_SELF, 3, 1, ncorners, ncorners, PETSC_TRUE, cell, 3, &x[0][0], &dm));
   PetscCall(MeshRefine(&dm, levels));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
-  *n = cend - cstart;
-  PetscCall(PetscMalloc1(*n, corners));
+  children->n = cend - cstart;
+  PetscCall(PetscMalloc1(children->n, &children->corners));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscInt vertices[8];
 
-    PetscCall(MeshGetCellVertices(dm, c, vertices));
-    PetscCall(MeshGetVertexCoordinates(dm, 8, vertices, (*corners)[c - cstart]));
+    PetscCall(MeshGetCellCorners(dm, c, &n, vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, n, vertices, children->corners[c - cstart]));
   }
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
 
-/* The curve of a part of a cell with these corners */
-static void CurveCut(const PetscScalar places[], const PetscReal corners[8][3], PetscScalar part[])
+/* Of a tetrahedron and of a hexahedron: as many, so that cell c of a refined mesh is number c % n of cell c / n, tetrahedra being before hexahedra */
+static PetscErrorCode CurveGetAllChildren(PetscInt levels, CurveChildren children[2])
 {
-  PetscReal xi[27][3], place[3];
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(CurveGetChildren(levels, 4 + 4 * k, &children[k]));
+  PetscFunctionReturn(0);
+}
 
-  MeshPlacesSetStraight(corners, xi);
-  for (PetscInt i = 0; i < 27; ++i) {
-    CurveEvaluate(places, xi[i], place);
+static PetscErrorCode CurveDestroyChildren(CurveChildren children[2])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(children[k].corners));
+  PetscFunctionReturn(0);
+}
+
+/* The curve of a part of a cell with these corners */
+static void CurveCut(PetscInt ncorners, const PetscScalar places[], const PetscReal corners[8][3], PetscScalar part[])
+{
+  PetscReal xi[MESH_MAX_NODES][3], place[3];
+
+  MeshPlacesSetStraight(ncorners, corners, xi);
+  for (PetscInt i = 0; 3 * i < CurveSize(ncorners); ++i) {
+    CurveEvaluate(ncorners, places, xi[i], place);
     for (PetscInt d = 0; d < 3; ++d) part[3 * i + d] = place[d];
   }
 }
@@ -120,14 +162,15 @@ static void CurveCut(const PetscScalar places[], const PetscReal corners[8][3], 
 PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
 {
   MeshCurves         there = {NULL, NULL};
+  CurveChildren      children[2];
   PetscInt           nchildren, cend, pend, n;
   const PetscScalar *from;
   PetscScalar       *to;
-  PetscReal(*corners)[8][3];
 
   PetscFunctionBegin;
   if (!curves->section || !levels) PetscFunctionReturn(0);
-  PetscCall(CurveGetChildren(levels, &nchildren, &corners));
+  PetscCall(CurveGetAllChildren(levels, children));
+  nchildren = children[0].n;
   PetscCall(DMPlexGetHeightStratum(fine, 0, NULL, &cend));
   PetscCall(DMPlexGetChart(fine, NULL, &pend));
   PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)fine), &there.section));
@@ -142,17 +185,18 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscCall(VecGetArrayRead(curves->places, &from));
   PetscCall(VecGetArrayWrite(there.places, &to));
   for (PetscInt c = 0; c < cend; ++c) {
-    PetscInt parent, child;
+    PetscInt parent, child, ncorners;
 
     PetscCall(PetscSectionGetDof(there.section, c, &n));
     if (!n) continue;
+    ncorners = n == CurveSize(4) ? 4 : 8;
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
     PetscCall(PetscSectionGetOffset(there.section, c, &child));
-    CurveCut(from + parent, (const PetscReal(*)[3])corners[c % nchildren], to + child);
+    CurveCut(ncorners, from + parent, (const PetscReal(*)[3])children[ncorners / 4 - 1].corners[c % nchildren], to + child);
   }
   PetscCall(VecRestoreArrayWrite(there.places, &to));
   PetscCall(VecRestoreArrayRead(curves->places, &from));
-  PetscCall(PetscFree(corners));
+  PetscCall(CurveDestroyChildren(children));
   PetscCall(MeshCurvesDestroy(curves));
   *curves = there;
   PetscFunctionReturn(0);
@@ -190,7 +234,7 @@ PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *cur
     PetscCall(PetscSectionGetOffset(curves->section, hexes->root[c], &whole));
     PetscCall(PetscSectionGetOffset(there.section, c, &part));
     for (PetscInt i = 0; i < 24; ++i) corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
-    CurveCut(from + whole, (const PetscReal(*)[3])corners, to + part);
+    CurveCut(8, from + whole, (const PetscReal(*)[3])corners, to + part);
   }
   PetscCall(VecRestoreArrayWrite(there.places, &to));
   PetscCall(VecRestoreArrayRead(curves->places, &from));
@@ -201,38 +245,41 @@ PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *cur
 
 PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fine, PetscBool nodes)
 {
+  CurveChildren      children[2];
   PetscInt           nchildren, cend, n;
   MeshPlaces         at;
   const PetscScalar *places;
   PetscScalar       *x;
-  PetscReal(*corners)[8][3];
 
   PetscFunctionBegin;
   if (!curves->section) PetscFunctionReturn(0);
-  PetscCall(CurveGetChildren(levels, &nchildren, &corners));
+  PetscCall(CurveGetAllChildren(levels, children));
+  nchildren = children[0].n;
   PetscCall(DMPlexGetHeightStratum(fine, 0, NULL, &cend));
   PetscCall(MeshGetPlaces(fine, nodes, &at));
   PetscCall(VecGetArrayRead(curves->places, &places));
   PetscCall(VecGetArray(at.x, &x));
   for (PetscInt c = 0; c < cend; ++c) {
-    PetscInt  parent, offset, points[MESH_MAX_NODES];
-    PetscReal xi[27][3], place[3];
+    PetscInt  parent, offset, ncorners, points[MESH_MAX_NODES];
+    PetscReal xi[MESH_MAX_NODES][3], place[3], (*corners)[3];
 
     PetscCall(PetscSectionGetDof(curves->section, c / nchildren, &n));
     if (!n) continue;
+    ncorners = n == CurveSize(4) ? 4 : 8;
+    corners  = children[ncorners / 4 - 1].corners[c % nchildren];
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
     PetscCall(MeshGetCellPoints(fine, at.section, c, &n, points));
-    if (n == 27) MeshPlacesSetStraight((const PetscReal(*)[3])corners[c % nchildren], xi);
-    else PetscCall(PetscArraycpy(xi, corners[c % nchildren], 8));
+    if (n > ncorners) MeshPlacesSetStraight(ncorners, (const PetscReal(*)[3])corners, xi);
+    else PetscCall(PetscArraycpy(xi, corners, n));
     for (PetscInt a = 0; a < n; ++a) {
       PetscCall(PetscSectionGetOffset(at.section, points[a], &offset));
-      CurveEvaluate(places + parent, xi[a], place);
+      CurveEvaluate(ncorners, places + parent, xi[a], place);
       for (PetscInt d = 0; d < 3; ++d) x[offset + d] = place[d];
     }
   }
   PetscCall(VecRestoreArray(at.x, &x));
   PetscCall(VecRestoreArrayRead(curves->places, &places));
-  PetscCall(PetscFree(corners));
+  PetscCall(CurveDestroyChildren(children));
   /* The global coordinates, if they were made, are those from before */
   if (!nodes) PetscCall(DMSetCoordinatesLocal(fine, at.x));
   PetscFunctionReturn(0);

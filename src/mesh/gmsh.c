@@ -1,8 +1,10 @@
 /* Bodies from Gmsh files: read on rank 0, cut out of its mesh volume by volume */
 #include "meshimpl.h"
 
-/* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k */
-static const PetscInt corner_at[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+/* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k; a tetrahedron's are in order */
+static const PetscInt corner_at[9][8] = {
+  [4] = {0, 1, 2, 3},
+  [8] = {0, 1, 3, 2, 4, 5, 7, 6}};
 
 /* On rank 0 */
 static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
@@ -31,7 +33,7 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh of hexahedra: %s", body->name, body->gmsh.file, error.message);
+  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh: %s", body->name, body->gmsh.file, error.message);
   dim = file->mesh.dim;
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
   PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
@@ -53,10 +55,21 @@ static PetscBool GmshIsWithin(const GmshMesh *mesh, const GmshElement *element, 
   return element->type->dim == 3 && GmshMeshHasTag(mesh, element, volume) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* The hexahedra of the body's volume with their vertices numbered anew; number: new number by the place of each node, PETSC_DECIDE
+/* Cells of one kind, which are read; type: of those before */
+static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type, const GmshType *before)
+{
+  PetscFunctionBegin;
+  PetscCheck(type->ncorners == 8 || type->ncorners == 4, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8, 20 or 27 nodes and tetrahedra with 4 or 10 are read", body->gmsh.volume, body->gmsh.file, type->name);
+  PetscCheck(!before || type->ncorners == before->ncorners, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of the types %s and %s; a volume is read where all of its cells are of one, so make it two physical volumes, and tie them", body->gmsh.volume, body->gmsh.file, before->name, type->name);
+  PetscFunctionReturn(0);
+}
+
+/* The cells of the body's volume with their vertices numbered anew; number: new number by the place of each node, PETSC_DECIDE
    without one; facets: of all cells, sorted */
 static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[], GmshFacets *facets, ShapeGrid *grid)
 {
+  const GmshType *type = NULL;
+
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(8 * mesh->nelements, &grid->cells));
   for (PetscInt v = 0; v < mesh->nnodes; ++v) number[v] = PETSC_DECIDE;
@@ -65,14 +78,16 @@ static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body,
     PetscInt64         corners[8];
 
     if (!GmshIsWithin(mesh, element, volume)) continue;
-    PetscCheck(element->type->ncorners == 8, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8, 20 or 27 nodes are read", body->gmsh.volume, body->gmsh.file, element->type->name);
-    for (PetscInt a = 0; a < 8; ++a) {
+    PetscCall(GmshCheckType(body, element->type, type));
+    type           = element->type;
+    grid->ncorners = (PetscInt)type->ncorners;
+    for (PetscInt a = 0; a < grid->ncorners; ++a) {
       PetscInt place;
 
       corners[a] = mesh->nodes[element->first + a];
-      PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + corner_at[a]], &place));
+      PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + corner_at[grid->ncorners][a]], &place));
       if (number[place] < 0) number[place] = grid->nvertices++;
-      grid->cells[8 * grid->ncells + a] = number[place];
+      grid->cells[grid->ncorners * grid->ncells + a] = number[place];
     }
     PetscCall(GmshFacetsAdd(element->type, e, corners, facets));
     ++grid->ncells;
@@ -94,13 +109,14 @@ static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt nu
 /* Of second order, unless its edges are straight all the same */
 static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
 {
-  PetscReal bulge = 0, size = 0;
-  PetscInt  c = 0;
+  const PetscInt ncoordinates = grid->ncorners == 4 ? 30 : 81;
+  PetscReal      bulge = 0, size = 0;
+  PetscInt       c = 0;
 
   PetscFunctionBegin;
   *quadratic = PETSC_FALSE;
   for (PetscInt v = 3; v < 3 * grid->nvertices; ++v) size = PetscMax(size, PetscAbsReal(grid->coordinates[v] - grid->coordinates[v % 3]));
-  PetscCall(PetscMalloc1(81 * grid->ncells, &grid->curve));
+  PetscCall(PetscMalloc1(ncoordinates * grid->ncells, &grid->curve));
   for (PetscInt e = 0; e < mesh->nelements; ++e) {
     const GmshElement *element = &mesh->elements[e];
     PetscReal          x[GMSH_MAX_NODES][3], off;
@@ -112,9 +128,9 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
       PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + a], &place));
       PetscCall(PetscArraycpy(x[a], mesh->x + 3 * place, 3));
     }
-    off   = GmshGetCurve((PetscInt)element->type->nnodes, (const PetscReal(*)[3])x, grid->curve + 81 * c);
+    off   = GmshGetCurve((PetscInt)element->type->nnodes, (const PetscReal(*)[3])x, grid->curve + ncoordinates * c);
     bulge = PetscMax(bulge, off);
-    if (element->type->nnodes > 8) *quadratic = PETSC_TRUE;
+    if (element->type->nnodes > element->type->ncorners) *quadratic = PETSC_TRUE;
     ++c;
   }
   if (bulge <= PETSC_SQRT_MACHINE_EPSILON * size) PetscCall(PetscFree(grid->curve));
@@ -124,6 +140,7 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
 /* A facet may be on several surfaces and is listed once for each */
 static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *facets, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
+  const PetscInt ncorners = grid->ncorners == 4 ? 3 : 4;
   PetscSegBuffer vertices, facetface;
 
   PetscFunctionBegin;
@@ -135,9 +152,9 @@ static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *fa
       PetscInt64         corners[4];
       PetscInt          *slot;
 
-      if (element->type->dim != 2 || element->type->ncorners != 4 || !GmshMeshHasTag(mesh, element, surfaces[face])) continue;
-      for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + a];
-      if (!GmshFacetsBound(facets, corners)) continue;
+      if (element->type->dim != 2 || element->type->ncorners != ncorners || !GmshMeshHasTag(mesh, element, surfaces[face])) continue;
+      for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + PetscMin(a, ncorners - 1)];
+      if (!GmshFacetsBound(facets, ncorners, corners)) continue;
       PetscCall(PetscSegBufferGetInts(vertices, 4, &slot));
       for (PetscInt a = 0; a < 4; ++a) {
         PetscInt place;
@@ -203,7 +220,7 @@ static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, P
   PetscCall(GmshCutCoordinates(mesh, number, grid));
   if (body->curved) {
     PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));
-    if (!quadratic) PetscCall(ShapeGridBend(grid));
+    if (!quadratic && grid->ncorners == 8) PetscCall(ShapeGridBend(grid));
   }
   PetscCall(GmshCutSurfaces(mesh, &facets, nsurfaces, surfaces, number, grid));
   PetscCall(GmshCheckVertices(body, grid));

@@ -1,39 +1,41 @@
-/* Quadrilaterals of a Gmsh file's cells, found by their corners */
+/* Quadrilaterals of a Gmsh file's cells, and triangles of tetrahedra, found by their corners */
 #include "meshimpl.h"
 #include <stdlib.h>
 
-/* The quadrilaterals of hexahedra, prisms and pyramids, in the corners' order of Gmsh; by the number of corners */
+/* The quadrilaterals of hexahedra, prisms and pyramids, and the triangles of tetrahedra, in the corners' order of Gmsh; by the number of corners */
 static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}};
+static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}}, tetrahedron[4][4] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 static const struct {
-  int n;
+  int n, ncorners;
   const int (*corners)[4];
-} quadrilaterals[9] = {
-  [5] = {1, pyramid},
-  [6] = {3, prism},
-  [8] = {6, hexahedron}};
+} sides[9] = {
+  [4] = {4, 3, tetrahedron},
+  [5] = {1, 4, pyramid},
+  [6] = {3, 4, prism},
+  [8] = {6, 4, hexahedron}};
 
-static GmshFacet GmshFacetOf(const PetscInt64 corners[4], PetscInt64 element)
+static GmshFacet GmshFacetOf(int n, const PetscInt64 corners[], PetscInt64 element)
 {
-  GmshFacet facet = {.element = element};
-  int       least = 0;
+  GmshFacet   facet = {.nodes = {-1}, .element = element, .across = -1};
+  PetscInt64 *nodes = facet.nodes + 4 - n;
+  int         least = 0;
 
-  for (int a = 0; a < 4; ++a) {
+  for (int a = 0; a < n; ++a) {
     int at = a;
 
     if (corners[a] < corners[least]) least = a;
-    for (; at > 0 && facet.nodes[at - 1] > corners[a]; --at) facet.nodes[at] = facet.nodes[at - 1];
-    facet.nodes[at] = corners[a];
+    for (; at > 0 && nodes[at - 1] > corners[a]; --at) nodes[at] = nodes[at - 1];
+    nodes[at] = corners[a];
   }
-  facet.across = corners[(least + 2) % 4];
+  if (n == 4) facet.across = corners[(least + 2) % 4];
   return facet;
 }
 
 /* Those of a cell; other elements have none */
 PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *facets)
 {
-  const int n = type->dim == 3 ? quadrilaterals[type->ncorners].n : 0;
+  const int n = type->dim == 3 ? sides[type->ncorners].n : 0;
 
   PetscFunctionBegin;
   if (facets->n + n > facets->max) {
@@ -43,8 +45,8 @@ PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const Pet
   for (int f = 0; f < n; ++f) {
     PetscInt64 corners[4];
 
-    for (int a = 0; a < 4; ++a) corners[a] = nodes[quadrilaterals[type->ncorners].corners[f][a]];
-    facets->list[facets->n++] = GmshFacetOf(corners, element);
+    for (int a = 0; a < 4; ++a) corners[a] = nodes[sides[type->ncorners].corners[f][a]];
+    facets->list[facets->n++] = GmshFacetOf(sides[type->ncorners].ncorners, corners, element);
   }
   PetscFunctionReturn(0);
 }
@@ -64,7 +66,7 @@ void GmshFacetsSort(GmshFacets *facets)
   if (facets->n) qsort(facets->list, (size_t)facets->n, sizeof(*facets->list), GmshCompareFacets);
 }
 
-/* Sorted: cells that meet in four nodes must have the same facet there, and no more than two meet */
+/* Sorted: cells that meet in the nodes of a side must have the same facet there, and no more than two meet */
 PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 {
   for (PetscInt64 i = 1; i < facets->n; ++i) {
@@ -78,9 +80,9 @@ PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 }
 
 /* Sorted: is there exactly one with these corners? A facet between two cells is inside */
-PetscBool GmshFacetsBound(const GmshFacets *facets, const PetscInt64 corners[4])
+PetscBool GmshFacetsBound(const GmshFacets *facets, PetscInt ncorners, const PetscInt64 corners[])
 {
-  const GmshFacet  wanted = GmshFacetOf(corners, 0);
+  const GmshFacet  wanted = GmshFacetOf((int)ncorners, corners, 0);
   const GmshFacet *end    = facets->list + facets->n, *found;
 
   found = facets->n ? (const GmshFacet *)bsearch(&wanted, facets->list, (size_t)facets->n, sizeof(wanted), GmshCompareFacets) : NULL;

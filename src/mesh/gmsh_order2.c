@@ -1,4 +1,4 @@
-/* Hexahedra of Gmsh with 8, 20 or 27 nodes as the 27 places of a quadratic cell */
+/* Hexahedra of Gmsh with 8, 20 or 27 nodes as the 27 places of a quadratic cell; tetrahedra with 4 or 10 as its 10 */
 #include "meshimpl.h"
 
 /* Where each of Gmsh's nodes stands: i + 3 j + 9 k. The corners, the middles of the edges, of the facets, the middle */
@@ -74,10 +74,31 @@ static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
   for (PetscInt d = 0; d < 3; ++d) curve[3 * place + d] = (cell ? 0.25 : 0.5) * edges[d] - 0.25 * corners[d];
 }
 
-PetscReal GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[81])
+/* The corners, then the middles of the edges, of which Gmsh has the last two the other way round */
+static PetscReal OrderGetTetrahedron(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
+{
+  static const PetscInt of_gmsh[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  PetscReal             straight[MESH_MAX_NODES][3], bulge = 0;
+
+  MeshPlacesSetStraight(4, x, straight);
+  for (PetscInt a = 0; a < 10; ++a) {
+    const PetscReal *place    = nnodes == 10 ? x[of_gmsh[a]] : straight[a];
+    PetscReal        distance = 0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      curve[3 * a + d] = place[d];
+      distance += PetscSqr(place[d] - straight[a][d]);
+    }
+    bulge = PetscMax(bulge, PetscSqrtReal(distance));
+  }
+  return bulge;
+}
+
+PetscReal GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
 {
   PetscReal bulge = 0;
 
+  if (MeshIsTetrahedron(nnodes)) return OrderGetTetrahedron(nnodes, x, curve);
   for (PetscInt a = 0; a < nnodes; ++a) {
     for (PetscInt d = 0; d < 3; ++d) curve[3 * place_of[a] + d] = x[a][d];
   }

@@ -52,6 +52,7 @@ PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], Pets
   PetscCall(PetscMalloc1(3 * nvertices, &grid->coordinates));
   PetscCall(PetscMalloc1(4 * nfacets, &grid->facets));
   PetscCall(PetscMalloc1(nfacets, &grid->facetface));
+  grid->ncorners  = 8;
   grid->nvertices = nvertices;
   grid->ncells    = 0;
   grid->nfacets   = 0;

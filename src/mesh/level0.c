@@ -25,16 +25,16 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
   PetscFunctionBegin;
   for (PetscInt c = 0; c < grid->ncells; ++c) PetscCall(DMSetLabelValue(dm, MESH_BODY_LABEL, firstcell + c, number));
   for (PetscInt q = 0; q < grid->nfacets; ++q) {
-    char            name[PETSC_MAX_PATH_LEN];
-    PetscInt        corners[4], njoin;
-    const PetscInt *join;
+    char           name[PETSC_MAX_PATH_LEN];
+    PetscInt       corners[4], njoin;
+    const PetscInt n = grid->ncorners == 4 ? 3 : 4, *join;
 
-    for (PetscInt a = 0; a < 4; ++a) corners[a] = firstvertex + grid->facets[4 * q + a];
-    PetscCall(DMPlexGetFullJoin(dm, 4, corners, &njoin, &join));
+    for (PetscInt a = 0; a < n; ++a) corners[a] = firstvertex + grid->facets[4 * q + a];
+    PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
     PetscCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of its mesh", q, body->name);
     PetscCall(MeshFaceLabelName(body->name, mesh->faces[grid->facetface[q]], sizeof(name), name));
     PetscCall(DMSetLabelValue(dm, name, join[0], 1));
-    PetscCall(DMPlexRestoreJoin(dm, 4, corners, &njoin, &join));
+    PetscCall(DMPlexRestoreJoin(dm, n, corners, &njoin, &join));
   }
   PetscFunctionReturn(0);
 }
@@ -42,15 +42,17 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
 /* Sets the labels of all bodies; DMPlex numbers the cells first, then the vertices */
 static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], PetscInt ncells)
 {
-  PetscInt cell = 0, vertex = ncells;
+  PetscInt vertex = ncells, *first;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nbodies, &first));
+  PetscCall(MeshGetFirstCells(nbodies, meshes, first));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscCall(MeshLabelBody(dm, &bodies[b], b, &meshes[b], cell, vertex));
+    PetscCall(MeshLabelBody(dm, &bodies[b], b, &meshes[b], first[b], vertex));
     PetscCall(MeshLabelSubfaces(dm, &bodies[b], &meshes[b].grid, vertex));
-    cell += meshes[b].grid.ncells;
     vertex += meshes[b].grid.nvertices;
   }
+  PetscCall(PetscFree(first));
   PetscFunctionReturn(0);
 }
 
@@ -72,26 +74,62 @@ static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-/* The grids of all bodies in one, the cells' vertices in the order of DMPlex; cells and coordinates: for PetscFree2() */
-static PetscErrorCode MeshJoinGrids(PetscInt nbodies, const MeshBody meshes[], PetscInt *ncells, PetscInt *nvertices, PetscInt **cells, PetscReal **coordinates)
+/* Of this rank's grids */
+PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
 {
-  PetscInt cell = 0, vertex = 0;
+  PetscInt cell = 0;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    *ncells += meshes[b].grid.ncells;
-    *nvertices += meshes[b].grid.nvertices;
+  for (PetscInt ncorners = 4; ncorners <= 8; ncorners += 4) {
+    for (PetscInt b = 0; b < nbodies; ++b) {
+      if (meshes[b].ncorners != ncorners) continue;
+      first[b] = cell;
+      cell += meshes[b].grid.ncells;
+    }
   }
-  PetscCall(PetscMalloc2(8 * *ncells, cells, 3 * *nvertices, coordinates));
+  PetscFunctionReturn(0);
+}
+
+/* The cells of all bodies as DMPlex points, on vertices numbered behind them */
+static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells, PetscInt nvertices)
+{
+  PetscInt vertex = ncells, *first;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nbodies, &first));
+  PetscCall(MeshGetFirstCells(nbodies, meshes, first));
+  PetscCall(DMPlexSetChart(dm, 0, ncells + nvertices));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    const ShapeGrid *grid = &meshes[b].grid;
+    for (PetscInt c = 0; c < meshes[b].grid.ncells; ++c) PetscCall(DMPlexSetConeSize(dm, first[b] + c, meshes[b].ncorners));
+  }
+  PetscCall(DMSetUp(dm));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    const ShapeGrid *grid  = &meshes[b].grid;
+    const PetscInt   n     = meshes[b].ncorners;
+    const PetscInt  *order = MeshPlexCorners(n);
 
     for (PetscInt c = 0; c < grid->ncells; ++c) {
-      for (PetscInt a = 0; a < 8; ++a) (*cells)[8 * (cell + c) + MeshHexTensorOrder[a]] = vertex + grid->cells[8 * c + a];
+      PetscInt cone[8];
+
+      for (PetscInt a = 0; a < n; ++a) cone[order[a]] = vertex + grid->cells[n * c + a];
+      PetscCall(DMPlexSetCone(dm, first[b] + c, cone));
     }
-    PetscCall(PetscArraycpy(*coordinates + 3 * vertex, grid->coordinates, 3 * grid->nvertices));
-    cell += grid->ncells;
     vertex += grid->nvertices;
+  }
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(0);
+}
+
+/* The vertices of all bodies on this rank; free coordinates */
+static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[], PetscInt nvertices, PetscReal **coordinates)
+{
+  PetscInt vertex = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * nvertices, coordinates));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    PetscCall(PetscArraycpy(*coordinates + 3 * vertex, meshes[b].grid.coordinates, 3 * meshes[b].grid.nvertices));
+    vertex += meshes[b].grid.nvertices;
   }
   PetscFunctionReturn(0);
 }
@@ -102,17 +140,30 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
   RankError      error;
   PetscErrorCode ierr;
   PetscMPIInt    rank;
-  PetscInt       ncells = 0, nvertices = 0, *cells;
+  PetscInt       ncells = 0, nvertices = 0;
   PetscReal     *coordinates;
+  DM             cells;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(DMCreate(comm, &cells));
+  PetscCall(DMSetType(cells, DMPLEX));
+  PetscCall(DMSetDimension(cells, 3));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    ncells += meshes[b].grid.ncells;
+    nvertices += meshes[b].grid.nvertices;
+  }
   PetscCall(RankErrorBegin(&error));
-  ierr = MeshJoinGrids(nbodies, meshes, &ncells, &nvertices, &cells, &coordinates);
+  ierr = MeshBuildCells(cells, nbodies, meshes, ncells, nvertices);
+  if (!ierr) ierr = MeshJoinVertices(nbodies, meshes, nvertices, &coordinates);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s", error.message);
-  PetscCall(DMPlexCreateFromCellListPetsc(comm, 3, ncells, nvertices, 8, PETSC_TRUE, cells, 3, coordinates, dm));
-  PetscCall(PetscFree2(cells, coordinates));
+  PetscCall(DMPlexSymmetrize(cells));
+  PetscCall(DMPlexStratify(cells));
+  PetscCall(DMPlexInterpolate(cells, dm));
+  PetscCall(DMPlexBuildCoordinatesFromCellList(*dm, 3, coordinates));
+  PetscCall(DMDestroy(&cells));
+  PetscCall(PetscFree(coordinates));
   PetscCall(MeshCreateLabels(*dm, nbodies, bodies, meshes));
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = MeshLabelBodies(*dm, nbodies, bodies, meshes, ncells);

@@ -131,12 +131,13 @@ static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
 
 static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
 {
-  PetscInt *cells;
+  const PetscInt *order = MeshPlexCorners(8);
+  PetscInt       *cells;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(8 * hexes->ncells, &cells));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
-    for (PetscInt a = 0; a < 8; ++a) cells[8 * c + MeshHexTensorOrder[a]] = hexes->vertex[8 * c + a];
+    for (PetscInt a = 0; a < 8; ++a) cells[8 * c + order[a]] = hexes->vertex[8 * c + a];
   }
   PetscCall(DMPlexCreateFromCellListPetsc(PetscObjectComm((PetscObject)dm), 3, hexes->ncells, hexes->nvertices, 8, PETSC_TRUE, cells, 3, hexes->x, fine));
   PetscCall(PetscFree(cells));

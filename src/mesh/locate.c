@@ -1,6 +1,6 @@
 /*
    Which cell is a point in? Points are sorted into the bins of a grid; each cell looks at those in the bins about it, and the point's place in the
-   cell is where the cell's map takes it, trilinear or triquadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+   cell is where the cell's map takes it, linear or quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
 */
 #include "meshimpl.h"
 
@@ -75,12 +75,16 @@ static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s
   s[width - 1] = width == 2 ? 0.5 : xi + 0.5;
 }
 
-/* The shape functions of n nodes at a place of the reference cube, and their derivatives */
+/* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
 static void LocateShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
 {
   const PetscInt width = n == 8 ? 2 : 3;
   PetscReal      L[3][3], s[3][3];
 
+  if (MeshIsTetrahedron(n)) {
+    MeshTetrahedronShape(n, xi, N, dN);
+    return;
+  }
   for (PetscInt d = 0; d < 3; ++d) LocateLine(width, xi[d], L[d], s[d]);
   for (PetscInt a = 0; a < n; ++a) {
     const PetscInt i = a % width, j = a / width % width, k = a / (width * width);
@@ -127,10 +131,21 @@ static PetscReal LocateNorm(const PetscReal r[3])
   return PetscSqrtReal(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
 }
 
+/* Parameters of a tetrahedron that are not negative, and not more than 1 in sum */
+static void LocateClampTetrahedron(PetscReal xi[3])
+{
+  PetscReal sum = 0;
+
+  for (PetscInt k = 0; k < 3; ++k) sum += xi[k] = PetscMax(xi[k], 0.0);
+  for (PetscInt k = 0; sum > 1 && k < 3; ++k) xi[k] /= sum;
+}
+
 /* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the distance */
 static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
 {
-  PetscReal xi[3] = {0, 0, 0}, r[3], J[3][3], step[3];
+  const PetscBool tetrahedron = MeshIsTetrahedron(n);
+  const PetscReal middle      = tetrahedron ? 0.25 : 0.0;
+  PetscReal       xi[3]       = {middle, middle, middle}, r[3], J[3][3], step[3];
 
   for (PetscInt it = 0; it < 30; ++it) {
     PetscReal change = 0;
@@ -145,6 +160,7 @@ static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal poin
     }
     if (!(change > 8 * PETSC_MACHINE_EPSILON)) break;
   }
+  if (tetrahedron) LocateClampTetrahedron(xi);
   for (PetscInt k = 0; k < 3; ++k) xi[k] = PetscMax(-1.0, PetscMin(1.0, xi[k]));
   LocateDifference(n, X, point, xi, N, r, J);
   return LocateNorm(r);
@@ -228,8 +244,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal
 + locator - the locator
 . cell    - a number for the cell
 . body    - its body
-. n       - its nodes: 8, or 27
-- X       - where they are, in tensor order [length]
+. n       - its nodes: 8 or 27 of a hexahedron, 4 or 10 of a tetrahedron
+- X       - where they are, in the order of `MeshGetCellNodes()` [length]
 
   Level: developer
 

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 /*
-   grid.c: level 0 hexahedral meshes of single bodies, made on one rank.
+   grid.c: level 0 meshes of single bodies, made on one rank: hexahedra, or tetrahedra where a file has them.
 
    The vertices of a mesh are refined in a shape's parameters, where its cells are straight, and mapped to space at the end:
    so refinement follows curved surfaces on every level without any communication. A body whose facets are to
@@ -17,11 +17,12 @@
 */
 typedef struct {
   PetscInt   ncells, nvertices, nfacets;
-  PetscInt  *cells;       /* 8 vertices a cell, tensor order: vertex i + 2 j + 4 k lies at the corner (i, j, k) */
+  PetscInt   ncorners;    /* of a cell: 8 of hexahedra, 4 of tetrahedra */
+  PetscInt  *cells;       /* ncorners vertices a cell, of hexahedra in tensor order: vertex i + 2 j + 4 k lies at the corner (i, j, k) */
   PetscReal *coordinates; /* 3 parameters a vertex; for a shape without a map, its place [length] */
-  PetscInt  *facets;      /* 4 vertices a facet */
+  PetscInt  *facets;      /* 4 vertices a facet, the last of a triangle's twice */
   PetscInt  *facetface;   /* index of each facet's face in the names that MeshGetFaceNames() gives */
-  PetscReal *curve;       /* 27 places a cell, tensor order, of the quadratic cell that refinement follows; NULL: it has straight edges */
+  PetscReal *curve;       /* 27 places a cell, tensor order, or 10, of the quadratic cell that refinement follows; NULL: it has straight edges */
 } ShapeGrid;
 
 PETSC_INTERN PetscErrorCode ShapeGridDestroy(ShapeGrid *);
@@ -85,8 +86,12 @@ PETSC_INTERN PetscErrorCode ShapeGet(MPI_Comm, const SceneBody *, const Shape **
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
-/* query.c: number within DMPlex's hexahedron of the vertex at each corner i + 2 j + 4 k; and what is public */
-PETSC_INTERN const PetscInt MeshHexTensorOrder[8];
+/* tetrahedron.c: the place of a node on the reference tetrahedron; and what is public */
+PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
+
+/* query.c: number within DMPlex's cell of so many corners of the vertex at each corner; the corners of a cell; and what is public */
+PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
+PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
 /* gmsh_stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
 #define GMSH_WORD 256
@@ -125,7 +130,7 @@ typedef struct {
 
 PETSC_INTERN const GmshType *GmshGetType(PetscInt64 type);
 
-/* gmsh_facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first */
+/* gmsh_facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first; triangles of tetrahedra: first -1, and none across */
 typedef struct {
   PetscInt64 nodes[4], across, element;
 } GmshFacet;
@@ -138,7 +143,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode GmshFacetsAdd(const GmshType *, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *);
 PETSC_INTERN void           GmshFacetsSort(GmshFacets *);
 PETSC_INTERN PetscBool      GmshFacetsAgree(const GmshFacets *, GmshStream *);
-PETSC_INTERN PetscBool      GmshFacetsBound(const GmshFacets *, const PetscInt64 corners[4]);
+PETSC_INTERN PetscBool      GmshFacetsBound(const GmshFacets *, PetscInt ncorners, const PetscInt64 corners[]);
 PETSC_INTERN PetscErrorCode GmshFacetsDestroy(GmshFacets *);
 
 /* gmsh_read.c: the mesh of a file. Not collective; what is wrong with its form and numbers, in a sentence of so many characters, or "" */
@@ -165,9 +170,9 @@ PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, Pe
 /* Error if the file has no physical volume of the body's name */
 PETSC_INTERN PetscErrorCode GmshGetVolumeTag(MPI_Comm, const SceneBody *, PetscInt *tag);
 
-/* gmsh_order2.c: the 27 places of a cell from as many nodes as it has; the largest distance from the trilinear cell of its corners [length] */
+/* gmsh_order2.c: the 27 places of a hexahedron, or 10 of a tetrahedron, from as many nodes as it has; the largest distance from the straight cell of its corners [length] */
 PETSC_INTERN const PetscInt GmshHexahedronEnds[20][2];
-PETSC_INTERN PetscReal      GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[81]);
+PETSC_INTERN PetscReal      GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[]);
 
 /* arcs.c: a curve for a grid of straight cells whose surface stands for a curved one */
 PETSC_INTERN PetscErrorCode ShapeGridBend(ShapeGrid *);
@@ -198,6 +203,7 @@ PETSC_INTERN PetscErrorCode MeshLabelRigid(DM, PetscInt nbodies, const SceneBody
 /* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
 typedef struct {
   PetscInt64 ncells, nvertices;
+  PetscInt   ncorners, order; /* of its cells; what it asks for, or what suits them */
   PetscInt   nfaces;
   char     **faces;
   PetscBool  quadratic; /* its grid has a curve */
@@ -214,11 +220,11 @@ typedef struct {
   PetscSection section;
   Vec          x; /* [length], or a shape's parameters */
 } MeshPlaces;
-PETSC_INTERN PetscErrorCode MeshSetSection(DM, const SceneBody[]);
-PETSC_INTERN PetscErrorCode MeshCreateNodes(DM, PetscInt nbodies, const SceneBody[]);
+PETSC_INTERN PetscErrorCode MeshSetSection(DM, const PetscInt orders[]);
+PETSC_INTERN PetscErrorCode MeshCreateNodes(DM, PetscInt nbodies, const PetscInt orders[]);
 PETSC_INTERN PetscErrorCode MeshGetPlaces(DM, PetscBool nodes, MeshPlaces *);
 PETSC_INTERN PetscErrorCode MeshGetCellPoints(DM, PetscSection, PetscInt cell, PetscInt *n, PetscInt points[MESH_MAX_NODES]);
-PETSC_INTERN void           MeshPlacesSetStraight(const PetscReal corners[8][3], PetscReal places[27][3]);
+PETSC_INTERN void           MeshPlacesSetStraight(PetscInt ncorners, const PetscReal corners[][3], PetscReal places[MESH_MAX_NODES][3]);
 PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 
 /* map.c: from the shapes' parameters to space: the nodes of bodies with curved refinement, or at level 0 the vertices of those without */
@@ -247,7 +253,7 @@ PETSC_INTERN PetscErrorCode MeshHexesDestroy(MeshHexes *);
 /* zones.c: what the scene refines */
 PETSC_INTERN PetscErrorCode MeshHexesRefineZones(DM, const SceneBody[], PetscInt n, const SceneRefinement[], MeshHexes *);
 
-/* curves.c: the quadratic cells of a mesh: [81 a cell of a quadratic body, 0 of others], carried along as it is distributed */
+/* curves.c: the quadratic cells of a mesh: [81 or 30 a cell of a quadratic body, 0 of others], carried along as it is distributed */
 typedef struct {
   PetscSection section; /* NULL: no body has any */
   Vec          places;
@@ -279,7 +285,8 @@ typedef struct {
 } MeshLocalRefinement;
 PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const SceneBody[], DM *, MeshCurves *, MeshHanging *);
 
-/* level0.c: all bodies at level 0, on rank 0, with their labels */
+/* level0.c: all bodies at level 0, on rank 0, with their labels; the first cell of each, tetrahedra before hexahedra as DMPlex wants them */
+PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], DM *);
 
 /* boundary.c, metis.c, create.c, support.c: the partitioner, MeshCreate(), and whether the scene holds its bodies, public */

@@ -1,7 +1,18 @@
 /* Are the cells sound? */
 #include "meshimpl.h"
 
-/* Derivatives along direction d at node a: between the two corners, or of the parabola through the three nodes there */
+/* Derivative along direction d at node a of a tetrahedron */
+static void QualityTetrahedronSlope(PetscInt n, PetscReal x[][3], PetscInt a, PetscInt d, PetscReal slope[3])
+{
+  PetscReal xi[3], N[10], dN[3][MESH_MAX_NODES];
+
+  MeshTetrahedronPlace(a, xi);
+  MeshTetrahedronShape(n, xi, N, dN);
+  slope[0] = slope[1] = slope[2] = 0;
+  for (PetscInt i = 0; i < 3 * n; ++i) slope[i % 3] += dN[d][i / 3] * x[i / 3][i % 3];
+}
+
+/* Of a hexahedron: between the two corners, or of the parabola through the three nodes there */
 static void QualitySlope(PetscInt n, PetscReal x[][3], PetscInt a, PetscInt d, PetscReal slope[3])
 {
   static const PetscReal straight[2] = {-1, 1}, parabola[3][3] = {{-3, 4, -1}, {-1, 0, 1}, {1, -4, 3}};
@@ -25,7 +36,8 @@ static PetscReal CellQuality(PetscInt n, PetscReal x[][3])
     PetscReal e[3][3], det;
 
     for (PetscInt k = 0; k < 3; ++k) {
-      QualitySlope(n, x, a, k, e[k]);
+      if (MeshIsTetrahedron(n)) QualityTetrahedronSlope(n, x, a, k, e[k]);
+      else QualitySlope(n, x, a, k, e[k]);
       longest = PetscMax(longest, PetscSqrtReal(PetscSqr(e[k][0]) + PetscSqr(e[k][1]) + PetscSqr(e[k][2])));
     }
     det      = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);

@@ -1,8 +1,13 @@
 /* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
 #include "meshimpl.h"
 
-/* Tensor order (x fastest) of DMPlex's hexahedron vertices; DMPlex turns the bottom quadrilateral outward */
-const PetscInt MeshHexTensorOrder[8] = {0, 3, 1, 2, 4, 5, 7, 6};
+/* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's so that its edges from the first are right-handed */
+const PetscInt *MeshPlexCorners(PetscInt ncorners)
+{
+  static const PetscInt hexahedron[8] = {0, 3, 1, 2, 4, 5, 7, 6}, tetrahedron[4] = {1, 0, 2, 3};
+
+  return ncorners == 4 ? tetrahedron : hexahedron;
+}
 
 /* Points of a face label's stratum 1 within [start, end), as a sorted index set, empty on ranks without any */
 static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)
@@ -146,7 +151,7 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
 - facet - the facet, a local DMPlex point with one cell
 
   Output Parameter:
-. vertices - its 4 vertices, local DMPlex points
+. vertices - its 4 vertices, local DMPlex points; of a triangle 3, the last one twice
 
   Level: developer
 
@@ -155,7 +160,7 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
 PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
 {
   const PetscInt *cells, *cone, *orientation;
-  PetscInt        ncells, nfacets, npoints, vstart, vend, n = 0, sign = 0, *closure = NULL;
+  PetscInt        ncells, nfacets, ncorners, npoints, vstart, vend, n = 0, sign = 0, *closure = NULL;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
@@ -168,17 +173,19 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
     if (cone[f] == facet) sign = orientation[f];
   }
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(DMPlexGetConeSize(dm, facet, &ncorners));
   PetscCall(DMPlexGetTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
   for (PetscInt p = 0; p < npoints; ++p) {
     const PetscInt q = closure[2 * p];
 
     /* a negative orientation: the cell sees the facet's vertices in reverse */
     if (q >= vstart && q < vend) {
-      vertices[sign < 0 ? 3 - n : n] = q;
+      vertices[sign < 0 ? ncorners - 1 - n : n] = q;
       ++n;
     }
   }
   PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  if (ncorners == 3) vertices[3] = vertices[2];
   PetscFunctionReturn(0);
 }
 
@@ -200,7 +207,19 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
 @*/
 PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
 {
-  PetscInt npoints, vstart, vend, n = 0, plex[8], *closure = NULL;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetCellCorners(dm, cell, &n, vertices));
+  PetscCheck(n == 8, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a hexahedron", cell);
+  PetscFunctionReturn(0);
+}
+
+/* The 8 vertices of a hexahedron in tensor order, or the 4 of a tetrahedron */
+PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, PetscInt vertices[8])
+{
+  PetscInt        npoints, vstart, vend, n = 0, plex[8], *closure = NULL;
+  const PetscInt *order;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
@@ -211,8 +230,10 @@ PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
     if (q >= vstart && q < vend) plex[n++] = q;
   }
   PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
-  PetscCheck(n == 8, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a hexahedron", cell);
-  for (PetscInt a = 0; a < 8; ++a) vertices[a] = plex[MeshHexTensorOrder[a]];
+  PetscCheck(n == 8 || n == 4, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is neither a hexahedron nor a tetrahedron", cell);
+  order = MeshPlexCorners(n);
+  for (PetscInt a = 0; a < n; ++a) vertices[a] = plex[order[a]];
+  *ncorners = n;
   PetscFunctionReturn(0);
 }
 

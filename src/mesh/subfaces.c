@@ -31,17 +31,18 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
    are still parameters */
 static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
 {
-  const Shape *shape;
-  PetscReal    x[4][3], centroid[3] = {0, 0, 0}, size = 0;
+  const Shape   *shape;
+  const PetscInt n = grid->ncorners == 4 ? 3 : 4;
+  PetscReal      x[4][3], centroid[3] = {0, 0, 0}, size = 0;
 
   PetscFunctionBegin;
   PetscCall(ShapeGet(PETSC_COMM_SELF, body, &shape));
-  for (PetscInt a = 0; a < 4; ++a) {
+  for (PetscInt a = 0; a < n; ++a) {
     const PetscReal *p = grid->coordinates + 3 * grid->facets[4 * facet + a];
 
     PetscCall(PetscArraycpy(x[a], p, 3));
     if (shape && shape->map) PetscCall(shape->map(body, p, x[a]));
-    for (PetscInt d = 0; d < 3; ++d) centroid[d] += x[a][d] / 4;
+    for (PetscInt d = 0; d < 3; ++d) centroid[d] += x[a][d] / (PetscReal)n;
   }
   for (PetscInt d = 0; d < 3; ++d) size = PetscMax(size, PetscAbsReal(x[0][d] - centroid[d]));
   *inside = PETSC_TRUE;
@@ -62,19 +63,19 @@ PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *
     PetscCall(MeshFaceLabelName(body->name, subface->of, sizeof(whole), whole));
     PetscCall(MeshFaceLabelName(body->name, subface->name, sizeof(name), name));
     for (PetscInt q = 0; q < grid->nfacets; ++q) {
-      PetscInt        corners[4], njoin, value;
-      const PetscInt *join;
-      PetscBool       inside = PETSC_FALSE;
+      PetscInt       corners[4], njoin, value;
+      const PetscInt n      = grid->ncorners == 4 ? 3 : 4, *join;
+      PetscBool      inside = PETSC_FALSE;
 
-      for (PetscInt a = 0; a < 4; ++a) corners[a] = first + grid->facets[4 * q + a];
-      PetscCall(DMPlexGetFullJoin(dm, 4, corners, &njoin, &join));
+      for (PetscInt a = 0; a < n; ++a) corners[a] = first + grid->facets[4 * q + a];
+      PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
       PetscCall(DMGetLabelValue(dm, whole, join[0], &value));
       PetscCall(SubfaceHoldsFacet(body, subface, grid, q, &inside));
       if (value == 1 && inside) {
         PetscCall(DMSetLabelValue(dm, name, join[0], 1));
         ++nselected;
       }
-      PetscCall(DMPlexRestoreJoin(dm, 4, corners, &njoin, &join));
+      PetscCall(DMPlexRestoreJoin(dm, n, corners, &njoin, &join));
     }
     PetscCheck(nselected, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name, whole);
   }

@@ -24,13 +24,13 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
   for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
   PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt  b, vertices[8];
+    PetscInt  b, n, vertices[8];
     PetscReal x[8][3];
 
     PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
-    PetscCall(MeshGetCellVertices(support->dm, c, vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 8, vertices, x));
-    for (PetscInt i = 0; i < 24; ++i) {
+    PetscCall(MeshGetCellCorners(support->dm, c, &n, vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, n, vertices, x));
+    for (PetscInt i = 0; i < 3 * n; ++i) {
       bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
       bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
     }

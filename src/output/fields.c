@@ -64,13 +64,13 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
 }
 
 /* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices. The mesh keeps it for the next file */
-static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt components, PetscInt *indices)
+static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt n, PetscInt components, PetscInt *indices)
 {
   IS          is;
   PetscLayout layout;
 
   PetscFunctionBegin;
-  PetscCall(ISCreateGeneral(output->comm, output->ncellslocal * components, indices, PETSC_OWN_POINTER, &is));
+  PetscCall(ISCreateGeneral(output->comm, n, indices, PETSC_OWN_POINTER, &is));
   PetscCall(ISGetLayout(is, &layout));
   PetscCall(PetscLayoutSetBlockSize(layout, components));
   PetscCall(PetscObjectSetName((PetscObject)is, name));
@@ -83,25 +83,25 @@ static PetscErrorCode FieldsNumberCells(Output output)
 {
   PetscSection global;
   DMLabel      label;
-  PetscInt     cstart, cend, *cells, *bodies, at = 0;
+  PetscInt     cstart, cend, *cells, *bodies, at = 0, piece = 0;
+  OutputPieces pieces;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(output->dm, &global));
   PetscCall(DMGetLabel(output->dm, MESH_BODY_LABEL, &label));
   PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
-  PetscCall(PetscMalloc1(8 * output->ncellslocal, &cells));
+  PetscCall(PetscMalloc1(output->nindiceslocal, &cells));
   PetscCall(PetscMalloc1(output->ncellslocal, &bodies));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt n, pieces[8][8];
-
-    PetscCall(OutputGetPieces(output, c, &n, pieces));
-    for (PetscInt p = 0; p < n; ++p, ++at) {
-      for (PetscInt i = 0; i < 8; ++i) PetscCall(FieldsGetVertex(global, pieces[p][i], &cells[8 * at + i]));
-      PetscCall(DMLabelGetValue(label, c, &bodies[at]));
+    PetscCall(OutputGetPieces(output, c, &pieces));
+    for (PetscInt p = 0; p < pieces.n; ++p, ++piece) {
+      if (output->mixed) cells[at++] = OutputPieceKind(pieces.nnodes);
+      for (PetscInt i = 0; i < pieces.nnodes; ++i, ++at) PetscCall(FieldsGetVertex(global, pieces.nodes[p][i], &cells[at]));
+      PetscCall(DMLabelGetValue(label, c, &bodies[piece]));
     }
   }
-  PetscCall(FieldsKeepIndices(output, "cells", 8, cells));
-  PetscCall(FieldsKeepIndices(output, "body", 1, bodies));
+  PetscCall(FieldsKeepIndices(output, OutputCellsName(output), output->nindiceslocal, output->mixed ? 1 : 8, cells));
+  PetscCall(FieldsKeepIndices(output, "body", output->ncellslocal, 1, bodies));
   PetscFunctionReturn(0);
 }
 
@@ -110,9 +110,9 @@ static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
   IS cells, body;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectQuery((PetscObject)output->dm, "cells", (PetscObject *)&cells));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, OutputCellsName(output), (PetscObject *)&cells));
   if (!cells) PetscCall(FieldsNumberCells(output));
-  PetscCall(PetscObjectQuery((PetscObject)output->dm, "cells", (PetscObject *)&cells));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, OutputCellsName(output), (PetscObject *)&cells));
   PetscCall(PetscObjectQuery((PetscObject)output->dm, "body", (PetscObject *)&body));
   PetscCall(ISView(cells, viewer));
   PetscCall(ISView(body, viewer));

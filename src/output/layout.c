@@ -16,7 +16,7 @@ static PetscErrorCode OutputCount(Output output)
   output->nowned    = n / 3;
   output->nvertices = N / 3;
   output->first     = start / 3;
-  PetscCall(OutputCountPieces(output, &output->ncellslocal));
+  PetscCall(OutputCountPieces(output));
   PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);
 }

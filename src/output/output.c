@@ -9,7 +9,7 @@
    Collective
 
    Input Parameters:
-+  dm        - mesh of hexahedra with 3 displacement components a node, as MeshCreate() makes it
++  dm        - mesh with 3 displacement components a node, as MeshCreate() makes it
 .  nbodies   - number of bodies
 .  bodynames - their names
 -  basename  - path of the files without ending
@@ -20,8 +20,9 @@
    Level: intermediate
 
    Notes:
-   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell; cells of order 2
-   are cut by their nodes into 8, which have the values of the cell) and,
+   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell; hexahedra of order 2
+   are cut by their nodes into 8, which have the values of the cell; where there are tetrahedra, of 4 or 10 nodes, the dataset is not cells but
+   mixed_cells, and holds XDMF's number of the kind before the nodes of each) and,
    a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends at time k. Every file is written under another name and renamed when it is whole, and
    the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
    first step is written, the files of later steps that an older run of the same name left are removed.

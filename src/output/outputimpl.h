@@ -44,7 +44,9 @@ struct _n_Output {
   PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
   char      **pairnames;
   PetscInt    nvertices, ncells;          /* global */
-  PetscInt    nowned, ncellslocal, first; /* nodes and cells of this rank; number of its first node. A cell of order 2 counts as 8 */
+  PetscInt    nowned, ncellslocal, first; /* nodes and cells of this rank; number of its first node. A hexahedron of order 2 counts as 8 */
+  PetscBool   mixed;                      /* not all cells are hexahedra */
+  PetscInt    nindices, nindiceslocal;    /* numbers that describe the cells: 8 nodes each, or where they are mixed the kind and its nodes */
   PetscBool   friction;                   /* the steps have shear and slip */
   PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
@@ -58,9 +60,15 @@ struct _n_Output {
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 
-/* cells.c: the cells of the mesh as hexahedra of 8 nodes, one each, or those that the nodes of order 2 cut it into */
-PETSC_INTERN PetscErrorCode OutputCountPieces(Output, PetscInt *npieces);
-PETSC_INTERN PetscErrorCode OutputGetPieces(Output, PetscInt cell, PetscInt *n, PetscInt pieces[8][8]);
+/* cells.c: a cell of the mesh as a hexahedron of 8 nodes, or those that the nodes of order 2 cut it into; or as a tetrahedron of 4 or 10 */
+typedef struct {
+  PetscInt n, nnodes, nodes[8][10];
+} OutputPieces;
+PETSC_INTERN PetscErrorCode OutputCountPieces(Output);
+PETSC_INTERN PetscErrorCode OutputGetPieces(Output, PetscInt cell, OutputPieces *);
+PETSC_INTERN const char    *OutputCellsName(Output);
+PETSC_INTERN PetscInt       OutputPieceKind(PetscInt nnodes);
+PETSC_INTERN PetscInt       OutputKindNodes(PetscInt kind);
 
 /* dataset.c: n records of this rank; written and destroyed */
 PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);

@@ -27,6 +27,7 @@ typedef struct {
   IS                 cells, body;
   const PetscScalar *x;
   const PetscInt    *c, *b;
+  PetscInt          *first, *nnodes; /* of each cell: where its nodes begin, and how many there are */
 } RestartMesh;
 
 /* Which cell of the file each vertex of this rank is in */
@@ -152,26 +153,50 @@ static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Vertex number `a` in tensor order of a cell, which the file has in VTK's order */
-static PetscInt RestartCellVertex(const RestartMesh *mesh, PetscInt cell, PetscInt a)
+/* Node number `a` of a cell, of hexahedra in tensor order, which the file has in VTK's order */
+static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt a)
 {
   static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
-  return mesh->c[8 * cell + vtk[a]];
+  return mesh->c[mesh->first[cell] + (mesh->nnodes[cell] == 8 ? vtk[a] : a)];
+}
+
+/* Where the nodes of each cell begin, and how many there are: 8, or as its kind says, which is before them */
+static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nindices)
+{
+  RestartMesh *mesh = &r->mesh;
+  PetscInt     at   = 0;
+  PetscBool    sound;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(mesh->ncells, &mesh->first, mesh->ncells, &mesh->nnodes));
+  for (PetscInt c = 0; c < mesh->ncells && at < nindices; ++c) {
+    mesh->nnodes[c] = mixed ? OutputKindNodes(mesh->c[at++]) : 8;
+    mesh->first[c]  = at;
+    at += mesh->nnodes[c] ? mesh->nnodes[c] : nindices;
+  }
+  sound = (PetscBool)(at == nindices);
+  PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED, "its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode RestartLoadMesh(Restart *r)
 {
   RestartMesh *mesh = &r->mesh;
+  PetscInt     nindices;
+  PetscBool    mixed;
 
   PetscFunctionBegin;
   PetscCall(RestartLoadAll(r, "vertices", 3, &mesh->vertices));
-  PetscCall(RestartLoadIndices(r, "cells", &mesh->cells));
+  PetscCall(PetscViewerHDF5HasDataset(r->viewer, "mixed_cells", &mixed));
+  PetscCall(RestartLoadIndices(r, mixed ? "mixed_cells" : "cells", &mesh->cells));
   PetscCall(RestartLoadIndices(r, "body", &mesh->body));
   PetscCall(ISGetLocalSize(mesh->body, &mesh->ncells));
   PetscCall(VecGetArrayRead(mesh->vertices, &mesh->x));
   PetscCall(ISGetIndices(mesh->cells, &mesh->c));
   PetscCall(ISGetIndices(mesh->body, &mesh->b));
+  PetscCall(ISGetLocalSize(mesh->cells, &nindices));
+  PetscCall(RestartFindCells(r, mixed, nindices));
   PetscFunctionReturn(0);
 }
 
@@ -185,12 +210,12 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscCall(RestartLoadMesh(r));
   PetscCall(MeshLocatorCreate(r->output->nowned, (const PetscReal(*)[3])r->x, r->body, &r->locator));
   for (PetscInt c = 0; c < r->mesh.ncells; ++c) {
-    PetscReal X[8][3];
+    PetscReal X[MESH_MAX_NODES][3];
 
-    for (PetscInt a = 0; a < 8; ++a) {
-      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(r->mesh.x[3 * RestartCellVertex(&r->mesh, c, a) + d]);
+    for (PetscInt a = 0; a < r->mesh.nnodes[c]; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(r->mesh.x[3 * RestartCellNode(&r->mesh, c, a) + d]);
     }
-    PetscCall(MeshLocatorAddCell(r->locator, c, r->mesh.b[c], 8, X));
+    PetscCall(MeshLocatorAddCell(r->locator, c, r->mesh.b[c], r->mesh.nnodes[c], X));
   }
   PetscCall(MeshLocatorGetPlaces(r->locator, &places));
   for (PetscInt i = 0; i < r->output->nowned; ++i) lost += places[i].cell < 0;
@@ -224,7 +249,7 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
     for (PetscInt i = 0; i < r->output->nowned * components; ++i) {
       const MeshPlace *place = &places[i / components];
 
-      for (PetscInt a = 0; a < 8; ++a) values[i] += RestartWeight(place, a, force) * PetscRealPart(s[components * RestartCellVertex(&r->mesh, place->cell, a) + i % components]);
+      for (PetscInt a = 0; a < place->n; ++a) values[i] += RestartWeight(place, a, force) * PetscRealPart(s[components * RestartCellNode(&r->mesh, place->cell, a) + i % components]);
     }
   } else {
     for (PetscInt i = 0; i < r->output->nowned * components; ++i) values[i] = PetscRealPart(s[i]);
@@ -318,6 +343,7 @@ static PetscErrorCode RestartDestroy(Restart *r)
     PetscCall(ISRestoreIndices(r->mesh.body, &r->mesh.b));
     PetscCall(VecDestroy(&r->mesh.vertices));
     PetscCall(ISDestroy(&r->mesh.cells));
+    PetscCall(PetscFree2(r->mesh.first, r->mesh.nnodes));
     PetscCall(ISDestroy(&r->mesh.body));
   }
   PetscCall(PetscFree2(r->x, r->body));

@@ -27,17 +27,16 @@ static const int highest[]  = {7, 8, 9};
 /* As StressWriteValues(), from records of the mesh's cells, whose pieces all have them */
 static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
-  PetscReal *pieces;
-  PetscInt   cstart, cend, at = 0;
+  PetscReal   *pieces;
+  PetscInt     cstart, cend, at = 0;
+  OutputPieces of;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
   PetscCall(PetscMalloc1(stride * output->ncellslocal, &pieces));
   for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt n, of[8][8];
-
-    PetscCall(OutputGetPieces(output, c, &n, of));
-    for (PetscInt p = 0; p < n; ++p, ++at) PetscCall(PetscArraycpy(pieces + stride * at, values + stride * (c - cstart), stride));
+    PetscCall(OutputGetPieces(output, c, &of));
+    for (PetscInt p = 0; p < of.n; ++p, ++at) PetscCall(PetscArraycpy(pieces + stride * at, values + stride * (c - cstart), stride));
   }
   PetscCall(StressWriteValues(output, name, output->ncellslocal, components, order, stride, pieces, viewer));
   PetscCall(PetscFree(pieces));

@@ -41,8 +41,8 @@ static void XDMFWriteAttribute(FILE *stream, const char file[], const char name[
 
 static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
 {
-  fprintf(stream, "        <Topology TopologyType=\"Hexahedron\" NumberOfElements=\"%" PetscInt_FMT "\">\n", output->ncells);
-  XDMFWriteDataItem(stream, file, "cells", PETSC_TRUE, output->ncells, 8);
+  fprintf(stream, "        <Topology TopologyType=\"%s\" NumberOfElements=\"%" PetscInt_FMT "\">\n", output->mixed ? "Mixed" : "Hexahedron", output->ncells);
+  XDMFWriteDataItem(stream, file, OutputCellsName(output), PETSC_TRUE, output->mixed ? output->nindices : output->ncells, output->mixed ? 1 : 8);
   fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
   XDMFWriteDataItem(stream, file, "vertices", PETSC_FALSE, output->nvertices, 3);
   fputs("        </Geometry>\n", stream);

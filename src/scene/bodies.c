@@ -8,7 +8,7 @@ static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
   PetscInt    element = ELEMENT_FULL;
 
   PetscFunctionBegin;
-  body->order = 1;
+  body->order = body->material.type == MATERIAL_RIGID ? 1 : 0;
   if (body->material.type == MATERIAL_RIGID) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_element", body->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
@@ -16,7 +16,9 @@ static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
   body->element = (ElementType)element;
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_order", body->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (text) PetscCall(SceneParseInt(keys, key, text, &body->order));
+  if (!text) PetscFunctionReturn(0);
+  PetscCall(SceneParseInt(keys, key, text, &body->order));
+  if (!body->order) PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
   PetscFunctionReturn(0);
 }
 

@@ -7,7 +7,7 @@
 
 /* A body as it is meshed, of all ranks */
 typedef struct {
-  PetscInt  ncells, nnodes;
+  PetscInt  ncells, ntetrahedra, nnodes;
   PetscReal lower[3], upper[3]; /* [length] */
 } BodyMesh;
 
@@ -18,11 +18,12 @@ static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cel
   PetscSection global, section;
 
   PetscFunctionBegin;
-  mesh->ncells++;
   PetscCall(DMPlexGetChart(dm, &first, NULL));
   PetscCall(DMGetGlobalSection(dm, &global));
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(MeshGetCellNodes(dm, cell, &n, nodes));
+  mesh->ncells++;
+  if (MeshIsTetrahedron(n)) mesh->ntetrahedra++;
   for (PetscInt a = 0; a < n; ++a) {
     if (PetscBTLookupSet(met, nodes[a] - first)) continue;
     PetscCall(PetscSectionGetOffset(global, nodes[a], &offset));
@@ -56,7 +57,7 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   const PetscScalar *x;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) meshes[b] = (BodyMesh){0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
+  for (PetscInt b = 0; b < nbodies; ++b) meshes[b] = (BodyMesh){0, 0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   PetscCall(DMPlexGetChart(dm, &first, &last));
   PetscCall(PetscBTCreate(last - first, &met));
@@ -69,11 +70,12 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscCall(PetscBTDestroy(&met));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscInt counts[2] = {meshes[b].ncells, meshes[b].nnodes};
+    PetscInt counts[3] = {meshes[b].ncells, meshes[b].nnodes, meshes[b].ntetrahedra};
 
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
-    meshes[b].ncells = counts[0];
-    meshes[b].nnodes = counts[1];
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPIU_INT, MPI_SUM, comm));
+    meshes[b].ncells      = counts[0];
+    meshes[b].nnodes      = counts[1];
+    meshes[b].ntetrahedra = counts[2];
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
     BodyMeshCleanBounds(&meshes[b]);
@@ -81,7 +83,7 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
+static PetscErrorCode DescribeBodies(Scene scene, DM dm, const PetscInt orders[], PetscViewer viewer)
 {
   BodyMesh *meshes;
   PetscInt  ncells = 0, nnodes = 0, order = 1;
@@ -97,8 +99,8 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
     if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
     else PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " cells%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, body->order > 1 ? " of order 2" : "", mesh->nnodes, body->order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
-    order = PetscMax(order, body->order);
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", orders[b] > 1 ? " of order 2" : "", mesh->nnodes, orders[b] > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
+    order = PetscMax(order, orders[b]);
     ncells += mesh->ncells;
     nnodes += mesh->nnodes;
   }
@@ -289,39 +291,43 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 }
 
 /* Bodies that have an effect, as: on, slab block */
-static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[], PetscBool (*has)(const SceneBody *), const char off[])
+static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[], PetscBool (*has)(const SceneBody *, PetscInt order), const PetscInt orders[], const char off[])
 {
   PetscBool on = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) on = on || has(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) on = on || has(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s", effect, on ? "on, in" : "off: "));
   if (!on) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", off));
   for (PetscInt b = 0; on && b < scene->nbodies; ++b) {
-    if (has(&scene->bodies[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
+    if (has(&scene->bodies[b], orders[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);
 }
 
-static PetscBool DescribeIsFinite(const SceneBody *body)
+static PetscBool DescribeIsFinite(const SceneBody *body, PetscInt order)
 {
+  (void)order;
   return MaterialIsFinite(&body->material);
 }
 
-static PetscBool DescribeIsBbar(const SceneBody *body)
+static PetscBool DescribeIsBbar(const SceneBody *body, PetscInt order)
 {
+  (void)order;
   return body->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static PetscBool DescribeIsIncompatible(const SceneBody *body)
+static PetscBool DescribeIsIncompatible(const SceneBody *body, PetscInt order)
 {
+  (void)order;
   return body->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static PetscBool DescribeIsOrder2(const SceneBody *body)
+static PetscBool DescribeIsOrder2(const SceneBody *body, PetscInt order)
 {
-  return body->order > 1 ? PETSC_TRUE : PETSC_FALSE;
+  (void)body;
+  return order > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
@@ -332,24 +338,24 @@ static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[]
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
+static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], PetscViewer viewer)
 {
   PetscInt  rubbing = 0;
   PetscBool finite  = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || DescribeIsFinite(&scene->bodies[b]) ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || DescribeIsFinite(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, "no contact; one linear solve a step where every body is linear"));
   if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations", scene->contact_updates));
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, "every material is linear"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, orders, "every material is linear"));
   if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, "no element is bbar"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, "no element is incompatible"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, "every body has order 1"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, orders, "no element is bbar"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, orders, "no element is incompatible"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, orders, "every body has order 1"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));
@@ -375,10 +381,14 @@ static PetscErrorCode DescribeEffects(Scene scene, PetscViewer viewer)
 @*/
 PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
 {
+  PetscInt *orders;
+
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Scene %s\n", scene->name));
   if (scene->units) PetscCall(PetscViewerASCIIPrintf(viewer, "Units %s\n", scene->units));
-  PetscCall(DescribeBodies(scene, dm, viewer));
+  PetscCall(PetscMalloc1(scene->nbodies, &orders));
+  PetscCall(MeshGetOrders(dm, scene->nbodies, orders));
+  PetscCall(DescribeBodies(scene, dm, orders, viewer));
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
@@ -386,6 +396,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeRefinements(scene, dm, viewer));
   PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
-  PetscCall(DescribeEffects(scene, viewer));
+  PetscCall(DescribeEffects(scene, orders, viewer));
+  PetscCall(PetscFree(orders));
   PetscFunctionReturn(0);
 }

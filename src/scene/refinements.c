@@ -124,7 +124,7 @@ PetscErrorCode SceneValidateRefinements(MPI_Comm comm, const char file[], Scene 
     const SceneRefinement *refinement = &scene->refinements[r];
 
     for (PetscInt k = 0; k < 2 && refinement->face[k]; ++k) PetscCall(SceneValidateFace(comm, file, scene, "refinement", refinement->name, refinement->face[k]));
-    PetscCheck(refinement->body < 0 || scene->bodies[refinement->body].order == 1, comm, PETSC_ERR_USER_INPUT, "%s: refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT ": only hexahedra of order 1 are refined locally", file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
+    PetscCheck(refinement->body < 0 || scene->bodies[refinement->body].order < 2, comm, PETSC_ERR_USER_INPUT, "%s: refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT ": only hexahedra of order 1 are refined locally", file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
   }
   PetscFunctionReturn(0);
 }

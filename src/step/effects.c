@@ -67,16 +67,19 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, planes = 0, rubbing = 0, rigid = 0, mean = 0, modes = 0, second = 0;
+  PetscInt finite = 0, planes = 0, rubbing = 0, rigid = 0, mean = 0, modes = 0, second = 0, *orders;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &orders));
+  PetscCall(MeshGetOrders(sim->dm, scene->nbodies, orders));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
     if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
-    if (scene->bodies[b].order > 1) ++second;
+    if (orders[b] > 1) ++second;
   }
+  PetscCall(PetscFree(orders));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) planes += scene->displacements[d].inclined;
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
