@@ -79,6 +79,18 @@ ramps:
   - push: {factors: [0, 0.2, 1]}
 """
 
+FORESEEN = """problem: foreseen
+bodies:
+  - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 5], young: 1, poisson: 0.3}
+  - top: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [1, 1, 1], young: 1, poisson: 0.3}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+  - push: {face: top.zmax, value: [0, 0, -0.01]}
+contact:
+  - joint: {mortar: low.zmax, nonmortar: top.zmin, friction: 0.3}
+load: {steps: 3}
+"""
+
 DRIVEN = "  - carry: {face: block.zmax, value: [0.02, 0, free], ramp: across}\n"
 CYCLE = slide(0, "friction: 0.3", (0, 0.5, 1, 0.5, 0, -0.5, -1, 0, 1), DRIVEN)
 
@@ -95,6 +107,7 @@ SCENES = {
     "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
     "cattaneo": CYLINDERS,
     "shaft": SHAFT,
+    "foreseen": FORESEEN,
 }
 
 
@@ -130,6 +143,9 @@ def judge():
     verdict("block that sticks, force", abs(last("sticks")["force"][0] / -178.2 - 1), 1e-6)
     verdict("block that sticks, energy balance", imbalance(sticks["steps"][-1], sticks["steps"][0]), 1e-3)
     print("block that slides away:", "converged" if slides["converged"] else "not converged, exit code %d" % slides["exit_code"])
+    forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
+    verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
+    verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)
     slip_law("finite", 0.3, math.inf)
     slip_law("limited", math.inf, 50)
     slip_law("capped", 0.3, 50, 0.02)  # less where the pressure is low
