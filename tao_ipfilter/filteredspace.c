@@ -57,7 +57,7 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from a point x, called centre, with this gradient and these constraints, with all directions there are */
+/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and these constraints, with all directions there are */
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

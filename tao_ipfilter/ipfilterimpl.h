@@ -432,18 +432,37 @@ typedef struct {
   PetscReal *L, *V, *H, *r;
 } IPActiveSet;
 
-/* What is closed and slips of constraints and norm terms, and the factors that belong to it: termset.c */
+/* The system of a Newton step on the laws of constraints and norm terms: termsystem.c */
 typedef struct {
-  PetscInt      m, n;                /* constraints and terms */
-  PetscReal    *limit, *coefficient; /* of the terms; coefficient negative: none */
-  PetscReal    *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
-  PetscReal    *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
-  PetscReal    *dead;                /* along which nothing gives way, two a term */
-  PetscReal     length;              /* size of the terms of a motion */
-  PetscBool    *closed, *slips, factored;
-  PetscInt      na, k, *rows, *place; /* rows that take part, and where a row stands among them; directions in V */
-  PetscReal    *M, *V, *Z, *ZV, *H, *F, *Fy;
-  PetscBLASInt *pivots, *directions; /* of M and of H */
+  PetscInt      m, k;        /* rows, directions in V */
+  Mat           K, FK;       /* K_WW, and its factors */
+  Mat           R, RD, G;    /* R, R D and R D R^T */
+  Mat           Bv, Bf;      /* what the rows' equations take of v and f */
+  Mat           A, F;        /* B_v R D R^T + B_f in the rows' scale, and its factors, */
+  Mat           Pv, Pf;      /* and the B_v and B_f that they are of */
+  PetscReal    *gives;       /* what rows give way by, by D */
+  PetscReal    *scale;       /* force of a row over the root of its energy */
+  PetscReal    *V, *ZV, *H;  /* columns of length m; of length kmax; of length k */
+  PetscBLASInt *pivots;      /* of H */
+  Vec           S;           /* and the scale that A has */
+  PetscReal    *f, *v;       /* scratch, of rows */
+  Vec           r, z, w, Kw; /* of rows and of W */
+  PetscBool     stale;       /* the factors no longer serve */
+} IPTermSystem;
+
+/* What is closed and slips of constraints and norm terms: termset.c */
+typedef struct {
+  PetscInt     m, n;                /* constraints and terms */
+  PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
+  PetscReal   *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
+  PetscReal   *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
+  PetscReal   *dead;                /* along which nothing gives way, two a term */
+  PetscReal    length;              /* size of the terms of a motion */
+  PetscBool   *closed, *slips;
+  PetscBool   *takes, listed; /* the rows that take part, once they are known */
+  PetscInt     na;            /* and their number */
+  PetscReal   *F, *Fy;
+  IPTermSystem system;
 } IPTermSet;
 
 /* The contact problem on the subspace; n and m are zero on all ranks but the first */
@@ -687,6 +706,7 @@ PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal 
 PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
 PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
+PETSC_INTERN void           IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2]);
 PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);
 PETSC_INTERN PetscErrorCode IPTermsSubtractForces(Tao, Vec);
 PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force);
@@ -695,6 +715,9 @@ PETSC_INTERN PetscErrorCode IPTermsViolation(Tao, PetscReal *largest);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao, Mat, Vec, Vec, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);
+
+/* resistance.c */
+PETSC_INTERN PetscErrorCode IPTermsResistance(Tao);
 
 /* worth.c */
 PETSC_INTERN PetscErrorCode IPWorthTerms(Tao, PetscReal *);
@@ -796,10 +819,18 @@ PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
 
+/* termsystem.c */
+PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R);
+PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
+PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[], const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
+PETSC_INTERN PetscErrorCode IPTermSystemAssemble(IPTermSystem *);
+PETSC_INTERN PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *, const PetscReal f[], PetscReal v[]);
+PETSC_INTERN PetscErrorCode IPTermSystemSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+
 /* termset.c */
-PETSC_INTERN PetscErrorCode IPTermSetCreate(PetscInt m, PetscInt n, PetscInt kmax, IPTermSet *);
+PETSC_INTERN PetscErrorCode IPTermSetCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *);
 PETSC_INTERN PetscErrorCode IPTermSetDestroy(IPTermSet *);
-PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
 
 /* reduced.c */
 PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c, const IPBasis *, PetscBool *definite);

@@ -35,7 +35,7 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
-  PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
+  if (ip->terms.n) PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
   PetscCall(MatMultAdd(ip->hess.H, d, tao->gradient, gradient));

@@ -216,8 +216,7 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
   PetscCall(PetscMalloc3((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t));
   PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
   PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
-  if (r->nterms) PetscCall(IPTermSetCreate(r->m, r->nterms, s->kmax, &r->terms));
-  else PetscCall(IPActiveSetCreate(r->m, &r->set));
+  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
   PetscFunctionReturn(0);
 }
 
@@ -259,6 +258,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, 
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedCreateSystem(r, basis));
   if (r->first) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  if (r->nterms) PetscCall(IPTermSetCreate(r->m, r->nterms, basis->max, KWW, JW, &r->terms));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscCall(ReducedTell(r, definite));
@@ -346,7 +346,7 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
 
     active[i] = (PetscBool)(s->gap[i] > 0.0);
   }
-  r->set.factored = r->terms.factored = PETSC_FALSE;
+  r->set.factored = r->terms.listed = PETSC_FALSE;
   if (!terms->n) PetscFunctionReturn(0);
   PetscCall(ReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
   PetscCall(ReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
@@ -414,7 +414,7 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal E[])
 PetscErrorCode IPReducedForget(IPReduced *r)
 {
   PetscFunctionBegin;
-  r->system.k = r->set.k = r->terms.k = 0;
+  r->system.k = r->set.k = r->terms.system.k = 0;
   if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
 }
@@ -437,7 +437,7 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->nterms) PetscCall(IPTermSetSolve(&r->terms, &r->compliance, &r->system, &r->nsteps, solved));
+  if (r->nterms) PetscCall(IPTermSetSolve(&r->terms, &r->system, &r->nsteps, solved));
   else PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
   r->nactive = r->nterms ? r->terms.na : r->set.n;
   PetscFunctionReturn(0);

@@ -374,6 +374,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCall(IPTermsSetUp(tao));
+  PetscCall(IPTermsResistance(tao));
   PetscCall(IPFilteredBegin(tao, &begun));
   if (!begun && ip->terms.n) {
     PetscCall(EndTerms(tao));
