@@ -18,26 +18,33 @@ typedef struct {
   PetscReal    poisson; /* Poisson's ratio, -1 < nu < 1/2 */
 } Material;
 
+/* What a law is evaluated with [force/length^2] */
+typedef struct {
+  PetscReal lambda, mu; /* Lame parameters */
+  PetscReal bulk;       /* kappa = lambda + 2 mu/3 */
+} MaterialModuli;
+
 /*
    A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j: small strains
    then keep all their digits.
 
-   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa = lambda + 2 mu/3 and the dilatation
-   theta, so lambda = -2 mu/3 leaves the isochoric part alone.
+   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa and the dilatation theta; the isochoric
+   moduli of MaterialGetModuli() leave W_iso alone.
 
    Where the material is turned inside out (det F <= 0; linear laws do not know it) the energy is PETSC_INFINITY, and stress,
    tangent and Cauchy stress return PETSC_FALSE and write nothing.
 */
 typedef struct {
-  PetscBool constant; /* the tangent does not depend on H */
+  PetscBool constant;  /* the tangent does not depend on H */
+  PetscBool isotropic; /* and is lambda I (x) I + 2 mu I_sym */
   /* Energy density W(H) [force/length^2] */
-  PetscReal (*energy)(PetscReal lambda, PetscReal mu, const PetscReal H[9]);
+  PetscReal (*energy)(const MaterialModuli *, const PetscReal H[9]);
   /* First Piola-Kirchhoff stress P = dW/dH [force/length^2] */
-  PetscBool (*stress)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9]);
+  PetscBool (*stress)(const MaterialModuli *, const PetscReal H[9], PetscReal P[9]);
   /* Tangent A[9 (3 i + j) + 3 k + l] = dP_ij/dH_kl [force/length^2] */
-  PetscBool (*tangent)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81]);
+  PetscBool (*tangent)(const MaterialModuli *, const PetscReal H[9], PetscReal A[81]);
   /* Cauchy stress xx yy zz xy yz zx [force/length^2] */
-  PetscBool (*cauchy)(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6]);
+  PetscBool (*cauchy)(const MaterialModuli *, const PetscReal H[9], PetscReal sigma[6]);
   /* Dilatation theta(H) and its derivative C = dtheta/dH */
   PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
   /* Adds pressure times the second derivative of theta to a tangent */
@@ -48,6 +55,8 @@ typedef struct {
 PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
+/* What its law is evaluated with, and the same for the isochoric part alone */
+PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
 
 #endif

@@ -54,23 +54,24 @@ static void CubeStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6]
 {
   const MaterialLaw *law;
   const Context     *context = (const Context *)ctx;
-  PetscReal          lambda, mu, H[3][3], second[3][3];
+  MaterialModuli     moduli;
+  PetscReal          H[3][3], second[3][3];
 
   PetscCallAbort(PETSC_COMM_SELF, MaterialGetLaw(&context->material, &law));
-  PetscCallAbort(PETSC_COMM_SELF, MaterialGetLame(&context->material, &lambda, &mu));
+  PetscCallAbort(PETSC_COMM_SELF, MaterialGetModuli(&context->material, &moduli, NULL));
   CubeDerivatives(x, H, second);
-  law->cauchy(lambda, mu, &H[0][0], sigma);
+  law->cauchy(&moduli, &H[0][0], sigma);
 }
 
 /* The load f = -div P of a cell, and its part of the exact potential int W - f u */
 static PetscErrorCode CubeCell(const Material *material, PetscReal X[8][3], const PetscInt offsets[8], PetscScalar load[], PetscReal *potential)
 {
   const MaterialLaw *law;
-  PetscReal          lambda, mu;
+  MaterialModuli     moduli;
 
   PetscFunctionBeginUser;
   PetscCall(MaterialGetLaw(material, &law));
-  PetscCall(MaterialGetLame(material, &lambda, &mu));
+  PetscCall(MaterialGetModuli(material, &moduli, NULL));
   for (PetscInt q = 0; q < 27; ++q) {
     CellPoint p;
     PetscReal H[3][3], second[3][3], A[81], u[3], f[3] = {0, 0, 0};
@@ -78,9 +79,9 @@ static PetscErrorCode CubeCell(const Material *material, PetscReal X[8][3], cons
     CellPointGet(X, q, &p);
     CubeDerivatives(p.x, H, second);
     CubeDisplacement(p.x, u);
-    PetscCheck(law->tangent(lambda, mu, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
     for (PetscInt n = 0; n < 81; ++n) f[n / 27] -= A[n] * amplitude[n / 3 % 3] * second[n / 9 % 3][n % 3];
-    *potential += p.weight * (law->energy(lambda, mu, &H[0][0]) - f[0] * u[0] - f[1] * u[1] - f[2] * u[2]);
+    *potential += p.weight * (law->energy(&moduli, &H[0][0]) - f[0] * u[0] - f[1] * u[1] - f[2] * u[2]);
     for (PetscInt a = 0; a < 8; ++a) {
       for (PetscInt d = 0; d < 3; ++d) load[offsets[a] + d] += p.weight * p.N[a] * f[d];
     }

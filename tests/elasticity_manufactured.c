@@ -49,14 +49,15 @@ static void ExactGradient(const PetscReal x[3], PetscReal H[3][3])
 static PetscErrorCode BodyForce(const Material *material, const PetscReal x[3], PetscReal f[3])
 {
   const MaterialLaw *law;
-  PetscReal          lambda, mu, d1[3], d2[3][3], H[3][3], A[81];
+  MaterialModuli     moduli;
+  PetscReal          d1[3], d2[3][3], H[3][3], A[81];
 
   PetscFunctionBeginUser;
   PetscCall(MaterialGetLaw(material, &law));
-  PetscCall(MaterialGetLame(material, &lambda, &mu));
+  PetscCall(MaterialGetModuli(material, &moduli, NULL));
   SineDerivatives(x, d1, d2);
   ExactGradient(x, H);
-  PetscCheck(law->tangent(lambda, mu, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+  PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
   for (PetscInt i = 0; i < 3; ++i) {
     f[i] = 0;
     for (PetscInt j = 0; j < 3; ++j) {
@@ -89,11 +90,12 @@ static PetscErrorCode CellLoad(const Material *material, const PointCell *cell, 
 static PetscErrorCode CellErrors(const Material *material, const PointCell *cell, const PetscScalar u[], PetscReal errors[3])
 {
   const MaterialLaw *law;
-  PetscReal          lambda, mu, A[81];
+  MaterialModuli     moduli;
+  PetscReal          A[81];
 
   PetscFunctionBeginUser;
   PetscCall(MaterialGetLaw(material, &law));
-  PetscCall(MaterialGetLame(material, &lambda, &mu));
+  PetscCall(MaterialGetModuli(material, &moduli, NULL));
   for (PetscInt q = 0; q < POINTS * POINTS * POINTS; ++q) {
     Point     p;
     PetscReal value[3], H[3][3];
@@ -101,7 +103,7 @@ static PetscErrorCode CellErrors(const Material *material, const PointCell *cell
     PetscCall(PointGet(cell, q, &p));
     Exact(p.x, value);
     ExactGradient(p.x, H);
-    PetscCheck(law->tangent(lambda, mu, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
     for (PetscInt a = 0; a < cell->n; ++a) {
       for (PetscInt i = 0; i < 3; ++i) {
         value[i] -= p.N[a] * PetscRealPart(u[cell->offset[a] + i]);

@@ -98,7 +98,7 @@ static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal la
 }
 
 /* The same of mean dilatation at finite strain: int (H - H_h) : d2W_iso(H_h) : (H - H_h) + kappa (theta - Theta_h)^2 */
-static inline PetscReal CellGradientError(const ExactSolution *exact, const MaterialLaw *law, PetscReal lambda, PetscReal mu, PetscReal X[8][3], PetscReal U[8][3])
+static inline PetscReal CellGradientError(const ExactSolution *exact, const MaterialLaw *law, const MaterialModuli *moduli, const MaterialModuli *isochoric, PetscReal X[8][3], PetscReal U[8][3])
 {
   PetscReal volume = 0, mean = 0, sum = 0;
 
@@ -114,10 +114,10 @@ static inline PetscReal CellGradientError(const ExactSolution *exact, const Mate
       continue;
     }
     exact->gradient(p.x, truth);
-    law->tangent(-2 * mu / 3, mu, &H[0][0], A);
+    law->tangent(isochoric, &H[0][0], A);
     for (PetscInt i = 0; i < 9; ++i) e[i] = truth[i / 3][i % 3] - H[i / 3][i % 3];
     for (PetscInt i = 0; i < 81; ++i) square += e[i / 9] * A[i] * e[i % 9];
-    sum += p.weight * (square + (lambda + 2 * mu / 3) * PetscSqr(law->dilatation(&truth[0][0], C) - mean / volume));
+    sum += p.weight * (square + moduli->bulk * PetscSqr(law->dilatation(&truth[0][0], C) - mean / volume));
   }
   return sum;
 }
@@ -148,11 +148,11 @@ static inline PetscErrorCode TrueError(DM dm, const ExactSolution *exact, Vec u,
   Vec                coordinates, local;
   const PetscScalar *x, *l;
   PetscInt           start, end;
-  PetscReal          lambda, mu;
+  MaterialModuli     m, isochoric;
 
   PetscFunctionBeginUser;
   PetscCall(MaterialGetLaw(&exact->material, &law));
-  PetscCall(MaterialGetLame(&exact->material, &lambda, &mu));
+  PetscCall(MaterialGetModuli(&exact->material, &m, &isochoric));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetLocalVector(dm, &local));
@@ -165,7 +165,7 @@ static inline PetscErrorCode TrueError(DM dm, const ExactSolution *exact, Vec u,
     PetscInt  offsets[8];
 
     PetscCall(CellGather(dm, c, x, l, X, U, offsets));
-    *error += law->constant ? CellStressError(exact, lambda, mu, X, U) : CellGradientError(exact, law, lambda, mu, X, U);
+    *error += law->constant ? CellStressError(exact, m.lambda, m.mu, X, U) : CellGradientError(exact, law, &m, &isochoric, X, U);
   }
   PetscCall(VecRestoreArrayRead(local, &l));
   PetscCall(VecRestoreArrayRead(coordinates, &x));

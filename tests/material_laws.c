@@ -17,7 +17,7 @@ static PetscErrorCode Report(const char name[], PetscReal value, PetscReal toler
 }
 
 /* Largest errors of P against differences of W, of A against differences of P, and of A's symmetry */
-static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+static PetscErrorCode CheckDerivatives(const MaterialLaw *law, const MaterialModuli *m)
 {
   const PetscReal h         = 1e-5;
   PetscReal       errors[3] = {0, 0, 0};
@@ -27,18 +27,18 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda,
     PetscReal H[9], P[9], A[81];
 
     for (PetscInt i = 0; i < 9; ++i) H[i] = 0.25 * Rough(9 * sample + i);
-    law->stress(lambda, mu, H, P);
-    law->tangent(lambda, mu, H, A);
+    law->stress(m, H, P);
+    law->tangent(m, H, A);
     for (PetscInt j = 0; j < 9; ++j) {
       const PetscReal keep = H[j];
       PetscReal       forward, backward, Pf[9], Pb[9];
 
       H[j]    = keep + h;
-      forward = law->energy(lambda, mu, H);
-      law->stress(lambda, mu, H, Pf);
+      forward = law->energy(m, H);
+      law->stress(m, H, Pf);
       H[j]     = keep - h;
-      backward = law->energy(lambda, mu, H);
-      law->stress(lambda, mu, H, Pb);
+      backward = law->energy(m, H);
+      law->stress(m, H, Pb);
       H[j]      = keep;
       errors[0] = PetscMax(errors[0], PetscAbsReal((forward - backward) / (2 * h) - P[j]));
       for (PetscInt i = 0; i < 9; ++i) {
@@ -54,9 +54,9 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, PetscReal lambda,
 }
 
 /* W = W_iso + kappa/2 theta^2, and theta's derivatives against differences */
-static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const MaterialModuli *m, const MaterialModuli *isochoric)
 {
-  const PetscReal h = 1e-5, kappa = lambda + 2 * mu / 3;
+  const PetscReal h = 1e-5, kappa = m->bulk;
   PetscReal       errors[3] = {0, 0, 0};
 
   PetscFunctionBeginUser;
@@ -67,7 +67,7 @@ static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, PetscReal lamb
     theta = law->dilatation(H, C);
     PetscCall(PetscArrayzero(A, 81));
     law->curvature(kappa, H, A);
-    errors[0] = PetscMax(errors[0], PetscAbsReal(law->energy(lambda, mu, H) - law->energy(-2 * mu / 3, mu, H) - 0.5 * kappa * theta * theta));
+    errors[0] = PetscMax(errors[0], PetscAbsReal(law->energy(m, H) - law->energy(isochoric, H) - 0.5 * kappa * theta * theta));
     for (PetscInt j = 0; j < 9; ++j) {
       const PetscReal keep = H[j];
       PetscReal       forward, backward, Cf[9], Cb[9];
@@ -88,7 +88,7 @@ static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, PetscReal lamb
 }
 
 /* Strains far below the square root of the rounding error: Hooke's stress and energy to many digits */
-static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, const MaterialModuli *m)
 {
   const MaterialLaw *hooke;
   const Material     linear = {MATERIAL_LINEAR, 1, 0};
@@ -97,49 +97,49 @@ static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, PetscReal lambda
   PetscFunctionBeginUser;
   PetscCall(MaterialGetLaw(&linear, &hooke));
   for (PetscInt i = 0; i < 9; ++i) H[i] = 1e-10 * Rough(7 + i);
-  law->stress(lambda, mu, H, P);
-  hooke->stress(lambda, mu, H, Q);
+  law->stress(m, H, P);
+  hooke->stress(m, H, Q);
   for (PetscInt i = 0; i < 9; ++i) {
     difference = PetscMax(difference, PetscAbsReal(P[i] - Q[i]));
     scale      = PetscMax(scale, PetscAbsReal(Q[i]));
   }
-  W = hooke->energy(lambda, mu, H);
+  W = hooke->energy(m, H);
   PetscCall(Report("stress of strains of 1e-10 against Hooke's, relative", difference / scale, 1e-8));
-  PetscCall(Report("energy of strains of 1e-10 against Hooke's, relative", PetscAbsReal(law->energy(lambda, mu, H) - W) / W, 1e-8));
+  PetscCall(Report("energy of strains of 1e-10 against Hooke's, relative", PetscAbsReal(law->energy(m, H) - W) / W, 1e-8));
   PetscFunctionReturn(0);
 }
 
 /* At rest a law is without energy and stress, and its tangent is Hooke's; uniaxial strain e stresses it by (lambda + 2 mu) e and lambda e */
-static PetscErrorCode CheckRest(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+static PetscErrorCode CheckRest(const MaterialLaw *law, const MaterialModuli *m)
 {
   const PetscReal small = 1e-7, H[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, strain[9] = {small, 0, 0, 0, 0, 0, 0, 0, 0};
   PetscReal       P[9], A[81], sigma[6], stress = 0, difference = 0;
 
   PetscFunctionBeginUser;
-  law->stress(lambda, mu, H, P);
-  law->tangent(lambda, mu, H, A);
+  law->stress(m, H, P);
+  law->tangent(m, H, A);
   for (PetscInt p = 0; p < 9; ++p) {
     const PetscInt i = p / 3, j = p % 3;
 
     stress = PetscMax(stress, PetscAbsReal(P[p]));
     for (PetscInt q = 0; q < 9; ++q) {
       const PetscInt  k = q / 3, l = q % 3;
-      const PetscReal hooke = lambda * (i == j) * (k == l) + mu * ((i == k) * (j == l) + (i == l) * (j == k));
+      const PetscReal hooke = m->lambda * (i == j) * (k == l) + m->mu * ((i == k) * (j == l) + (i == l) * (j == k));
 
       difference = PetscMax(difference, PetscAbsReal(A[9 * p + q] - hooke));
     }
   }
-  law->cauchy(lambda, mu, strain, sigma);
-  PetscCall(Report("energy at rest", PetscAbsReal(law->energy(lambda, mu, H)), 1e-14));
+  law->cauchy(m, strain, sigma);
+  PetscCall(Report("energy at rest", PetscAbsReal(law->energy(m, H)), 1e-14));
   PetscCall(Report("stress at rest", stress, 1e-14));
   PetscCall(Report("tangent at rest less Hooke's", difference, 1e-13));
-  PetscCall(Report("axial stress of a small strain", PetscAbsReal(sigma[0] / small - (lambda + 2 * mu)), 1e-5));
-  PetscCall(Report("lateral stress of a small strain", PetscMax(PetscAbsReal(sigma[1] / small - lambda), PetscAbsReal(sigma[2] / small - lambda)), 1e-5));
+  PetscCall(Report("axial stress of a small strain", PetscAbsReal(sigma[0] / small - (m->lambda + 2 * m->mu)), 1e-5));
+  PetscCall(Report("lateral stress of a small strain", PetscMax(PetscAbsReal(sigma[1] / small - m->lambda), PetscAbsReal(sigma[2] / small - m->lambda)), 1e-5));
   PetscFunctionReturn(0);
 }
 
 /* F -> R F changes no energy, and turns the Cauchy stress with it; only for finite strain */
-static PetscErrorCode CheckRotation(const MaterialLaw *law, PetscReal lambda, PetscReal mu)
+static PetscErrorCode CheckRotation(const MaterialLaw *law, const MaterialModuli *m)
 {
   const PetscReal c = PetscCosReal(0.8), s = PetscSinReal(0.8), R[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
   PetscReal       H[9], RH[9], sigma[6], turned[6];
@@ -152,9 +152,9 @@ static PetscErrorCode CheckRotation(const MaterialLaw *law, PetscReal lambda, Pe
       for (PetscInt k = 0; k < 3; ++k) RH[3 * i + j] += R[i][k] * (H[3 * k + j] + (k == j));
     }
   }
-  law->cauchy(lambda, mu, H, sigma);
-  law->cauchy(lambda, mu, RH, turned);
-  PetscCall(Report("energy changed by a rotation", PetscAbsReal(law->energy(lambda, mu, H) - law->energy(lambda, mu, RH)), 1e-14));
+  law->cauchy(m, H, sigma);
+  law->cauchy(m, RH, turned);
+  PetscCall(Report("energy changed by a rotation", PetscAbsReal(law->energy(m, H) - law->energy(m, RH)), 1e-14));
   PetscCall(Report("turned normal stress", PetscAbsReal(turned[0] - (c * c * sigma[0] + s * s * sigma[1] - 2 * s * c * sigma[3])), 1e-13));
   PetscCall(Report("turned shear stress", PetscAbsReal(turned[5] - (c * sigma[5] - s * sigma[4])), 1e-13));
   PetscFunctionReturn(0);
@@ -171,18 +171,18 @@ static PetscReal PressureSaintVenant(PetscReal kappa, PetscReal a)
   return 1.5 * kappa * (a * a - 1) / a;
 }
 
-static PetscErrorCode CheckDilation(const MaterialLaw *law, PetscReal lambda, PetscReal mu, PetscReal (*pressure)(PetscReal, PetscReal))
+static PetscErrorCode CheckDilation(const MaterialLaw *law, const MaterialModuli *m, PetscReal (*pressure)(PetscReal, PetscReal))
 {
-  const PetscReal a = 1.3, kappa = lambda + 2 * mu / 3, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
-  PetscReal       sigma[6], P[9], A[81], error                                                                    = 0;
+  const PetscReal a = 1.3, kappa = m->bulk, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
+  PetscReal       sigma[6], P[9], A[81], error                                                        = 0;
   PetscBool       refused;
 
   PetscFunctionBeginUser;
-  law->cauchy(lambda, mu, H, sigma);
+  law->cauchy(m, H, sigma);
   for (PetscInt k = 0; k < 6; ++k) error = PetscMax(error, PetscAbsReal(sigma[k] - (k < 3 ? pressure(kappa, a) : 0)));
   PetscCall(Report("pressure of a dilation", error, 1e-13));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", law->energy(lambda, mu, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
-  refused = (PetscBool)(!law->stress(lambda, mu, inside, P) && !law->tangent(lambda, mu, inside, A) && !law->cauchy(lambda, mu, inside, sigma));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", law->energy(m, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
+  refused = (PetscBool)(!law->stress(m, inside, P) && !law->tangent(m, inside, A) && !law->cauchy(m, inside, sigma));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", refused ? "no stress, no tangent" : "STRESS OR TANGENT"));
   PetscFunctionReturn(0);
 }
@@ -209,18 +209,18 @@ int main(int argc, char **argv)
   for (PetscInt t = MATERIAL_LINEAR; t <= MATERIAL_SAINT_VENANT; ++t) {
     const Material     material = {(MaterialType)t, 2.6, 0.3};
     const MaterialLaw *law;
-    PetscReal          lambda, mu;
+    MaterialModuli     m, isochoric;
 
-    PetscCall(MaterialGetLame(&material, &lambda, &mu));
+    PetscCall(MaterialGetModuli(&material, &m, &isochoric));
     PetscCall(MaterialGetLaw(&material, &law));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[t], law->constant ? ", constant tangent" : ""));
-    PetscCall(CheckDerivatives(law, lambda, mu));
-    PetscCall(CheckDilatationPart(law, lambda, mu));
-    PetscCall(CheckRest(law, lambda, mu));
-    PetscCall(CheckSmallStrains(law, lambda, mu));
+    PetscCall(CheckDerivatives(law, &m));
+    PetscCall(CheckDilatationPart(law, &m, &isochoric));
+    PetscCall(CheckRest(law, &m));
+    PetscCall(CheckSmallStrains(law, &m));
     if (t != MATERIAL_LINEAR) {
-      PetscCall(CheckRotation(law, lambda, mu));
-      PetscCall(CheckDilation(law, lambda, mu, t == MATERIAL_NEOHOOKEAN ? PressureNeoHookean : PressureSaintVenant));
+      PetscCall(CheckRotation(law, &m));
+      PetscCall(CheckDilation(law, &m, t == MATERIAL_NEOHOOKEAN ? PressureNeoHookean : PressureSaintVenant));
     }
   }
   PetscCall(CheckParameters(2.6, 0.3));

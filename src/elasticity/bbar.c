@@ -92,9 +92,9 @@ static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *
   PetscReal  sum = 0;
 
   ElementDilatation(basis, m, X, U, &d);
-  for (int k = 0; k < d.npolynomials; ++k) sum += 0.5 * BulkModulus(m) * d.square[k] * d.mean[k] * d.mean[k];
+  for (int k = 0; k < d.npolynomials; ++k) sum += 0.5 * m->moduli.bulk * d.square[k] * d.mean[k] * d.mean[k];
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal density = m->law->energy(IsochoricLambda(m), m->mu, d.H[q]);
+    const PetscReal density = m->law->energy(&m->isochoric, d.H[q]);
 
     if (density >= PETSC_INFINITY) return PETSC_INFINITY;
     sum += d.w[q] * density;
@@ -109,11 +109,11 @@ static inline PetscBool BbarForce(const int n, const CellBasis *basis, const Bod
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < n; ++a) F[i][a] = 0;
     for (int k = 0; k < d->npolynomials; ++k) {
-      for (int a = 0; a < n; ++a) F[i][a] += BulkModulus(m) * d->mean[k] * d->g[k][i][a];
+      for (int a = 0; a < n; ++a) F[i][a] += m->moduli.bulk * d->mean[k] * d->g[k][i][a];
     }
   }
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->stress(IsochoricLambda(m), m->mu, d->H[q], P)) return PETSC_FALSE;
+    if (!m->law->stress(&m->isochoric, d->H[q], P)) return PETSC_FALSE;
     CellForceAdd(n, d->w[q], d->G[q], P, F);
   }
   return PETSC_TRUE;
@@ -136,8 +136,8 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
 
   CellSumsClear(basis->nnodes, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->tangent(IsochoricLambda(m), m->mu, d->H[q], A)) return PETSC_FALSE;
-    m->law->curvature(BulkModulus(m) * DilatationAt(d, q), d->H[q], A);
+    if (!m->law->tangent(&m->isochoric, d->H[q], A)) return PETSC_FALSE;
+    m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
     CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
   }
   CellStiffnessFinish(basis, &S, K);
@@ -155,13 +155,13 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
     PetscReal rest[3][CELL_MAX_NODES] = {{0}};
 
     ElementDilatation(basis, m, X, rest, &d);
-    CellStiffnessIsotropic(basis, X, IsochoricLambda(m), m->mu, K);
+    CellStiffnessConstant(basis, m->law, &m->isochoric, X, K);
   } else {
     ElementDilatation(basis, m, X, U, &d);
     if (!ElementStiffnessPoints_Bbar(basis, m, &d, K)) return PETSC_FALSE;
   }
   for (int k = 0; k < d.npolynomials; ++k) {
-    for (PetscInt r = 0; r < width; ++r) rank1[r] = PetscSqrtReal(BulkModulus(m) / d.square[k]) * d.g[k][r % 3][r / 3];
+    for (PetscInt r = 0; r < width; ++r) rank1[r] = PetscSqrtReal(m->moduli.bulk / d.square[k]) * d.g[k][r % 3][r / 3];
     for (PetscInt r = 0; r < width; ++r) {
       for (PetscInt s = 0; s < width; ++s) K[width * r + s] += rank1[r] * rank1[s];
     }
@@ -176,9 +176,9 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
   PetscReal  s[6];
 
   ElementDilatation(basis, m, X, U, &d);
-  for (int k = 0; k < 6; ++k) sigma[k] = k < 3 ? BulkModulus(m) * d.mean[0] : 0;
+  for (int k = 0; k < 6; ++k) sigma[k] = k < 3 ? m->moduli.bulk * d.mean[0] : 0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->cauchy(IsochoricLambda(m), m->mu, d.H[q], s)) return PETSC_FALSE;
+    if (!m->law->cauchy(&m->isochoric, d.H[q], s)) return PETSC_FALSE;
     for (int k = 0; k < 6; ++k) sigma[k] += d.w[q] / d.square[0] * s[k];
   }
   return PETSC_TRUE;

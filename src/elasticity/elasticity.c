@@ -136,7 +136,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   for (PetscInt b = 0; b < nbodies; ++b) {
     BodyMaterial *m = &e->bodies[b].material;
 
-    PetscCall(MaterialGetLame(&materials[b], &m->lambda, &m->mu));
+    PetscCall(MaterialGetModuli(&materials[b], &m->moduli, &m->isochoric));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);

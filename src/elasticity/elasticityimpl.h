@@ -88,8 +88,8 @@ typedef struct {
   PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b], k >= i */
 } CellSums;
 
-/* Stiffness of an isotropic law with constant tangent */
-PETSC_INTERN void CellStiffnessIsotropic(const CellBasis *, PetscReal X[3][CELL_MAX_NODES], PetscReal lambda, PetscReal mu, PetscScalar K[]);
+/* Stiffness of a law with constant tangent */
+PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *, PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
 /* Clears the sums; adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]; then the stiffness from the sums over all points */
 PETSC_INTERN void CellSumsClear(PetscInt n, CellSums *);
 PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81], CellSums *);
@@ -103,19 +103,8 @@ PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, Petsc
 */
 typedef struct {
   const MaterialLaw *law;
-  PetscReal          lambda, mu; /* [force/length^2] */
+  MaterialModuli     moduli, isochoric; /* all of the law, and what is left of it without its bulk modulus */
 } BodyMaterial;
-
-/* lambda of the isochoric part: kappa = lambda + 2 mu/3 = 0 */
-static inline PetscReal IsochoricLambda(const BodyMaterial *m)
-{
-  return -2 * m->mu / 3;
-}
-
-static inline PetscReal BulkModulus(const BodyMaterial *m)
-{
-  return m->lambda + 2 * m->mu / 3;
-}
 
 #define ELEMENT_STRAINS 10
 

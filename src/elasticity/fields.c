@@ -4,9 +4,9 @@
 /* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2 makes */
 static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
 {
-  const PetscBool valid = m->law->cauchy(IsochoricLambda(m), m->mu, strain, stress);
+  const PetscBool valid = m->law->cauchy(&m->isochoric, strain, stress);
 
-  for (int k = 0; k < 6; ++k) stress[k] = valid ? stress[k] + (k < 3 ? BulkModulus(m) * strain[9] : 0) : PETSC_INFINITY;
+  for (int k = 0; k < 6; ++k) stress[k] = valid ? stress[k] + (k < 3 ? m->moduli.bulk * strain[9] : 0) : PETSC_INFINITY;
   return valid;
 }
 

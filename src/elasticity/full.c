@@ -10,7 +10,7 @@ static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const Bo
     PetscReal       density;
 
     CellDisplacementGradient(n, U, G, H);
-    density = m->law->energy(m->lambda, m->mu, H);
+    density = m->law->energy(&m->moduli, H);
     if (density >= PETSC_INFINITY) return PETSC_INFINITY;
     sum += w * density;
   }
@@ -33,7 +33,7 @@ static inline PetscBool FullForce(const int n, const CellBasis *basis, const Bod
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->stress(m->lambda, m->mu, H, P)) return PETSC_FALSE;
+    if (!m->law->stress(&m->moduli, H, P)) return PETSC_FALSE;
     CellForceAdd(n, w, G, P, F);
   }
   return PETSC_TRUE;
@@ -55,7 +55,7 @@ static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->tangent(m->lambda, m->mu, H, A)) return PETSC_FALSE;
+    if (!m->law->tangent(&m->moduli, H, A)) return PETSC_FALSE;
     CellStiffnessAdd(basis, w, G, A, &S);
   }
   CellStiffnessFinish(basis, &S, K);
@@ -65,7 +65,7 @@ static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const
 static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   if (!m->law->constant) return CELL_CALL(FullStiffness, basis, m, X, U, K);
-  CellStiffnessIsotropic(basis, X, m->lambda, m->mu, K);
+  CellStiffnessConstant(basis, m->law, &m->moduli, X, K);
   return PETSC_TRUE;
 }
 
@@ -78,7 +78,7 @@ static inline PetscBool FullCauchy(const int n, const CellBasis *basis, const Bo
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->cauchy(m->lambda, m->mu, H, s)) return PETSC_FALSE;
+    if (!m->law->cauchy(&m->moduli, H, s)) return PETSC_FALSE;
     for (int k = 0; k < 6; ++k) sigma[k] += w * s[k];
     volume += w;
   }

@@ -79,7 +79,7 @@ static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, Pet
 
     IncompatibleModes(basis, q, w, cofactor, M);
     for (int k = 0; k < MODES; ++k) {
-      (void)m->law->stress(m->lambda, m->mu, M[k], P);
+      (void)m->law->stress(&m->moduli, M[k], P);
       CellForceAdd(8, w, G, P, modes->K[k]);
       for (int l = 0; l <= k; ++l) {
         for (int j = 0; j < 9; ++j) modes->L[k][l] += w * P[j] * M[l][j];

@@ -50,11 +50,6 @@ static inline void StiffnessIsotropic(const int n, const CellBasis *basis, Petsc
   }
 }
 
-void CellStiffnessIsotropic(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal lambda, PetscReal mu, PetscScalar K[])
-{
-  CELL_CALL(StiffnessIsotropic, basis, X, lambda, mu, K);
-}
-
 static inline void StiffnessAdd(const int n, const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81], CellSums *S)
 {
   (void)basis;
@@ -96,5 +91,32 @@ void CellStiffnessFinish(const CellBasis *basis, const CellSums *S, PetscScalar 
         }
       }
     }
+  }
+}
+
+/* With the tangent at rest, where it does not come from lambda and mu alone */
+static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], const PetscReal A[81], PetscScalar K[])
+{
+  PetscReal G[3][CELL_MAX_NODES];
+  CellSums  S;
+
+  CellSumsClear(n, &S);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients(n, basis, q, X, G);
+
+    StiffnessAdd(n, basis, w, G, A, &S);
+  }
+  CellStiffnessFinish(basis, &S, K);
+}
+
+void CellStiffnessConstant(const CellBasis *basis, const MaterialLaw *law, const MaterialModuli *m, PetscReal X[3][CELL_MAX_NODES], PetscScalar K[])
+{
+  const PetscReal rest[9] = {0};
+  PetscReal       A[81];
+
+  if (law->isotropic) CELL_CALL(StiffnessIsotropic, basis, X, m->lambda, m->mu, K);
+  else {
+    (void)law->tangent(m, rest, A);
+    CELL_CALL(StiffnessAnisotropic, basis, X, A, K);
   }
 }

@@ -1,32 +1,32 @@
 /* Isotropic linear elasticity: W = lambda/2 (tr e)^2 + mu e:e, e = (H + H^T)/2 */
 #include "materialimpl.h"
 
-static PetscReal MaterialEnergy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+static PetscReal MaterialEnergy_Linear(const MaterialModuli *m, const PetscReal H[9])
 {
   const PetscReal trace = H[0] + H[4] + H[8];
   const PetscReal xy = H[1] + H[3], yz = H[5] + H[7], zx = H[2] + H[6];
 
-  return 0.5 * lambda * trace * trace + mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
+  return 0.5 * m->lambda * trace * trace + m->mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
 }
 
-static PetscBool MaterialCauchy_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+static PetscBool MaterialCauchy_Linear(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
-  const PetscReal pressure = lambda * (H[0] + H[4] + H[8]);
+  const PetscReal pressure = m->lambda * (H[0] + H[4] + H[8]);
 
-  sigma[0] = pressure + 2 * mu * H[0];
-  sigma[1] = pressure + 2 * mu * H[4];
-  sigma[2] = pressure + 2 * mu * H[8];
-  sigma[3] = mu * (H[1] + H[3]);
-  sigma[4] = mu * (H[5] + H[7]);
-  sigma[5] = mu * (H[2] + H[6]);
+  sigma[0] = pressure + 2 * m->mu * H[0];
+  sigma[1] = pressure + 2 * m->mu * H[4];
+  sigma[2] = pressure + 2 * m->mu * H[8];
+  sigma[3] = m->mu * (H[1] + H[3]);
+  sigma[4] = m->mu * (H[5] + H[7]);
+  sigma[5] = m->mu * (H[2] + H[6]);
   return PETSC_TRUE;
 }
 
-static PetscBool MaterialStress_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+static PetscBool MaterialStress_Linear(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
   PetscReal s[6];
 
-  MaterialCauchy_Linear(lambda, mu, H, s);
+  MaterialCauchy_Linear(m, H, s);
   P[0] = s[0];
   P[4] = s[1];
   P[8] = s[2];
@@ -36,15 +36,15 @@ static PetscBool MaterialStress_Linear(PetscReal lambda, PetscReal mu, const Pet
   return PETSC_TRUE;
 }
 
-static PetscBool MaterialTangent_Linear(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialTangent_Linear(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   (void)H;
   for (int i = 0; i < 81; ++i) A[i] = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      A[9 * (3 * i + i) + 3 * j + j] += lambda;
-      A[9 * (3 * i + j) + 3 * i + j] += mu;
-      A[9 * (3 * i + j) + 3 * j + i] += mu;
+      A[9 * (3 * i + i) + 3 * j + j] += m->lambda;
+      A[9 * (3 * i + j) + 3 * i + j] += m->mu;
+      A[9 * (3 * i + j) + 3 * j + i] += m->mu;
     }
   }
   return PETSC_TRUE;
@@ -62,4 +62,4 @@ static void MaterialCurvature_Linear(PetscReal pressure, const PetscReal H[9], P
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawLinear = {PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};
+const MaterialLaw MaterialLawLinear = {PETSC_TRUE, PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};

@@ -34,6 +34,35 @@ PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, Pets
   PetscFunctionReturn(0);
 }
 
+/*@
+  MaterialGetModuli - Gets what a material's law is evaluated with
+
+  Not Collective
+
+  Input Parameter:
+. material - the material
+
+  Output Parameters:
++ moduli    - the moduli [force/length^2]
+- isochoric - those that leave the law without kappa/2 theta^2, the energy of its dilatation; `NULL` if not wanted [force/length^2]
+
+  Level: developer
+
+.seealso: `MaterialGetLaw()`, `MaterialGetLame()`
+@*/
+PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *moduli, MaterialModuli *isochoric)
+{
+  PetscFunctionBegin;
+  *moduli = (MaterialModuli){0};
+  PetscCall(MaterialGetLame(material, &moduli->lambda, &moduli->mu));
+  moduli->bulk = moduli->lambda + 2 * moduli->mu / 3;
+  if (!isochoric) PetscFunctionReturn(0);
+  *isochoric        = *moduli;
+  isochoric->lambda = -2 * moduli->mu / 3;
+  isochoric->bulk   = 0;
+  PetscFunctionReturn(0);
+}
+
 PetscBool MaterialIsFinite(const Material *material)
 {
   return (PetscBool)(material->type == MATERIAL_NEOHOOKEAN || material->type == MATERIAL_SAINT_VENANT);

@@ -58,48 +58,47 @@ static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
   return -3 * q / (r * (r * r + r + 1));
 }
 
-static PetscReal MaterialEnergy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+static PetscReal MaterialEnergy_NeoHookean(const MaterialModuli *m, const PetscReal H[9])
 {
   Kinematics k;
 
   if (!NeoHookeanKinematics(H, &k)) return PETSC_INFINITY;
-  return 0.5 * mu * NeoHookeanIsochoric(H, &k) + 0.5 * (lambda + 2 * mu / 3) * k.theta * k.theta;
+  return 0.5 * m->mu * NeoHookeanIsochoric(H, &k) + 0.5 * m->bulk * k.theta * k.theta;
 }
 
 /* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 - 3)/3 cof F */
-static inline void NeoHookeanStress(PetscReal lambda, PetscReal mu, const PetscReal H[9], const Kinematics *k, PetscReal P[9])
+static inline void NeoHookeanStress(const MaterialModuli *m, const PetscReal H[9], const Kinematics *k, PetscReal P[9])
 {
-  const PetscReal J = 1 + k->theta, m = mu * k->power, g = (lambda + 2 * mu / 3) * k->theta - m * k->i1 / (3 * J);
+  const PetscReal J = 1 + k->theta, shear = m->mu * k->power, g = m->bulk * k->theta - shear * k->i1 / (3 * J);
 
   for (int i = 0; i < 9; ++i) {
     const PetscReal unit = i % 4 ? 0 : 1;
 
-    P[i] = m * (H[i] + (k->theta * unit - k->D[i]) / J) + g * (unit + k->D[i]);
+    P[i] = shear * (H[i] + (k->theta * unit - k->D[i]) / J) + g * (unit + k->D[i]);
   }
 }
 
-static PetscBool MaterialStress_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+static PetscBool MaterialStress_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
   Kinematics k;
 
   if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
-  NeoHookeanStress(lambda, mu, H, &k, P);
+  NeoHookeanStress(m, H, &k, P);
   return PETSC_TRUE;
 }
 
 /* With G = F^(-T), from dJ = J G:dF, dI1 = 2 F:dF and dG_iJ = -G_iL G_kJ dF_kL */
-static PetscBool MaterialTangent_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   Kinematics k;
-  PetscReal  F[9], G[9], J, m, unit, dyad, mixed, crossed;
+  PetscReal  F[9], G[9], J, unit, dyad, mixed, crossed;
 
   if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
   J       = 1 + k.theta;
-  m       = mu * k.power;
-  unit    = m;
-  mixed   = -2. / 3. * m;
-  dyad    = 2. / 9. * m * (3 + k.i1) + (lambda + 2 * mu / 3) * (2 * J - 1) * J;
-  crossed = m * (3 + k.i1) / 3 - (lambda + 2 * mu / 3) * k.theta * J;
+  unit    = m->mu * k.power;
+  mixed   = -2. / 3. * unit;
+  dyad    = 2. / 9. * unit * (3 + k.i1) + m->bulk * (2 * J - 1) * J;
+  crossed = unit * (3 + k.i1) / 3 - m->bulk * k.theta * J;
   for (int i = 0; i < 9; ++i) {
     F[i] = (i % 4 ? 0 : 1) + H[i];
     G[i] = ((i % 4 ? 0 : 1) + k.D[i]) / J;
@@ -115,14 +114,14 @@ static PetscBool MaterialTangent_NeoHookean(PetscReal lambda, PetscReal mu, cons
 }
 
 /* sigma = P F^T / J */
-static PetscBool MaterialCauchy_NeoHookean(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+static PetscBool MaterialCauchy_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   Kinematics       k;
   PetscReal        P[9];
 
   if (!NeoHookeanKinematics(H, &k)) return PETSC_FALSE;
-  NeoHookeanStress(lambda, mu, H, &k, P);
+  NeoHookeanStress(m, H, &k, P);
   for (int s = 0; s < 6; ++s) {
     const PetscReal *p = P + 3 * row[s], *h = H + 3 * column[s];
 
@@ -157,4 +156,4 @@ static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9
   }
 }
 
-const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, MaterialEnergy_NeoHookean, MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean, MaterialCurvature_NeoHookean};
+const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_NeoHookean, MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean, MaterialCurvature_NeoHookean};

@@ -4,29 +4,29 @@
 */
 #include "materialimpl.h"
 
-static PetscReal MaterialEnergy_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+static PetscReal MaterialEnergy_Rigid(const MaterialModuli *m, const PetscReal H[9])
 {
-  (void)lambda, (void)mu, (void)H;
+  (void)m, (void)H;
   return 0;
 }
 
-static PetscBool MaterialStress_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+static PetscBool MaterialStress_Rigid(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
-  (void)lambda, (void)mu, (void)H;
+  (void)m, (void)H;
   for (int i = 0; i < 9; ++i) P[i] = 0;
   return PETSC_TRUE;
 }
 
-static PetscBool MaterialTangent_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialTangent_Rigid(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
-  (void)lambda, (void)H;
-  for (int i = 0; i < 81; ++i) A[i] = i % 10 ? 0 : mu;
+  (void)H;
+  for (int i = 0; i < 81; ++i) A[i] = i % 10 ? 0 : m->mu;
   return PETSC_TRUE;
 }
 
-static PetscBool MaterialCauchy_Rigid(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+static PetscBool MaterialCauchy_Rigid(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
-  (void)lambda, (void)mu, (void)H;
+  (void)m, (void)H;
   for (int i = 0; i < 6; ++i) sigma[i] = 0;
   return PETSC_TRUE;
 }
@@ -43,4 +43,4 @@ static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], Pe
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawRigid = {PETSC_TRUE, MaterialEnergy_Rigid, MaterialStress_Rigid, MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};
+const MaterialLaw MaterialLawRigid = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Rigid, MaterialStress_Rigid, MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};

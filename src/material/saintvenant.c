@@ -19,32 +19,32 @@ static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
 }
 
 /* S = lambda tr E I + 2 mu E, whether det F > 0 (or not a number) */
-static PetscBool SaintVenantStress(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal S[9], PetscReal *J)
+static PetscBool SaintVenantStress(const MaterialModuli *m, const PetscReal H[9], PetscReal S[9], PetscReal *J)
 {
   PetscReal E[9];
 
   *J = SaintVenantStrain(H, E);
   if (*J <= 0) return PETSC_FALSE;
-  for (int k = 0; k < 9; ++k) S[k] = 2 * mu * E[k] + (k % 4 ? 0 : lambda * (E[0] + E[4] + E[8]));
+  for (int k = 0; k < 9; ++k) S[k] = 2 * m->mu * E[k] + (k % 4 ? 0 : m->lambda * (E[0] + E[4] + E[8]));
   return PETSC_TRUE;
 }
 
-static PetscReal MaterialEnergy_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9])
+static PetscReal MaterialEnergy_SaintVenant(const MaterialModuli *m, const PetscReal H[9])
 {
   PetscReal E[9], trace, square = 0;
 
   if (SaintVenantStrain(H, E) <= 0) return PETSC_INFINITY;
   trace = E[0] + E[4] + E[8];
   for (int k = 0; k < 9; ++k) square += E[k] * E[k];
-  return 0.5 * lambda * trace * trace + mu * square;
+  return 0.5 * m->lambda * trace * trace + m->mu * square;
 }
 
 /* P = F S */
-static PetscBool MaterialStress_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal P[9])
+static PetscBool MaterialStress_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
   PetscReal S[9], J;
 
-  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) P[3 * i + j] = S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j];
   }
@@ -52,11 +52,11 @@ static PetscBool MaterialStress_SaintVenant(PetscReal lambda, PetscReal mu, cons
 }
 
 /* dP_ij = dF_il S_lj + F_il dS_lj, dE = (F^T dF + dF^T F)/2 */
-static PetscBool MaterialTangent_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal A[81])
+static PetscBool MaterialTangent_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   PetscReal S[9], F[9], B[9], J;
 
-  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int k = 0; k < 9; ++k) F[k] = (k % 4 ? 0 : 1) + H[k];
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) B[3 * i + k] = F[3 * i] * F[3 * k] + F[3 * i + 1] * F[3 * k + 1] + F[3 * i + 2] * F[3 * k + 2];
@@ -65,7 +65,7 @@ static PetscBool MaterialTangent_SaintVenant(PetscReal lambda, PetscReal mu, con
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
         for (int l = 0; l < 3; ++l) {
-          A[9 * (3 * i + j) + 3 * k + l] = (i == k ? S[3 * j + l] : 0) + lambda * F[3 * i + j] * F[3 * k + l] + mu * (F[3 * i + l] * F[3 * k + j] + (j == l ? B[3 * i + k] : 0));
+          A[9 * (3 * i + j) + 3 * k + l] = (i == k ? S[3 * j + l] : 0) + m->lambda * F[3 * i + j] * F[3 * k + l] + m->mu * (F[3 * i + l] * F[3 * k + j] + (j == l ? B[3 * i + k] : 0));
         }
       }
     }
@@ -74,12 +74,12 @@ static PetscBool MaterialTangent_SaintVenant(PetscReal lambda, PetscReal mu, con
 }
 
 /* sigma = F S F^T / J */
-static PetscBool MaterialCauchy_SaintVenant(PetscReal lambda, PetscReal mu, const PetscReal H[9], PetscReal sigma[6])
+static PetscBool MaterialCauchy_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   PetscReal        S[9], J;
 
-  if (!SaintVenantStress(lambda, mu, H, S, &J)) return PETSC_FALSE;
+  if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int s = 0; s < 6; ++s) {
     sigma[s] = 0;
     for (int k = 0; k < 9; ++k) sigma[s] += ((row[s] == k / 3) + H[3 * row[s] + k / 3]) * S[k] * ((column[s] == k % 3) + H[3 * column[s] + k % 3]) / J;
@@ -103,4 +103,4 @@ static void MaterialCurvature_SaintVenant(PetscReal pressure, const PetscReal H[
   for (int k = 0; k < 9; ++k) A[10 * k] += pressure;
 }
 
-const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, MaterialEnergy_SaintVenant, MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant, MaterialCurvature_SaintVenant};
+const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_SaintVenant, MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant, MaterialCurvature_SaintVenant};
