@@ -5,23 +5,31 @@
 #include <petscsys.h>
 
 typedef enum {
-  MATERIAL_LINEAR,       /* small strain, isotropic */
-  MATERIAL_NEOHOOKEAN,   /* compressible neo-Hookean, finite strain */
-  MATERIAL_SAINT_VENANT, /* Saint Venant-Kirchhoff, large rotations at moderate strain */
-  MATERIAL_RIGID         /* no strain: every displacement of the body is prescribed */
+  MATERIAL_LINEAR,        /* small strain, isotropic */
+  MATERIAL_NEOHOOKEAN,    /* compressible neo-Hookean, finite strain */
+  MATERIAL_SAINT_VENANT,  /* Saint Venant-Kirchhoff, large rotations at moderate strain */
+  MATERIAL_MOONEY_RIVLIN, /* compressible Mooney-Rivlin, finite strain */
+  MATERIAL_ORTHOTROPIC,   /* small strain, three planes of symmetry */
+  MATERIAL_RIGID          /* no strain: every displacement of the body is prescribed */
 } MaterialType;
 PETSC_EXTERN const char *const MaterialTypes[];
 
 typedef struct {
   MaterialType type;
-  PetscReal    young;   /* Young's modulus E > 0 [force/length^2] */
-  PetscReal    poisson; /* Poisson's ratio, -1 < nu < 1/2 */
+  PetscReal    young;                  /* Young's modulus E > 0; of laws with other constants about their stiffness, from MaterialSetScale() [force/length^2] */
+  PetscReal    poisson;                /* Poisson's ratio, -1 < nu < 1/2 */
+  PetscReal    c10, c01, bulk;         /* Mooney-Rivlin: of I1 and of I2, not negative; bulk modulus [force/length^2] */
+  PetscReal    youngs[3], poissons[3]; /* orthotropic: E1 E2 E3 [force/length^2]; nu12 nu23 nu13 */
+  PetscReal    shears[3], axes[2][3];  /* G12 G23 G13 [force/length^2]; first axis, and one with which it spans the first two; 0: x, y */
+  PetscReal    expansion[3];           /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
 } Material;
 
 /* What a law is evaluated with [force/length^2] */
 typedef struct {
-  PetscReal lambda, mu; /* Lame parameters */
-  PetscReal bulk;       /* kappa = lambda + 2 mu/3 */
+  PetscReal lambda, mu;    /* Lame parameters */
+  PetscReal bulk;          /* kappa = lambda + 2 mu/3 */
+  PetscReal share;         /* Mooney-Rivlin: c01/(c10 + c01) */
+  PetscReal stiffness[36]; /* orthotropic: of strains xx yy zz 2xy 2yz 2zx */
 } MaterialModuli;
 
 /*
@@ -55,6 +63,10 @@ typedef struct {
 PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
+/* Sets young of a material whose law has other constants */
+PETSC_EXTERN PetscErrorCode MaterialSetScale(Material *);
+/* Linear thermal expansion along the axes of space, a symmetric tensor */
+PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9]);
 /* What its law is evaluated with, and the same for the isochoric part alone */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);

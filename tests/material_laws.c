@@ -187,6 +187,52 @@ static PetscErrorCode CheckDilation(const MaterialLaw *law, const MaterialModuli
   PetscFunctionReturn(0);
 }
 
+/* A pull along one of the axes strains it by 1/E and the others by Poisson's ratios; a shear in a plane of two by 1/(2 G) */
+static PetscErrorCode CheckOrthotropic(const Material *material, const PetscReal axes[3][3])
+{
+  const PetscReal   *E = material->youngs, *nu = material->poissons;
+  const PetscReal    S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]}, {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
+  const MaterialLaw *law;
+  MaterialModuli     m;
+  PetscReal          pull = 0, shear = 0;
+
+  PetscFunctionBeginUser;
+  PetscCall(MaterialGetLaw(material, &law));
+  PetscCall(MaterialGetModuli(material, &m, NULL));
+  for (PetscInt a = 0; a < 3; ++a) {
+    const PetscInt  b    = (a + 1) % 3;
+    const PetscReal G    = material->shears[a];
+    PetscReal       H[9] = {0}, D[9], P[9], Q[9];
+
+    for (PetscInt i = 0; i < 9; ++i) {
+      for (PetscInt k = 0; k < 3; ++k) H[i] += S[k][a] * axes[k][i / 3] * axes[k][i % 3];
+      D[i] = (axes[a][i / 3] * axes[b][i % 3] + axes[b][i / 3] * axes[a][i % 3]) / (2 * G);
+    }
+    law->stress(&m, H, P);
+    law->stress(&m, D, Q);
+    for (PetscInt i = 0; i < 9; ++i) {
+      pull  = PetscMax(pull, PetscAbsReal(P[i] - axes[a][i / 3] * axes[a][i % 3]));
+      shear = PetscMax(shear, PetscAbsReal(Q[i] - axes[a][i / 3] * axes[b][i % 3] - axes[b][i / 3] * axes[a][i % 3]));
+    }
+  }
+  PetscCall(Report("stress of a pull along each axis", pull, 1e-13));
+  PetscCall(Report("stress of a shear in each plane", shear, 1e-13));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckRefused(const char name[], const Material *material)
+{
+  MaterialModuli m;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  ierr = MaterialGetModuli(material, &m, NULL);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", name, ierr ? "refused" : "ACCEPTED"));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CheckParameters(PetscReal young, PetscReal poisson)
 {
   const Material material = {MATERIAL_LINEAR, young, poisson};
@@ -202,27 +248,45 @@ static PetscErrorCode CheckParameters(PetscReal young, PetscReal poisson)
   PetscFunctionReturn(0);
 }
 
+/* The fifth is isotropic in constants of an orthotropic law along other axes, E = 2.6, nu = 0.3 like the first ones */
+static const Material materials[] = {
+  {.type = MATERIAL_LINEAR, .young = 2.6, .poisson = 0.3},
+  {.type = MATERIAL_NEOHOOKEAN, .young = 2.6, .poisson = 0.3},
+  {.type = MATERIAL_SAINT_VENANT, .young = 2.6, .poisson = 0.3},
+  {.type = MATERIAL_MOONEY_RIVLIN, .c10 = 0.3, .c01 = 0.2, .bulk = 13. / 6},
+  {.type = MATERIAL_ORTHOTROPIC, .youngs = {2.6, 2.6, 2.6}, .poissons = {0.3, 0.3, 0.3}, .shears = {1, 1, 1}, .axes = {{1, 2, 2}, {-2, 0.5, 3}}},
+  {.type = MATERIAL_ORTHOTROPIC, .youngs = {12, 1.1, 0.7}, .poissons = {0.35, 0.4, 0.3}, .shears = {0.8, 0.1, 0.6}, .axes = {{1, 2, 2}, {2, 1, -2}}},
+};
+static const PetscReal turned[3][3] = {{1. / 3, 2. / 3, 2. / 3}, {2. / 3, 1. / 3, -2. / 3}, {-2. / 3, 2. / 3, -1. / 3}};
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  for (PetscInt t = MATERIAL_LINEAR; t <= MATERIAL_SAINT_VENANT; ++t) {
-    const Material     material = {(MaterialType)t, 2.6, 0.3};
+  for (PetscInt t = 0; t < 6; ++t) {
+    const Material    *material = &materials[t];
     const MaterialLaw *law;
     MaterialModuli     m, isochoric;
 
-    PetscCall(MaterialGetModuli(&material, &m, &isochoric));
-    PetscCall(MaterialGetLaw(&material, &law));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[t], law->constant ? ", constant tangent" : ""));
+    PetscCall(MaterialGetModuli(material, &m, &isochoric));
+    PetscCall(MaterialGetLaw(material, &law));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[material->type], law->constant ? ", constant tangent" : ""));
     PetscCall(CheckDerivatives(law, &m));
     PetscCall(CheckDilatationPart(law, &m, &isochoric));
+    if (t == 5) break;
+    if (t == 4) m.mu = 1, m.lambda = 1.5; /* which it does not have: Hooke's, with which it is compared */
     PetscCall(CheckRest(law, &m));
     PetscCall(CheckSmallStrains(law, &m));
-    if (t != MATERIAL_LINEAR) {
+    if (!law->constant) {
       PetscCall(CheckRotation(law, &m));
-      PetscCall(CheckDilation(law, &m, t == MATERIAL_NEOHOOKEAN ? PressureNeoHookean : PressureSaintVenant));
+      PetscCall(CheckDilation(law, &m, material->type == MATERIAL_SAINT_VENANT ? PressureSaintVenant : PressureNeoHookean));
     }
   }
+  PetscCall(CheckOrthotropic(&materials[5], turned));
+  PetscCall(CheckRefused("c01 below 0", &(Material){.type = MATERIAL_MOONEY_RIVLIN, .c10 = 1, .c01 = -0.1, .bulk = 10}));
+  PetscCall(CheckRefused("no bulk modulus", &(Material){.type = MATERIAL_MOONEY_RIVLIN, .c10 = 1, .c01 = 0.1}));
+  PetscCall(CheckRefused("Poisson's ratio above (E1/E2)^(1/2)", &(Material){.type = MATERIAL_ORTHOTROPIC, .youngs = {1, 4, 1}, .poissons = {0.51, 0, 0}, .shears = {1, 1, 1}}));
+  PetscCall(CheckRefused("axes along one line", &(Material){.type = MATERIAL_ORTHOTROPIC, .youngs = {1, 1, 1}, .shears = {1, 1, 1}, .axes = {{1, 2, 0}, {-2, -4, 0}}}));
   PetscCall(CheckParameters(2.6, 0.3));
   PetscCall(CheckParameters(1, 0));
   PetscCall(CheckParameters(1, 0.499));

@@ -1,7 +1,7 @@
 /* Parameters of materials and the table of laws */
 #include "materialimpl.h"
 
-const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "rigid", "MaterialType", "MATERIAL_", NULL};
+const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "mooney_rivlin", "orthotropic", "rigid", "MaterialType", "MATERIAL_", NULL};
 
 /*@
   MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))
@@ -54,18 +54,84 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
 {
   PetscFunctionBegin;
   *moduli = (MaterialModuli){0};
-  PetscCall(MaterialGetLame(material, &moduli->lambda, &moduli->mu));
-  moduli->bulk = moduli->lambda + 2 * moduli->mu / 3;
+  switch (material->type) {
+  case MATERIAL_MOONEY_RIVLIN:
+    PetscCheck(material->c10 >= 0 && material->c01 >= 0 && material->c10 + material->c01 > 0 && material->bulk > 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "c10 and c01 must not be negative, nor both zero, and the bulk modulus positive, but they are %g, %g and %g", (double)material->c10, (double)material->c01, (double)material->bulk);
+    moduli->mu    = 2 * (material->c10 + material->c01);
+    moduli->share = material->c01 / (material->c10 + material->c01);
+    moduli->bulk  = material->bulk;
+    break;
+  case MATERIAL_ORTHOTROPIC:
+    PetscCheck(OrthotropicModuli(material, moduli), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "There is no orthotropic material with these constants, or its axes are not two");
+    break;
+  default:
+    PetscCall(MaterialGetLame(material, &moduli->lambda, &moduli->mu));
+    moduli->bulk = moduli->lambda + 2 * moduli->mu / 3;
+  }
+  moduli->lambda = moduli->bulk - 2 * moduli->mu / 3;
   if (!isochoric) PetscFunctionReturn(0);
   *isochoric        = *moduli;
   isochoric->lambda = -2 * moduli->mu / 3;
   isochoric->bulk   = 0;
+  for (int i = 0; i < 9; ++i) isochoric->stiffness[6 * (i / 3) + i % 3] -= moduli->bulk;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MaterialSetScale - Sets Young's modulus of a material whose law has other constants, for what asks only how stiff it is
+
+  Not Collective
+
+  Input Parameter:
+. material - the material; one whose law has a Young's modulus stays as it is
+
+  Level: developer
+
+.seealso: `MaterialGetModuli()`
+@*/
+PetscErrorCode MaterialSetScale(Material *material)
+{
+  const PetscReal mu = 2 * (material->c10 + material->c01);
+
+  PetscFunctionBegin;
+  if (material->type == MATERIAL_MOONEY_RIVLIN) material->young = 9 * material->bulk * mu / (3 * material->bulk + mu);
+  if (material->type == MATERIAL_ORTHOTROPIC) material->young = PetscMax(PetscMax(material->youngs[0], material->youngs[1]), material->youngs[2]);
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MaterialGetExpansion - Gets the linear thermal expansion of a material along the axes of space
+
+  Not Collective
+
+  Input Parameter:
+. material - the material
+
+  Output Parameter:
+. A - the tensor of expansion, symmetric: strain over temperature [1/temperature]
+
+  Level: developer
+
+.seealso: `ElasticitySetTemperature()`
+@*/
+PetscErrorCode MaterialGetExpansion(const Material *material, PetscReal A[9])
+{
+  PetscReal R[3][3];
+
+  PetscFunctionBegin;
+  for (int i = 0; i < 9; ++i) A[i] = i % 4 ? 0 : material->expansion[0];
+  if (material->type != MATERIAL_ORTHOTROPIC) PetscFunctionReturn(0);
+  PetscCheck(OrthotropicAxes(material, R), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "The axes of an orthotropic material are not two");
+  for (int i = 0; i < 9; ++i) {
+    A[i] = 0;
+    for (int a = 0; a < 3; ++a) A[i] += R[a][i / 3] * R[a][i % 3] * material->expansion[a];
+  }
   PetscFunctionReturn(0);
 }
 
 PetscBool MaterialIsFinite(const Material *material)
 {
-  return (PetscBool)(material->type == MATERIAL_NEOHOOKEAN || material->type == MATERIAL_SAINT_VENANT);
+  return (PetscBool)(material->type == MATERIAL_NEOHOOKEAN || material->type == MATERIAL_SAINT_VENANT || material->type == MATERIAL_MOONEY_RIVLIN);
 }
 
 /*@
@@ -95,6 +161,12 @@ PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
     break;
   case MATERIAL_SAINT_VENANT:
     *law = &MaterialLawSaintVenant;
+    break;
+  case MATERIAL_MOONEY_RIVLIN:
+    *law = &MaterialLawMooneyRivlin;
+    break;
+  case MATERIAL_ORTHOTROPIC:
+    *law = &MaterialLawOrthotropic;
     break;
   case MATERIAL_RIGID:
     *law = &MaterialLawRigid;

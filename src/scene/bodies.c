@@ -40,13 +40,6 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
   char        key[SCENE_KEY_LENGTH];
   const char *text;
   PetscBool   listed = PETSC_FALSE;
-  const struct {
-    const char *name;
-    PetscReal  *value;
-  } constants[] = {
-    {"young", &body->material.young},
-    {"poisson", &body->material.poisson},
-  };
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_material", body->name));
@@ -56,11 +49,8 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
     PetscCall(SceneRefuseOfRigid(keys, body));
     PetscFunctionReturn(0);
   }
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(constants); ++i) {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_%s", body->name, constants[i].name));
-    PetscCall(SceneKeysGet(keys, (PetscBool)!listed, &text, "%s", key));
-    if (text) PetscCall(SceneParseReal(keys, key, text, constants[i].value));
-  }
+  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s", body->name));
+  PetscCall(SceneReadConstants(keys, key, listed, &body->material));
   PetscFunctionReturn(0);
 }
 

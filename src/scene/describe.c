@@ -98,7 +98,11 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const PetscInt orders[]
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
     if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
-    else PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s, E = %.6g, nu = %.6g; element %s\n", MaterialTypes[body->material.type], (double)body->material.young, (double)body->material.poisson, ElementTypes[body->element]));
+    else {
+      PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s", MaterialTypes[body->material.type]));
+      PetscCall(SceneDescribeConstants(&body->material, viewer));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "; element %s\n", ElementTypes[body->element]));
+    }
     PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", orders[b] > 1 ? " of order 2" : "", mesh->nnodes, orders[b] > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
     order = PetscMax(order, orders[b]);
     ncells += mesh->ncells;

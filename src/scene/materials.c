@@ -7,13 +7,6 @@ static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)
   char        key[SCENE_KEY_LENGTH];
   const char *text;
   PetscInt    type = MATERIAL_LINEAR;
-  const struct {
-    const char *name;
-    PetscReal  *value;
-  } constants[] = {
-    {"young", &entry->material.young},
-    {"poisson", &entry->material.poisson},
-  };
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s_law", entry->name));
@@ -21,11 +14,8 @@ static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)
   if (text) PetscCall(SceneParseEnum(keys, key, text, MaterialTypes, &type));
   entry->material.type = (MaterialType)type;
   if (type == MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "%s is rigid, which needs no entry: a body has material: rigid", key));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(constants); ++i) {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s_%s", entry->name, constants[i].name));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-    if (text) PetscCall(SceneParseReal(keys, key, text, constants[i].value));
-  }
+  PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s", entry->name));
+  PetscCall(SceneReadConstants(keys, key, PETSC_FALSE, &entry->material));
   PetscFunctionReturn(0);
 }
 

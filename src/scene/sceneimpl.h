@@ -76,6 +76,12 @@ PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyShape(SceneBody *);
 
+/* constants.c: those of a material's law, below <owner>_: read, viewed, in words within a line, and checked */
+PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
+PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], const SceneBody *);
+
 /* materials.c: units, materials by name; that of a body, and whether it is one of them rather than a law */
 PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed, Material *);

@@ -9,18 +9,16 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
-    const PetscReal  E = body->material.young, nu = body->material.poisson;
 
     for (PetscInt i = 0; i < 3 && body->shape == SHAPE_BOX; ++i) {
       SceneRequire(body->lower[i] < body->upper[i], "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i], (double)body -> lower[i], "xyz"[i], (double)body -> upper[i]);
       SceneRequire(body->cells[i] >= 1, "%s: body \"%s\" has %" PetscInt_FMT " cells along %c, it needs at least 1", file, body->name, body->cells[i], "xyz"[i]);
     }
     PetscCall(MeshCheckBody(comm, body));
-    SceneRequire(E > 0, "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)E);
-    SceneRequire(nu > -1 && nu < 0.5, "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file, body->name, (double)nu);
+    PetscCall(SceneValidateConstants(comm, file, body));
     SceneRequire(body->order >= 0 && body->order <= 2, "%s: body \"%s\" has order = %" PetscInt_FMT ", which must be 1 or 2", file, body->name, body->order);
     SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->order < 2, "%s: body \"%s\" has element incompatible with order 2; incompatible modes are what cells of order 1 lack, so it takes full or bbar", file, body->name);
-    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->material.type == MATERIAL_LINEAR, "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable under compression, so it takes full or bbar", file, body->name, MaterialTypes[body->material.type]);
+    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || !MaterialIsFinite(&body->material), "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable under compression, so it takes full or bbar", file, body->name, MaterialTypes[body->material.type]);
     SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT, "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to average; use material neohookean near incompressibility, or element full", file, body->name);
   }
   PetscFunctionReturn(0);

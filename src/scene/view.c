@@ -5,9 +5,7 @@
 
 static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
 {
-  const SceneBody *body        = &scene->bodies[b];
-  const PetscReal  constants[] = {body->material.young, body->material.poisson};
-  const char      *labels[]    = {"young", "poisson"};
+  const SceneBody *body = &scene->bodies[b];
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
@@ -15,13 +13,7 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(SceneViewShape(body, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
-  for (PetscInt i = 0; i < 2 && body->material.type != MATERIAL_RIGID; ++i) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", labels[i]));
-    PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-    PetscCall(SceneViewReal(viewer, constants[i]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
-  }
+  PetscCall(SceneViewConstants(&body->material, viewer));
   if (body->material.type != MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
   if (body->order > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "order: %" PetscInt_FMT "\n", body->order));
   PetscCall(PetscViewerASCIIPopTab(viewer));

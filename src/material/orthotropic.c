@@ -1,0 +1,143 @@
+/*
+   Orthotropic linear elasticity: W = e:C:e/2, three planes of symmetry whose normals are the material's axes. C stands in the moduli, for
+   strains xx yy zz 2xy 2yz 2zx along the axes of space.
+
+   Its part kappa/2 (tr e)^2 is the largest one that leaves the rest without negative energy: kappa = 1/(1:S:1), S = C^(-1), Reuss's bulk modulus.
+*/
+#include "materialimpl.h"
+
+static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+
+static PetscBool MaterialCauchy_Orthotropic(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
+{
+  const PetscReal strain[6] = {H[0], H[4], H[8], H[1] + H[3], H[5] + H[7], H[6] + H[2]};
+
+  for (int s = 0; s < 6; ++s) {
+    sigma[s] = 0;
+    for (int t = 0; t < 6; ++t) sigma[s] += m->stiffness[6 * s + t] * strain[t];
+  }
+  return PETSC_TRUE;
+}
+
+static PetscReal MaterialEnergy_Orthotropic(const MaterialModuli *m, const PetscReal H[9])
+{
+  PetscReal s[6];
+
+  (void)MaterialCauchy_Orthotropic(m, H, s);
+  return 0.5 * (s[0] * H[0] + s[1] * H[4] + s[2] * H[8] + s[3] * (H[1] + H[3]) + s[4] * (H[5] + H[7]) + s[5] * (H[6] + H[2]));
+}
+
+static PetscBool MaterialStress_Orthotropic(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
+{
+  PetscReal s[6];
+
+  (void)MaterialCauchy_Orthotropic(m, H, s);
+  for (int t = 0; t < 6; ++t) P[3 * pair[t][0] + pair[t][1]] = P[3 * pair[t][1] + pair[t][0]] = s[t];
+  return PETSC_TRUE;
+}
+
+static PetscBool MaterialTangent_Orthotropic(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
+{
+  (void)H;
+  for (int s = 0; s < 6; ++s) {
+    const int ij = 3 * pair[s][0] + pair[s][1], ji = 3 * pair[s][1] + pair[s][0];
+
+    for (int t = 0; t < 6; ++t) {
+      const int kl = 3 * pair[t][0] + pair[t][1], lk = 3 * pair[t][1] + pair[t][0];
+
+      A[9 * ij + kl] = A[9 * ij + lk] = A[9 * ji + kl] = A[9 * ji + lk] = m->stiffness[6 * s + t];
+    }
+  }
+  return PETSC_TRUE;
+}
+
+static PetscReal MaterialDilatation_Orthotropic(const PetscReal H[9], PetscReal C[9])
+{
+  return MaterialLawLinear.dilatation(H, C);
+}
+
+static void MaterialCurvature_Orthotropic(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+{
+  (void)pressure, (void)H, (void)A;
+}
+
+const MaterialLaw MaterialLawOrthotropic = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Orthotropic, MaterialStress_Orthotropic, MaterialTangent_Orthotropic, MaterialCauchy_Orthotropic, MaterialDilatation_Orthotropic, MaterialCurvature_Orthotropic};
+
+/* Rows of R are the material's axes; whether they are three */
+PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
+{
+  static const PetscReal space[2][3] = {{1, 0, 0}, {0, 1, 0}};
+  const PetscReal       *given[2];
+
+  for (int k = 0; k < 2; ++k) {
+    const PetscReal *a = material->axes[k];
+
+    given[k] = a[0] != 0 || a[1] != 0 || a[2] != 0 ? a : space[k];
+  }
+  for (int i = 0; i < 3; ++i) {
+    R[0][i] = given[0][i];
+    R[2][i] = given[0][(i + 1) % 3] * given[1][(i + 2) % 3] - given[0][(i + 2) % 3] * given[1][(i + 1) % 3];
+  }
+  for (int k = 0; k < 3; k += 2) {
+    const PetscReal length = PetscSqrtReal(PetscSqr(R[k][0]) + PetscSqr(R[k][1]) + PetscSqr(R[k][2]));
+
+    if (!(length > 0) || PetscIsInfOrNanReal(length)) return PETSC_FALSE;
+    for (int i = 0; i < 3; ++i) R[k][i] /= length;
+  }
+  for (int i = 0; i < 3; ++i) R[1][i] = R[2][(i + 1) % 3] * R[0][(i + 2) % 3] - R[2][(i + 2) % 3] * R[0][(i + 1) % 3];
+  return PETSC_TRUE;
+}
+
+/* The inverse of the compliance of normal strains along the material's axes; sum: of all compliances. Whether it is positive definite */
+static PetscBool OrthotropicInvert(const Material *material, PetscReal C[3][3], PetscReal *sum)
+{
+  const PetscReal *E = material->youngs, *nu = material->poissons;
+  const PetscReal  S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]}, {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
+  PetscReal        det;
+
+  *sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+
+      C[i][j] = S[i1][j1] * S[i2][j2] - S[i1][j2] * S[i2][j1];
+      *sum += S[i][j];
+    }
+  }
+  det = S[0][0] * C[0][0] + S[0][1] * C[0][1] + S[0][2] * C[0][2];
+  for (int i = 0; i < 9; ++i) C[i / 3][i % 3] /= det;
+  return (PetscBool)(E[0] > 0 && E[1] > 0 && E[2] > 0 && S[0][0] * S[1][1] > S[0][1] * S[0][1] && det > 0);
+}
+
+/* sigma_s in space = sum_p T_sp sigma_p along the axes, sigma_ij = R_ai R_bj sigma_ab; strains turn by the transpose */
+static PetscReal OrthotropicTurn(PetscReal R[3][3], int s, int p)
+{
+  const int i = pair[s][0], j = pair[s][1], a = pair[p][0], b = pair[p][1];
+
+  return a == b ? R[a][i] * R[a][j] : R[a][i] * R[b][j] + R[b][i] * R[a][j];
+}
+
+/* C in space from C along the axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd; kappa = 1/(1:S:1). Whether there is such a material */
+PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
+{
+  PetscReal R[3][3], N[3][3], local[6][6] = {{0}}, sum;
+
+  if (!OrthotropicAxes(material, R) || !OrthotropicInvert(material, N, &sum)) return PETSC_FALSE;
+  for (int i = 0; i < 3; ++i) {
+    if (!(material->shears[i] > 0)) return PETSC_FALSE;
+    for (int j = 0; j < 3; ++j) local[i][j] = N[i][j];
+    local[3 + i][3 + i] = material->shears[i];
+  }
+  m->bulk = 1 / sum;
+  for (int s = 0; s < 6; ++s) {
+    for (int t = 0; t < 6; ++t) {
+      PetscReal *C = &m->stiffness[6 * s + t];
+
+      *C = 0;
+      for (int p = 0; p < 6; ++p) {
+        for (int q = 0; q < 6; ++q) *C += OrthotropicTurn(R, s, p) * local[p][q] * OrthotropicTurn(R, t, q);
+      }
+    }
+  }
+  return PETSC_TRUE;
+}
