@@ -42,6 +42,11 @@ PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[]
 PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], Vec force);
 /* Stiffness of springs to the ground, one a row, in energy, force and tangent; NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness);
+/* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient; fitted to a function of the
+   place, and set, NULL for none */
+PETSC_EXTERN PetscErrorCode ElasticityGetCellCount(Elasticity, PetscInt *ncells);
+PETSC_EXTERN PetscErrorCode ElasticityFitTemperature(Elasticity, PetscInt body, PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[]);
+PETSC_EXTERN PetscErrorCode ElasticitySetTemperature(Elasticity, const PetscReal fits[]);
 /* Lumped mass: integral of each node's shape function, or where that is negative of its square, scaled; for each of its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */

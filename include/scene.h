@@ -153,6 +153,14 @@ typedef struct {
   PetscInt  ramp;
 } SceneBodyForce;
 
+/* Temperature above that without stress, of bodies that expand; those of one body add up */
+typedef struct {
+  char    *name;
+  PetscInt body;  /* index, or PETSC_DECIDE: every body that expands */
+  char    *value; /* an expression of the undeformed place x, y, z [temperature], at factor 1 */
+  PetscInt ramp;
+} SceneTemperature;
+
 typedef struct {
   char     *name;
   char     *mortar;    /* "<body>.<face>" */
@@ -221,6 +229,8 @@ typedef struct {
   PetscReal          weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube root of the volume; 0: they are not */
   PetscInt           nforces;
   SceneBodyForce    *forces;
+  PetscInt           ntemperatures;
+  SceneTemperature  *temperatures;
   PetscInt           npairs;
   SceneContactPair  *pairs;
   PetscInt           nties;
@@ -243,6 +253,8 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 /* Factor of a ramp at a time: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
+/* An expression of the place */
+PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
 /* The text of a scene as it is viewed; what sets another one apart from such a text, but for how the load goes on, mesh and solver */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);

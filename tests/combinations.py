@@ -85,6 +85,21 @@ def order_low(scene):
     scene.law["low"] += "order: 2, "
 
 
+def rubber(scene):
+    scene.law = {name: "material: mooney_rivlin, " + old for name, old in scene.law.items()}
+    scene.constants = "c10: 1.5, c01: 0.4, bulk: 8"
+
+
+def wood(scene):
+    scene.law = {name: "material: orthotropic, first_axis: [1, 1, 0], " + old for name, old in scene.law.items()}
+    scene.constants = "young: [12, 10, 8], poisson: [0.3, 0.3, 0.25], shear: [4, 3, 3.5], expansion: [1e-3, 2e-3, 3e-3]"
+
+
+def heat(scene):
+    scene.constants += "" if "expansion" in scene.constants else ", expansion: 1e-3"
+    scene.add("temperatures", "warm: {value: 5 - z}")
+
+
 def library(scene):
     scene.top.append("library: %s/share/materials/mm_N.yaml" % os.environ["AMGF_DIR"])
     scene.constants = "material: steel"
@@ -105,6 +120,9 @@ EFFECTS = {
     "friction": friction,
     "finite strain": law("material: neohookean, "),
     "Saint Venant": law("material: saint_venant, "),
+    "Mooney-Rivlin": rubber,
+    "orthotropic": wood,
+    "temperature": heat,
     "bbar": law("element: bbar, "),
     "incompatible": law("element: incompatible, "),
     "order 2": law("order: 2, "),
@@ -173,7 +191,7 @@ def judge(names):
 
 
 # By themselves only: they change nothing of what is solved, or little
-ALONE = {"gap node", "edge", "probe", "library", "output", "one gap", "refined", "body force", "expression"}
+ALONE = {"Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "body force", "expression"}
 TABLE = {}
 for pair in itertools.chain(((name,) for name in EFFECTS), itertools.combinations([name for name in EFFECTS if name not in ALONE or len(sys.argv) > 1], 2)):
     first = [line.split(":")[0] for name in pair for scene in [Scene()] for _ in [EFFECTS[name](scene)] for text in scene.top for line in text.split("\n")]

@@ -4,7 +4,7 @@ static char help[] = "A cantilever 100 times as long as high, one to four cells 
 
 #define LENGTH 100.0 /* height and width 1 */
 
-static const Material material = {MATERIAL_LINEAR, 1e6, 0.3};
+static const Material material = {.type = MATERIAL_LINEAR, .young = 1e6, .poisson = 0.3};
 
 /* Euler and Bernoulli under a weight of q a length: q L^4/(8 E I), of which shear would add 1e-4 */
 static PetscReal BeamDeflection(PetscReal q)

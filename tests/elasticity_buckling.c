@@ -45,7 +45,7 @@ int main(int argc, char **argv)
   static char     name[]   = "column";
   const PetscReal lower[3] = {0, 0, 0}, upper[3] = {width, width, height};
   const PetscReal area = width * width, inertia = area * area / 12, euler = PETSC_PI * PETSC_PI * young * inertia / (4 * height * height);
-  Material        material = {MATERIAL_NEOHOOKEAN, young, 0};
+  Material        material = {.type = MATERIAL_NEOHOOKEAN, .young = young, .poisson = 0};
   MaterialType    type     = MATERIAL_NEOHOOKEAN;
   ElementType     element  = ELEMENT_FULL;
   PetscReal       stable = 0.9 * euler, buckled = 1.1 * euler, critical, engesser;

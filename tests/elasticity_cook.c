@@ -98,7 +98,7 @@ static PetscErrorCode Solve(MaterialType type, ElementType element, PetscInt n, 
   static char     name[]   = "panel";
   const PetscReal lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   const PetscInt  cells[3] = {n, n, 1};
-  const Material  material = {type, 240.565, published[type].poisson};
+  const Material  material = {.type = type, .young = 240.565, .poisson = published[type].poisson};
   SceneBody       panel;
   DM              dm;
   IS              rows;

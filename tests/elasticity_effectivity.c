@@ -217,7 +217,7 @@ static PetscErrorCode Run(const Context *context, PetscInt level)
 
 int main(int argc, char **argv)
 {
-  Context   context = {PROBLEM_CUBE, {MATERIAL_LINEAR, 1, 0.3}, ELEMENT_FULL};
+  Context   context = {PROBLEM_CUBE, {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3}, ELEMENT_FULL};
   PetscEnum problem = (PetscEnum)PROBLEM_CUBE;
 
   PetscFunctionBeginUser;

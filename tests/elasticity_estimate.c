@@ -2,7 +2,7 @@ static char help[] = "The error estimate where it must be exact: fields linear i
 
 #include "elasticity_truth.h"
 
-static const Material linear = {MATERIAL_LINEAR, 2, 0.3};
+static const Material linear = {.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3};
 
 /* Continuous, and linear in each third of the chain */
 static void Kinked(const PetscReal x[3], PetscReal u[3])
@@ -77,7 +77,7 @@ static PetscErrorCode CreateMesh(PetscInt nx, PetscInt ny, PetscBool cut, Field 
 /* The estimate of each body, checked to be the sum over the cells; energy is that of all, at scale times the field */
 static PetscErrorCode Estimate(DM dm, MaterialType type, ElementType element, Field field, PetscReal scale, PetscReal bodies[3], PetscReal *energy)
 {
-  const Material    materials[3] = {{type, 2, 0.3}, {type, 50, 0.1}, {type, 3, 0.4}};
+  const Material    materials[3] = {{.type = type, .young = 2, .poisson = 0.3}, {.type = type, .young = 50, .poisson = 0.1}, {.type = type, .young = 3, .poisson = 0.4}};
   const ElementType elements[3]  = {element, element, element};
   Elasticity        e;
   Vec               u;

@@ -3,7 +3,7 @@ static char help[] = "Manufactured solution on a cube, of cubes, of distorted or
 #include "elasticity_problem.h"
 #include "elasticity_point.h"
 
-static const Material materials[]  = {{MATERIAL_LINEAR, 2, 0.3}, {MATERIAL_NEOHOOKEAN, 2, 0.3}, {MATERIAL_SAINT_VENANT, 2, 0.3}};
+static const Material materials[]  = {{.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3}, {.type = MATERIAL_NEOHOOKEAN, .young = 2, .poisson = 0.3}, {.type = MATERIAL_SAINT_VENANT, .young = 2, .poisson = 0.3}};
 static PetscReal      amplitude[3] = {0.2, -0.1, 0.14};
 
 /* u = amplitude sin(pi x) sin(pi y) sin(pi z) + (0.1 y, 0.2 z - 0.1 x, 0.3 x) */

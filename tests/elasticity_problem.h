@@ -26,7 +26,7 @@ static inline PetscErrorCode ProblemBodies(MaterialType type, SceneBody bodies[2
   static char     slab[] = "slab", block[] = "block";
   const PetscReal lower[2][3] = {{-1, -0.5, -1}, {-0.5, -0.25, 0.2}}, upper[2][3] = {{1, 0.5, 0}, {0, 0.25, 0.7}};
   const PetscInt  cells[2][3]  = {{6, 3, 2}, {2, 2, 2}};
-  const Material  materials[2] = {{type, 1, 0.3}, {type, 10, 0.1}};
+  const Material  materials[2] = {{.type = type, .young = 1, .poisson = 0.3}, {.type = type, .young = 10, .poisson = 0.1}};
 
   PetscFunctionBeginUser;
   ProblemBox(slab, lower[0], upper[0], cells[0], &bodies[0]);

@@ -118,7 +118,7 @@ static PetscErrorCode SymmetryRows(DM dm, IS *rows)
 static PetscErrorCode Solve(PetscInt level, ElementType element, PetscReal poisson, PetscReal errors[2])
 {
   static char    name[]   = "shell";
-  const Material material = {MATERIAL_LINEAR, young, poisson};
+  const Material material = {.type = MATERIAL_LINEAR, .young = young, .poisson = poisson};
   const Lame     lame     = LameSolution(poisson);
   SceneBody      shell    = {0};
   DM             dm;

@@ -147,7 +147,7 @@ static PetscErrorCode TestPrism(void)
 {
   const PetscInt  cell[6]  = {0, 1, 2, 3, 4, 5};
   const PetscReal x[18]    = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1};
-  const Material  material = {MATERIAL_LINEAR, 1.0, 0.3};
+  const Material  material = {.type = MATERIAL_LINEAR, .young = 1.0, .poisson = 0.3};
   PetscInt        pstart, pend, vstart, vend;
   PetscSection    section;
   Elasticity      elasticity;

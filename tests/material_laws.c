@@ -91,7 +91,7 @@ static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const Material
 static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, const MaterialModuli *m)
 {
   const MaterialLaw *hooke;
-  const Material     linear = {MATERIAL_LINEAR, 1, 0};
+  const Material     linear = {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0};
   PetscReal          H[9], P[9], Q[9], difference = 0, scale = 0, W;
 
   PetscFunctionBeginUser;
@@ -235,7 +235,7 @@ static PetscErrorCode CheckRefused(const char name[], const Material *material)
 
 static PetscErrorCode CheckParameters(PetscReal young, PetscReal poisson)
 {
-  const Material material = {MATERIAL_LINEAR, young, poisson};
+  const Material material = {.type = MATERIAL_LINEAR, .young = young, .poisson = poisson};
   PetscReal      lambda, mu;
   PetscErrorCode ierr;
 

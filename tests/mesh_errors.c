@@ -45,7 +45,7 @@ static PetscErrorCode BadBodies(void)
 static PetscErrorCode BadQueries(void)
 {
   SceneBody  bodies[2];
-  Material   materials[2] = {{MATERIAL_LINEAR, 1, 0.3}, {MATERIAL_LINEAR, 1, 0.5}};
+  Material   materials[2] = {{.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3}, {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.5}};
   DM         dm;
   IS         is;
   Elasticity e;

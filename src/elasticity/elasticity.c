@@ -138,6 +138,9 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
 
     PetscCall(MaterialGetModuli(&materials[b], &m->moduli, &m->isochoric));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
+    PetscCall(MaterialGetExpansion(&materials[b], e->bodies[b].expansion));
+    for (int i = 0; i < 9; ++i) e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
+    PetscCheck(m->law->constant || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do", b);
@@ -227,6 +230,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   PetscCall(PetscFree((*e)->cellnodes));
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
+  PetscCall(PetscFree((*e)->temperature));
   PetscCall(VecDestroy(&(*e)->springs));
   PetscCall(PetscFree(*e));
   PetscFunctionReturn(0);

@@ -142,6 +142,8 @@ typedef struct {
   const CellBasis *basis;
   PetscBool        kept;       /* constant tangent, and no vertex shared with a body that is assembled again */
   PetscInt         assemblies; /* into any tangent */
+  PetscBool        expands;
+  PetscReal        expansion[9]; /* thermal, a tensor [1/temperature] */
 } Body;
 
 /* The last tangent assembled, as it was left: a matrix of another id or state is assembled completely */
@@ -162,8 +164,9 @@ struct _n_Elasticity {
   PetscInt        *cellstart;      /* ncells + 1 */
   PetscInt        *cellnodes;      /* nodes of cell c, in tensor order, from cellnodes[cellstart[c]] */
   PetscInt        *cellbody;
-  unsigned char   *prescribed; /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
-  Vec              springs;    /* to the ground, one a row; NULL: none [force/length] */
+  unsigned char   *prescribed;  /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
+  Vec              springs;     /* to the ground, one a row; NULL: none [force/length] */
+  PetscReal       *temperature; /* 4 a cell; NULL: none is set */
   AssembledTangent assembled;
 };
 
@@ -187,6 +190,9 @@ typedef struct {
   PetscReal       X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
 } CellState;
 
+/* thermal.c: takes off what a cell would move by in its temperature if it were free */
+PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
+
 static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[], CellState *cell)
 {
   cell->n     = e->cellstart[c + 1] - e->cellstart[c];
@@ -194,6 +200,7 @@ static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar
   cell->body  = &e->bodies[e->cellbody[c]];
   CellGather(cell->n, cell->nodes, x, cell->X);
   CellGather(cell->n, cell->nodes, u, cell->U);
+  if (e->temperature && cell->body->expands) ThermalSubtract(e->temperature + 4 * c, cell);
 }
 
 /* springs.c: of this rank; of all bodies or of those that are assembled again */

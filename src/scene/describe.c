@@ -195,6 +195,11 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  body force %s: %s, (%.6g, %.6g, %.6g), follows %s\n", here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name, (double)here->value[0], (double)here->value[1], (double)here->value[2], scene->ramps[here->ramp].name));
   }
+  for (PetscInt t = 0; t < scene->ntemperatures; ++t) {
+    const SceneTemperature *here = &scene->temperatures[t];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  temperature %s: %s, %s, follows %s\n", here->name, here->body < 0 ? "every body that expands" : scene->bodies[here->body].name, here->value, scene->ramps[here->ramp].name));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,6 @@
 /*
-   Numbers that follow time: + - * / ^, brackets, functions, pi, and the variables t, time in load steps, and s, the same from 0 to 1 over the
-   whole program. A sum is of products, a product of powers, a power of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
+   Numbers that follow time or the place: + - * / ^, brackets, functions, pi, and the variables t, time in load steps, and s, the same from 0 to
+   1 over the whole program; or x, y, z. A sum is of products, a product of powers, a power of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
 */
 #include "sceneimpl.h"
 #include <ctype.h>
@@ -11,7 +11,8 @@
 
 typedef struct {
   const char *at;
-  PetscReal   t, s;
+  const char *names; /* of the variables, a letter each */
+  PetscReal   values[3];
   PetscInt    depth;
   const char *wrong; /* where it stops making sense; NULL: nowhere so far */
 } Expression;
@@ -55,8 +56,9 @@ static PetscReal ExpressionWord(Expression *e)
   size_t                   n           = 0;
 
   while (isalpha((unsigned char)*e->at) && n + 1 < sizeof(word)) word[n++] = (char)tolower((unsigned char)*e->at++);
-  if (!strcmp(word, "t")) return e->t;
-  if (!strcmp(word, "s")) return e->s;
+  for (size_t v = 0; n == 1 && e->names[v]; ++v) {
+    if (word[0] == e->names[v]) return e->values[v];
+  }
   if (!strcmp(word, "pi")) return PETSC_PI;
   for (size_t f = 0; f < PETSC_STATIC_ARRAY_LENGTH(functions); ++f) {
     PetscReal x, y = 0;
@@ -132,16 +134,68 @@ static PetscReal ExpressionSum(Expression *e)
   return value;
 }
 
+/* The whole text; e->wrong tells whether it makes sense */
+static PetscReal ExpressionEvaluate(Expression *e)
+{
+  const PetscReal value = ExpressionSum(e);
+
+  while (!e->wrong && isspace((unsigned char)*e->at)) ++e->at;
+  if (!e->wrong && *e->at) ExpressionFail(e);
+  return value;
+}
+
+static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const char text[], const char variables[], const Expression *e)
+{
+  PetscFunctionBegin;
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text, *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "", *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
+  PetscFunctionReturn(0);
+}
+
 /* Of this time in a program of so many load steps; what is no number is complained of */
 PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps, PetscReal *value)
 {
-  Expression e = {.at = text, .t = time, .s = time / (PetscReal)nsteps};
+  Expression e = {.at = text, .names = "ts", .values = {time, time / (PetscReal)nsteps}};
 
   PetscFunctionBegin;
-  *value = ExpressionSum(&e);
-  if (!e.wrong && ExpressionTake(&e, 0)) --e.at;
-  if (!e.wrong && *e.at) ExpressionFail(&e);
-  if (e.wrong) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which makes no sense%s%s%s", key, text, *e.wrong ? " from \"" : " at its end", e.wrong, *e.wrong ? "\" on: numbers, t, s, pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
+  *value = ExpressionEvaluate(&e);
+  if (e.wrong) PetscCall(ExpressionComplain(keys, key, text, "t, s", &e));
   else if (PetscIsInfOrNanReal(*value)) PetscCall(SceneKeysComplain(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
+  PetscFunctionReturn(0);
+}
+
+/* Complains of what makes no sense; whether it is finite is known where it is used */
+PetscErrorCode SceneCheckExpression(SceneKeys keys, const char key[], const char text[])
+{
+  Expression e = {.at = text, .names = "xyz"};
+
+  PetscFunctionBegin;
+  (void)ExpressionEvaluate(&e);
+  if (e.wrong) PetscCall(ExpressionComplain(keys, key, text, "x, y, z", &e));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneEvaluatePlace - Evaluates an expression of the place
+
+   Not Collective
+
+   Input Parameters:
++  expression - the text, of x, y, z, as a scene that was loaded has it
+-  x          - the place [length]
+
+   Output Parameter:
+.  value - its value, which may be not finite
+
+   Level: developer
+
+.seealso: `SceneLoad()`
+@*/
+PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
+{
+  Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};
+
+  PetscFunctionBegin;
+  *value = ExpressionEvaluate(&e);
+  PetscCheck(!e.wrong, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The expression \"%s\" makes no sense", expression);
   PetscFunctionReturn(0);
 }

@@ -13,7 +13,10 @@ static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, MaterialTypes, &type));
   entry->material.type = (MaterialType)type;
-  if (type == MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "%s is rigid, which needs no entry: a body has material: rigid", key));
+  if (type == MATERIAL_RIGID) {
+    PetscCall(SceneKeysComplain(keys, "%s is rigid, which needs no entry: a body has material: rigid", key));
+    entry->material.type = MATERIAL_LINEAR; /* its constants are not the fault */
+  }
   PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s", entry->name));
   PetscCall(SceneReadConstants(keys, key, PETSC_FALSE, &entry->material));
   PetscFunctionReturn(0);

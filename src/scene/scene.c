@@ -116,6 +116,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadTractions(keys, s));
   PetscCall(SceneReadSprings(keys, s));
   PetscCall(SceneReadBodyForces(keys, s));
+  PetscCall(SceneReadTemperatures(keys, s));
   PetscCall(SceneReadContact(keys, s));
   PetscCall(SceneReadTies(keys, s));
   PetscCall(SceneReadRefinements(keys, s));
@@ -172,6 +173,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
   PetscCall(SceneDestroyTractions(s));
+  PetscCall(SceneDestroyTemperatures(s));
   PetscCall(SceneDestroyTies(s));
   PetscCall(SceneDestroyRefinements(s));
   PetscCall(SceneDestroyProbes(s));

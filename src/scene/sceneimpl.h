@@ -57,8 +57,9 @@ PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 PETSC_INTERN PetscErrorCode SceneViewList(PetscViewer, PetscInt n, const PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
 
-/* expression.c: a number that follows time */
+/* expression.c: a number that follows time; whether one that follows the place, which SceneEvaluatePlace() evaluates, makes sense */
 PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscInt nsteps, PetscReal *);
+PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
 /* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one or the other below the key */
 PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[], PetscBool *found);
@@ -119,6 +120,12 @@ PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
 /* loads.c */
 PETSC_INTERN PetscErrorCode SceneReadPressures(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadBodyForces(SceneKeys, Scene);
+
+/* temperatures.c */
+PETSC_INTERN PetscErrorCode SceneReadTemperatures(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneViewTemperatures(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDestroyTemperatures(Scene);
 
 /* tractions.c: dead loads on faces, springs */
 #define SCENE_WEAK_SPRINGS 1e-7 /* weak_springs: true */

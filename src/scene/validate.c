@@ -91,6 +91,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateDisplacements(comm, file, scene));
   PetscCall(SceneValidateRigid(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
+  PetscCall(SceneValidateTemperatures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
   PetscCall(SceneValidateTies(comm, file, scene));
   PetscCall(SceneValidateRefinements(comm, file, scene));

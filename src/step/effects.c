@@ -17,6 +17,7 @@ typedef enum {
   EFFECT_BODY_FORCE,
   EFFECT_SPRINGS,
   EFFECT_WEAK_SPRINGS,
+  EFFECT_TEMPERATURE,
   EFFECT_TIES,
   EFFECT_PLANES,
   EFFECT_BOUNDS,
@@ -40,6 +41,7 @@ static const char *const EffectNames[] = {
   [EFFECT_BODY_FORCE]    = "body force",
   [EFFECT_SPRINGS]       = "springs",
   [EFFECT_WEAK_SPRINGS]  = "weak springs",
+  [EFFECT_TEMPERATURE]   = "thermal strain",
   [EFFECT_TIES]          = "ties",
   [EFFECT_PLANES]        = "inclined symmetry",
   [EFFECT_BOUNDS]        = "displacement bounds",
@@ -98,6 +100,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0), "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
   PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces", scene->nsprings));
   PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0), scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set", sim->springs.nweak));
+  PetscCall(EffectSet(report, EFFECT_TEMPERATURE, (PetscBool)(scene->ntemperatures > 0), "%" PetscInt_FMT " temperatures", scene->ntemperatures));
   PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties > 0), "%" PetscInt_FMT " ties", scene->nties));
   PetscCall(EffectSet(report, EFFECT_PLANES, (PetscBool)(planes > 0), "%" PetscInt_FMT " symmetry planes along no axis", planes));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));

@@ -22,6 +22,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
+  PetscCall(TemperaturesApply(&sim->temperatures, time));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path.u, &p->force));

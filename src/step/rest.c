@@ -1,5 +1,5 @@
 /*
-   A load step back to where nothing is asked for: no load, no prescribed displacement, no overlap. The bodies are undeformed then. Every residual
+   A load step back to where nothing is asked for: no load, no temperature, no prescribed displacement, no overlap. The bodies are undeformed then. Every residual
    would be measured by what is left of forces, energies and displacements: by rounding.
 */
 #include "stepimpl.h"
@@ -7,12 +7,13 @@
 /* Whether this time asks for no force and for no displacement, where those before it did */
 PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
 {
-  PetscReal before, displacement, load = 0.0;
+  PetscReal before, displacement, temperature, load = 0.0;
   PetscBool rubs = PETSC_FALSE; /* what has slipped does not go back by itself */
   Vec       u;
 
   PetscFunctionBegin;
   if (p->load) PetscCall(VecNorm(p->load, NORM_INFINITY, &load));
+  PetscCall(TemperaturesGetLargest(&p->sim->temperatures, &temperature));
   PetscCall(VecNorm(p->sim->path.u, NORM_INFINITY, &before));
   PetscCall(VecDuplicate(p->base, &u));
   PetscCall(VecZeroEntries(u));
@@ -20,7 +21,7 @@ PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
-  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && displacement == 0.0);
+  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0);
   PetscFunctionReturn(0);
 }
 

@@ -26,6 +26,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
   PetscCall(ISDestroy(&rows));
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
+  PetscCall(TemperaturesCreate(scene, sim->elasticity, sim->comm, &sim->temperatures));
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
   PetscCall(SpringsCreate(sim));
   PetscCall(StiffnessSetType(sim));

@@ -242,6 +242,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
   PetscCall(TiesDestroy(&s->ties));
   PetscCall(VertexPlacesDestroy(&s->places));

@@ -81,6 +81,21 @@ PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
+/* temperatures.c: of bodies that expand, by ramp at factor 1, as linear functions in the cells; now: NULL where the scene has none */
+typedef struct {
+  MPI_Comm    comm;
+  Scene       scene;
+  Elasticity  elasticity; /* borrowed */
+  PetscInt    n;
+  PetscReal **fits; /* nramps, NULL where nothing follows the ramp */
+  PetscReal  *now;
+} Temperatures;
+
+PETSC_INTERN PetscErrorCode TemperaturesCreate(Scene, Elasticity, MPI_Comm, Temperatures *);
+PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
+PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
+PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
+
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
   Vec pressure; /* one a row */
@@ -169,6 +184,7 @@ struct _n_Simulation {
   Contact              contact; /* NULL when the scene names no pair */
   Prescribed           prescribed;
   DeadLoads            loads;
+  Temperatures         temperatures;
   Springs              springs;
   Ties                 ties;
   VertexPlaces         places;
