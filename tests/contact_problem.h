@@ -5,11 +5,13 @@
 #include <mesh.h>
 #include <contact.h>
 #include "contact_report.h"
+#include "elasticity_tetrahedra.h"
 
 typedef struct {
   char      name[16];
   PetscReal lower[3], upper[3];
   PetscInt  cells[3];
+  PetscBool tetrahedra; /* of order 1, six a cell */
 } Box;
 
 static inline PetscErrorCode CreateBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt refine, DM *dm)
@@ -26,6 +28,8 @@ static inline PetscErrorCode CreateBoxes(MPI_Comm comm, PetscInt n, Box boxes[],
       body[b].upper[d] = boxes[b].upper[d];
       body[b].cells[d] = boxes[b].cells[d];
     }
+    body[b].order = 1;
+    if (boxes[b].tetrahedra) PetscCall(TetrahedraFromBox(&body[b]));
   }
   PetscCall(MeshCreate(comm, n, body, refine, dm));
   PetscCall(PetscFree(body));
@@ -52,11 +56,11 @@ static inline PetscErrorCode SetLocalField(DM dm, Field field, const void *ctx, 
   PetscCall(VecGetArray(local, &a));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   for (PetscInt c = start; c < end; ++c) {
-    PetscInt vertex[8], body;
+    PetscInt n, vertex[MESH_MAX_NODES], body;
 
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &body));
-    PetscCall(MeshGetCellVertices(dm, c, vertex));
-    for (PetscInt i = 0; i < 8; ++i) {
+    PetscCall(MeshGetCellNodes(dm, c, &n, vertex));
+    for (PetscInt i = 0; i < n; ++i) {
       PetscInt  from, to;
       PetscReal y[3], v[3];
 

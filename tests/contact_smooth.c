@@ -227,11 +227,12 @@ static void KinkedPlace(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_
   y[2] = x[2] + 0.1 * x[0] * x[0] + 0.05 * x[0] * x[1] - PetscMax(x[0] - 1.0, 0.0);
 }
 
-static PetscErrorCode CreateKinked(DM *dm)
+/* tetrahedra: of none, of the outer one, of both */
+static PetscErrorCode CreateKinked(PetscInt tetrahedra, DM *dm)
 {
   Box box[2] = {
-    {"inner", {0, 0, -1}, {2, 1, 0}, {6, 4, 1}},
-    {"outer", {0.25, 0.1, 0}, {1.85, 0.9, 1}, {8, 3, 1}},
+    {"inner", {0, 0, -1}, {2, 1, 0}, {6, 4, 1}, (PetscBool)(tetrahedra > 1)},
+    {"outer", {0.25, 0.1, 0}, {1.85, 0.9, 1}, {8, 3, 1}, (PetscBool)(tetrahedra > 0)},
   };
 
   PetscFunctionBeginUser;
@@ -408,11 +409,15 @@ static PetscErrorCode TestJacobian(GapType gap)
     }
     PetscCall(DMDestroy(&dm));
   }
-  PetscCall(CreateKinked(&dm));
-  state = (State){"sheets with a sharp edge", PartingField, 0.02, kinked};
-  PetscCall(TestDifferences(dm, &state));
-  PetscCall(TestBalance(dm, &state));
-  PetscCall(DMDestroy(&dm));
+  for (PetscInt tetrahedra = 0; tetrahedra < 3; ++tetrahedra) {
+    static const char *const names[] = {"sheets with a sharp edge", "sheets, one of tetrahedra", "sheets of tetrahedra"};
+
+    PetscCall(CreateKinked(tetrahedra, &dm));
+    state = (State){names[tetrahedra], PartingField, 0.02, kinked};
+    PetscCall(TestDifferences(dm, &state));
+    PetscCall(TestBalance(dm, &state));
+    PetscCall(DMDestroy(&dm));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,9 @@
-"""A quarter of a pipe of tetrahedra as a Gmsh file: a block of cells in polar coordinates, each cut into six
+"""A block of cells, each cut into six tetrahedra, as a Gmsh file: a box, or a quarter of a pipe
 
-    tetrahedra.py write NAME.msh FORMAT ORDER CELLS...   format 2.2 or 4.1; order 1 or 2: nodes in the middles of the edges, on the pipe's circles
-    tetrahedra.py check                                  what the runs of tetrahedra.sh came to
+    tetrahedra.py write NAME.msh FORMAT ORDER CELLS...     the pipe, format 2.2 or 4.1; order 1 or 2: nodes in the middles of the edges, on its circles
+    tetrahedra.py box NAME.msh ORDER LOWER UPPER CELLS...  three numbers each
+    tetrahedra.py ring NAME.msh ORDER RADII CELLS...       of any radii, 2 long
+    tetrahedra.py check                                    what the runs of tetrahedra.sh came to
 """
 import itertools
 import sys
@@ -10,20 +12,27 @@ import numpy as np
 
 INNER, OUTER, LENGTH = 1.0, 2.0, 0.5
 EDGES = [(0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1)]  # in Gmsh's order
-FACES = {"inner": (0, 0), "outer": (0, 1), "bottom": (1, 0), "left": (1, 1), "front": (2, 0), "back": (2, 1)}
+PIPE_FACES = {"inner": (0, 0), "outer": (0, 1), "bottom": (1, 0), "left": (1, 1), "front": (2, 0), "back": (2, 1)}
+BOX_FACES = {"xmin": (0, 0), "xmax": (0, 1), "ymin": (1, 0), "ymax": (1, 1), "zmin": (2, 0), "zmax": (2, 1)}
 
 
-def place(polar):
-    r, angle, z = INNER + (OUTER - INNER) * polar[0], polar[1] * np.pi / 2, LENGTH * polar[2]
-    return r * np.cos(angle), r * np.sin(angle), z
+def pipe(inner, outer, length):
+    """Places from parameters in [0, 1]"""
+
+    def place(polar):
+        r, angle = inner + (outer - inner) * polar[0], polar[1] * np.pi / 2
+        return r * np.cos(angle), r * np.sin(angle), length * polar[2]
+
+    return place
 
 
-class Pipe:
-    """Nodes are numbered by their parameters, of which middles of edges have halves"""
+class Block:
+    """Nodes are numbered by their parameters, of which middles of edges have halves; faces: the axis and the end of each"""
 
-    def __init__(self, order, cells):
+    def __init__(self, order, cells, place, faces):
         self.order, self.cells, self.number = order, np.array(cells), {}
-        self.volume, self.faces = [], {name: [] for name in FACES}
+        self.place, self.sides = place, faces
+        self.volume, self.faces = [], {name: [] for name in faces}
         for corner in itertools.product(*(range(n) for n in cells)):
             for axes in itertools.permutations(range(3)):
                 self.add_cell(np.array(corner), axes)
@@ -39,14 +48,14 @@ class Pipe:
         if axes not in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
             corners[1], corners[2] = corners[2], corners[1]
         self.volume.append(self.nodes(corners, EDGES))
-        for name, (axis, end) in FACES.items():
+        for name, (axis, end) in self.sides.items():
             triangle = [p for p in corners if p[axis] == end * self.cells[axis]]
             if len(triangle) == 3:
                 self.faces[name].append(self.nodes(triangle, EDGES[:3]))
 
     def blocks(self):
         """Dimension, tag, Gmsh's type and elements"""
-        for tag, name in enumerate(FACES, 1):
+        for tag, name in enumerate(self.sides, 1):
             yield 2, tag, 9 if self.order == 2 else 2, self.faces[name]
         yield 3, 7, 11 if self.order == 2 else 4, self.volume
 
@@ -63,12 +72,12 @@ class Pipe:
                 yield f"{number}{tags} " + " ".join(map(str, nodes))
 
     def write(self, name, version):
-        places = [(number, *place(np.array(p) / self.cells)) for p, number in self.number.items()]
+        places = [(number, *self.place(np.array(p) / self.cells)) for p, number in self.number.items()]
         with open(name, "w") as file:
             print(f"$MeshFormat\n{version} 0 8\n$EndMeshFormat\n$PhysicalNames\n7", file=file)
-            for tag, face in enumerate(FACES, 1):
+            for tag, face in enumerate(self.sides, 1):
                 print(f'2 {tag} "{face}"', file=file)
-            print('3 7 "pipe"\n$EndPhysicalNames', file=file)
+            print('3 7 "block"\n$EndPhysicalNames', file=file)
             if version == "2.2":
                 print(f"$Nodes\n{len(places)}", file=file)
                 for number, *x in places:
@@ -82,7 +91,7 @@ class Pipe:
             print("$EndNodes\n$Elements", *self.lines_of_elements(version), "$EndElements", sep="\n", file=file)
 
 
-def lame(order):
+def lame():
     """The pressure's work over two, plane strain: u = (1 + nu) p a^2/(E (b^2 - a^2)) ((1 - 2 nu) r + b^2/r)"""
     u = 1.3 * 10 / (1000 * (OUTER**2 - 1)) * (0.4 * INNER + OUTER**2 / INNER)
     return 10 * u * np.pi / 4 * LENGTH
@@ -97,7 +106,7 @@ def check():
     for ranks in "235":
         say(f"energy on {ranks} ranks", within(energy["p" + ranks], energy["p1"], 1e-9), (energy["p" + ranks], energy["p1"]))
     say("format 4.1 as 2.2", within(energy["old"], energy["p1"], 1e-12), (energy["old"], energy["p1"]))
-    exact = lame(2)
+    exact = lame()
     errors = [abs(energy[name] / exact - 1) for name in ("p1", "r1", "r2")]
     say("energy near Lame's", errors[0] < 1e-2, errors)
     say("and nearer on finer meshes, as near as the file's parabolas are to circles", errors[1] < errors[0] / 3 and errors[2] < 2e-4, errors)
@@ -121,8 +130,21 @@ def check():
     say("a displacement a node, a stress a cell", displacement.shape == x.shape and len(stress) == len(kinds), (x.shape, stress.shape))
 
 
-if __name__ == "__main__":
-    if sys.argv[1] == "write":
-        Pipe(int(sys.argv[4]), [int(n) for n in sys.argv[5:]]).write(sys.argv[2], sys.argv[3])
-    else:
+def main():
+    what, *words = sys.argv[1:]
+    if what == "check":
         check()
+        return
+    name, numbers = words[0], [float(word) for word in words[1:]]
+    if what == "write":
+        block, version = Block(int(words[2]), [int(n) for n in words[3:]], pipe(INNER, OUTER, LENGTH), PIPE_FACES), words[1]
+    elif what == "box":
+        lower, upper = np.array(numbers[1:4]), np.array(numbers[4:7])
+        block, version = Block(int(numbers[0]), [int(n) for n in numbers[7:]], lambda p: lower + p * (upper - lower), BOX_FACES), "2.2"
+    else:
+        block, version = Block(int(numbers[0]), [int(n) for n in numbers[3:]], pipe(*numbers[1:3], 2), PIPE_FACES), "2.2"
+    block.write(name, version)
+
+
+if __name__ == "__main__":
+    main()

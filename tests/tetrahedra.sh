@@ -7,7 +7,7 @@ write new.msh 4.1 2 2 3 1
 write straight.msh 2.2 1 2 3 1
 cat > pipe.yaml <<'YAML'
 bodies:
-  - pipe: {mesh: curved.msh, volume: pipe, young: 1000, poisson: 0.3}
+  - pipe: {mesh: curved.msh, volume: block, young: 1000, poisson: 0.3}
   - brick: {lower: [3, 0, 0], upper: [4, 1, 1], cells: [2, 2, 2], young: 1000, poisson: 0.3}
 symmetry:
   - brick.xmin

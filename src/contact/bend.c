@@ -9,7 +9,7 @@
 PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   n[0] = n[1] = n[2] = 0.0;
-  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(corner)]) {
+  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     PetscReal after[3], before[3], product[3], weight;
 
     ContactRingEdges(ring, corner, after, before);
@@ -37,7 +37,7 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 
   ContactRingEdges(ring, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
-    ContactRingMeanNormal(ring, i ? ContactCornerBefore(corner) : ContactCornerAfter(corner), m);
+    ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m);
     rhs[i] = -ContactDot(n, d[i]) - ContactDot(m, d[i]);
     G[i]   = ContactDot(d[i], d[i]);
   }
@@ -57,9 +57,9 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   for (PetscInt c = 0; c < 3; ++c) along[c] = after[c] - before[c];
   ContactCross(n, along, across);
   (void)ContactScaleToUnit(across);
-  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(corner)]) {
+  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     ContactRingEdges(ring, corner, after, d);
-    ContactRingMeanNormal(ring, ContactCornerBefore(corner), m);
+    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
     sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(across, d);
     squares += PetscSqr(ContactDot(across, d));
   }

@@ -62,7 +62,7 @@ static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, 
 /* A: by the edge from a corner to the next, or to the one before */
 static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9], ContactNormalSlopes *slopes)
 {
-  AddNode(ring, after ? ContactCornerAfter(corner) : ContactCornerBefore(corner), 1.0, A, slopes);
+  AddNode(ring, after ? ContactCornerAfter(ring, corner) : ContactCornerBefore(ring, corner), 1.0, A, slopes);
   AddNode(ring, corner, -1.0, A, slopes);
 }
 
@@ -73,7 +73,7 @@ static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const
   PetscReal length = ContactRingFanNormal(ring, first, last, n);
 
   ThroughUnit(A, n, length, S);
-  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(corner)]) {
+  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     PetscReal edge[2][3], product[3], along[3], B[9], squares[2], weight;
 
     ContactRingEdges(ring, corner, edge[0], edge[1]);
@@ -105,7 +105,7 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
 
   ContactRingEdges(ring, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
-    ContactRingMeanNormal(ring, i ? ContactCornerBefore(corner) : ContactCornerAfter(corner), m[i]);
+    ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m[i]);
     G[i] = ContactDot(d[i], d[i]);
   }
   G[2] = ContactDot(d[0], d[1]);
@@ -123,7 +123,7 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
     Times(A, D[i], AD[i]);
     AddOuter(mean, -1.0, AD[i], d[i], mean);
     AddOuter(NULL, -1.0, AD[i], d[i], B);
-    AddMean(ring, i ? ContactCornerBefore(corner) : ContactCornerAfter(corner), B, slopes);
+    AddMean(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), B, slopes);
   }
   AddMean(ring, corner, mean, slopes);
   for (PetscInt i = 0; i < 2; ++i) {
@@ -151,9 +151,9 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
   ContactCross(n, border->along, border->across);
   border->length  = ContactScaleToUnit(border->across);
   border->squares = 0.0;
-  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(corner)]) {
+  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     ContactRingEdges(ring, corner, after, d);
-    ContactRingMeanNormal(ring, ContactCornerBefore(corner), m);
+    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
     sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(border->across, d);
     border->squares += PetscSqr(ContactDot(border->across, d));
   }
@@ -172,12 +172,12 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
     mean[i]   = A[i];
     across[i] = border.bend * A[i];
   }
-  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(corner)]) {
+  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     PetscReal       after[3], d[3], m[3], c, r, by_edge[3];
     const PetscReal inverse = border.squares > 0.0 ? 1.0 / border.squares : 0.0;
 
     ContactRingEdges(ring, corner, after, d);
-    ContactRingMeanNormal(ring, ContactCornerBefore(corner), m);
+    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
     c = ContactDot(border.across, d);
     r = -ContactDot(n, d) - ContactDot(m, d) - 2.0 * border.bend * c;
     for (PetscInt k = 0; k < 3; ++k) by_edge[k] = -c * (n[k] + m[k]) + r * border.across[k];
@@ -186,7 +186,7 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
     AddOuter(NULL, inverse, AX, by_edge, B);
     AddEdge(ring, corner, PETSC_FALSE, B, slopes);
     AddOuter(NULL, -c * inverse, AX, d, B);
-    AddMean(ring, ContactCornerBefore(corner), B, slopes);
+    AddMean(ring, ContactCornerBefore(ring, corner), B, slopes);
   }
   ThroughUnit(across, border.across, border.length, across);
   ThroughCross(across, border.along, 1.0, B);

@@ -17,7 +17,7 @@ static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value
   PetscFunctionReturn(0);
 }
 
-/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which another one lies on it */
+/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which another one lies on it; negative: inside a triangle, or no edge at all */
 static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
@@ -26,8 +26,9 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 2; ++i) PetscCall(DMPlexGetPointDepth(dm, vertices[i], &depth[i]));
-  *edge = depth[0] > depth[1] ? v : w;
-  if (depth[0] || depth[1]) PetscFunctionReturn(0);
+  *edge = v == w || (depth[0] == 1 && depth[1] == 1) ? -1 : depth[0] > depth[1] ? v
+                                                                                : w;
+  if (*edge < 0 || depth[0] || depth[1]) PetscFunctionReturn(0);
   PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
   PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
   *edge = edges[0];
@@ -49,15 +50,17 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscCall(PetscCalloc1(s->nfacets, &s->border));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     PetscCall(BorderFindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
-    count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
+    if (edge[i] >= 0) count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
   }
   PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    if (count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
+    if (edge[i] >= 0 && count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, ends));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    if (count[edge[i]] == 2) s->border[i / 4] |= 1 << (i % 4);
+    const PetscBool point = (PetscBool)(i % 4 == 2 && s->vertex[i] == s->vertex[i + 1]);
+
+    if (point ? ends[s->vertex[i]] : edge[i] >= 0 && count[edge[i]] == 2) s->border[i / 4] |= 1 << (i % 4);
     if (ends[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);
   }
   s->bordered = PETSC_TRUE;

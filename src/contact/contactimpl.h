@@ -24,7 +24,11 @@ PETSC_INTERN PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3]);
 PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
 PETSC_INTERN PetscReal ContactScaleToUnit(PetscReal n[3]);
 
-/* facet.c: bilinear facets */
+/*
+   facet.c: bilinear facets. A triangle has its last vertex twice: the bilinear functions of the two add up to the linear one there, and
+   those of the others are linear
+*/
+PETSC_INTERN PetscBool ContactFacetIsTriangle(const PetscReal x[12]);
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
 PETSC_INTERN void      ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
@@ -37,6 +41,7 @@ PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscRea
 typedef struct {
   PetscReal slope[4][2], direction[4][3]; /* of the edge from vertex e to the next, at both ends [length]; what it is bent along */
   PetscReal normal[12];                   /* unit, at the vertices */
+  PetscBool triangle;
 } ContactPatch;
 PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
 PETSC_INTERN PetscBool ContactPatchIsBent(const ContactPatch *, PetscInt edge);
@@ -122,7 +127,7 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 typedef struct {
   char      *name;
   PetscInt   nfacets;
-  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside */
+  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside; the last of a triangle twice */
   PetscInt  *node;      /* [4 nfacets] global numbers of the vertices: a third of their first global row */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
@@ -131,7 +136,7 @@ typedef struct {
   PetscBool  patched;   /* whether there are those; the same on all ranks */
   PetscBool  cut;       /* whether the facets are pieces of the mesh's, of order 2; the same on all ranks */
   PetscInt  *held;      /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
-  PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is */
+  PetscInt  *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a is; of a triangle bit 2: its last vertex */
   PetscBool  bordered;  /* whether border has been asked for; the same on all ranks */
   PetscReal  area;      /* of the whole undeformed face, all ranks [length^2] */
   PetscInt   body;      /* behind the face */
@@ -188,8 +193,9 @@ typedef struct {
 
   ContactImage *image; /* [nnodes - nreal] */
 } ContactRing;
-PETSC_INTERN PetscInt       ContactCornerAfter(PetscInt corner);
-PETSC_INTERN PetscInt       ContactCornerBefore(PetscInt corner);
+PETSC_INTERN PetscInt       ContactCornerAfter(const ContactRing *, PetscInt corner);
+PETSC_INTERN PetscInt       ContactCornerBefore(const ContactRing *, PetscInt corner);
+PETSC_INTERN PetscBool      ContactCornerIsNone(const ContactRing *, PetscInt corner);
 PETSC_INTERN void           ContactRingReflect(ContactRing *, PetscInt node);
 PETSC_INTERN PetscErrorCode ContactRingDeform(Vec u, ContactRing *);
 PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner, PetscInt *first, PetscInt *last);

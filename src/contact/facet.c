@@ -3,6 +3,11 @@
 
 static const PetscReal corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
+PetscBool ContactFacetIsTriangle(const PetscReal x[12])
+{
+  return (PetscBool)(x[6] == x[9] && x[7] == x[10] && x[8] == x[11]);
+}
+
 void ContactShape(const PetscReal xi[2], PetscReal phi[4])
 {
   for (PetscInt a = 0; a < 4; ++a) phi[a] = 0.25 * (1.0 + corner[a][0] * xi[0]) * (1.0 + corner[a][1] * xi[1]);
@@ -90,14 +95,28 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
   return area;
 }
 
+/* Of a triangle, whose second parameter is 1 at its last vertex */
+static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
+{
+  const PetscReal e[2] = {q[1][0] - q[0][0], q[1][1] - q[0][1]}, f[2] = {q[2][0] - q[0][0], q[2][1] - q[0][1]}, r[2] = {y[0] - q[0][0], y[1] - q[0][1]};
+  const PetscReal det = e[0] * f[1] - e[1] * f[0], second = det != 0.0 ? (r[0] * f[1] - r[1] * f[0]) / det : 0.0, third = det != 0.0 ? (e[0] * r[1] - e[1] * r[0]) / det : 0.0;
+
+  xi[0] = third < 1.0 ? PetscClipInterval(2.0 * second / (1.0 - third) - 1.0, -1.0, 1.0) : 0.0;
+  xi[1] = PetscClipInterval(2.0 * third - 1.0, -1.0, 1.0);
+}
+
 /*
-  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram. The points asked for
+  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram, or of a triangle. The points asked for
   lie in the quadrilateral up to rounding: the result is kept in [-1, 1]^2, also where a degenerate map cannot be inverted.
 */
 void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {
   PetscReal c[4][2]; /* y = c0 + c1 xi + c2 eta + c3 xi eta */
 
+  if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
+    FacetInverseTriangle(q, y, xi);
+    return;
+  }
   for (PetscInt d = 0; d < 2; ++d) {
     c[0][d] = 0.25 * (q[0][d] + q[1][d] + q[2][d] + q[3][d]);
     c[1][d] = 0.25 * (-q[0][d] + q[1][d] + q[2][d] - q[3][d]);

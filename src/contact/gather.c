@@ -74,11 +74,11 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
 /* The one corner whose edge runs the other way along the same nodes; negative where there is none, or several */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
-  const PetscInt from = ring->node[ContactCornerAfter(of)], to = ring->node[of];
+  const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
   PetscInt       twin = -1;
 
   for (PetscInt i = first[from]; i < first[from + 1]; ++i) {
-    if (ring->node[ContactCornerAfter(corner[i])] != to) continue;
+    if (ring->node[ContactCornerAfter(ring, corner[i])] != to) continue;
     if (twin >= 0) return -1;
     twin = corner[i];
   }
@@ -103,11 +103,13 @@ static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
   PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->twin));
   PetscCall(PetscCalloc1(ring->nnodes + 2, &first));
   PetscCall(PetscMalloc1(4 * ring->nfacets, &corner));
-  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) ++first[ring->node[i] + 2];
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) first[ring->node[i] + 2] += !ContactCornerIsNone(ring, i);
   for (PetscInt v = 0; v < ring->nnodes; ++v) first[v + 2] += first[v + 1];
-  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) corner[first[ring->node[i] + 1]++] = i;
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
-    const PetscInt twin = FindTwin(ring, first, corner, i);
+    if (!ContactCornerIsNone(ring, i)) corner[first[ring->node[i] + 1]++] = i;
+  }
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
+    const PetscInt twin = ContactCornerIsNone(ring, i) ? -1 : FindTwin(ring, first, corner, i);
     PetscReal      n[3], m[3];
     PetscBool      smooth = (PetscBool)(twin >= 0 && FindTwin(ring, first, corner, twin) == i);
 
@@ -133,8 +135,12 @@ static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
     const PetscInt corner = 4 * ring->own + i;
     PetscInt       first, last;
 
+    if (ContactCornerIsNone(ring, corner)) {
+      ring->normal[i] = ring->normal[i - 1];
+      continue;
+    }
     if (ContactRingFan(ring, corner, &first, &last)) {
-      for (PetscInt k = ring->twin[ContactCornerBefore(corner)]; k != corner; k = ring->twin[ContactCornerBefore(k)]) first = PetscMin(first, k);
+      for (PetscInt k = ring->twin[ContactCornerBefore(ring, corner)]; k != corner; k = ring->twin[ContactCornerBefore(ring, k)]) first = PetscMin(first, k);
     }
     if (number[first] < 0) {
       ring->at[ring->nnormals] = corner;

@@ -49,10 +49,10 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
   PetscFunctionBegin;
   *n = 0;
   for (PetscInt i = 4 * ring->own; i < 4 * (ring->own + nown); ++i) {
-    const PetscInt   next = ContactCornerAfter(i), v = ring->node[i], w = ring->node[next];
+    const PetscInt   next = ContactCornerAfter(ring, i), v = ring->node[i], w = ring->node[next];
     const PetscReal *x = &ring->x[3 * v], *y = &ring->x[3 * w];
 
-    if (ring->twin[i] >= 0) continue;
+    if (ring->twin[i] >= 0 || ContactCornerIsNone(ring, i)) continue;
     for (PetscInt axis = 0; axis < 3; ++axis) {
       if (!MirrorHolds(ring, v, axis) || !MirrorHolds(ring, w, axis) || PetscAbsReal(y[axis] - x[axis]) > tolerance) continue;
       MirrorAddPlane((MirrorPlane){(PetscReal)axis, x[axis], MirrorIsOblique(ring, i, axis) || MirrorIsOblique(ring, next, axis) ? 1.0 : 0.0}, tolerance, n, planes);
@@ -152,7 +152,8 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
     node                    = &ring->node[4 * f];
     (*flips)[ring->nfacets] = (*flips)[f] | 1 << axis;
     for (PetscInt a = 0; a < 4; ++a) { /* the other way round, to be seen from outside again */
-      const PetscInt v = node[(4 - a) % 4];
+      static const PetscInt of_triangle[4] = {0, 2, 1, 1};
+      const PetscInt        v              = node[node[2] == node[3] ? of_triangle[a] : (4 - a) % 4];
 
       if (image[v] < 0) {
         image[v] = ring->nnodes;

@@ -24,10 +24,12 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
 
   if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
   ContactFacetTangents(facet, nearest->xi, t1, t2);
+  ContactCross(t1, t2, n);
+  if (ContactFacetIsTriangle(facet)) { /* at its last vertex the first tangent is zero */
+    ContactFacetAreaVector(facet, n);
+    for (PetscInt c = 0; c < 3; ++c) n[c] *= 0.25;
+  }
   for (PetscInt c = 0; c < 3; ++c) {
-    const PetscInt d = (c + 1) % 3, e = (c + 2) % 3;
-
-    n[c] = t1[d] * t2[e] - t1[e] * t2[d];
     r[c] = x[c] - nearest->y[c];
     area += n[c] * n[c]; /* squared, of a quarter of the facet */
     height += n[c] * r[c];

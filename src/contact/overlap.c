@@ -12,22 +12,23 @@ static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt v
 }
 
 /*
-  Convex parts of a quadrilateral, counterclockwise: itself, or two triangles where a corner is reflex. Where its edges cross
+  Convex parts of a quadrilateral, counterclockwise: itself, be it a triangle, or two triangles where a corner is reflex. Where its edges cross
   (two reflex corners, if only by rounding) one of the triangles is clockwise: it is reversed, and counts negatively.
 */
 static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2], PetscInt vertex[2][4], PetscReal sign[2])
 {
-  PetscInt reflex = -1;
+  const PetscBool triangle = (PetscBool)(p[2][0] == p[3][0] && p[2][1] == p[3][1]);
+  PetscInt        reflex   = -1;
 
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscReal *l = p[(a + 3) % 4], *m = p[a], *r = p[(a + 1) % 4];
 
-    if ((m[0] - l[0]) * (r[1] - m[1]) - (m[1] - l[1]) * (r[0] - m[0]) < 0.0) reflex = a;
+    if (!triangle && (m[0] - l[0]) * (r[1] - m[1]) - (m[1] - l[1]) * (r[0] - m[0]) < 0.0) reflex = a;
   }
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscInt first = reflex < 0 ? 0 : reflex + 2 * k;
 
-    size[k] = reflex < 0 ? 4 : 3;
+    size[k] = reflex < 0 && !triangle ? 4 : 3;
     for (PetscInt i = 0; i < size[k]; ++i) vertex[k][i] = (first + i) % 4;
     OverlapPutPart(p, size[k], vertex[k], part[k]);
     sign[k] = ContactPolygonArea(size[k], (const PetscReal(*)[2])part[k]) < 0.0 ? -1.0 : 1.0;
@@ -52,23 +53,23 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
 
 /*
   An edge that both facets have counts as the nonmortar one's: what lies on either side of it is then known from both of its sides, and
-  an edge between two mortar facets ends nothing
+  an edge between two mortar facets ends nothing. nmortar: edges of the mortar facet
 */
-static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt size, const PetscReal part[4][2], PetscInt edge[][2])
+static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size, const PetscReal part[4][2], PetscInt edge[][2])
 {
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt next = (i + 1) % n;
 
-    for (PetscInt e = 0; edge[i][1] < 4 && e < size; ++e) {
+    for (PetscInt e = 0; edge[i][1] < nmortar && e < size; ++e) {
       const PetscReal *a = part[e], *b = part[(e + 1) % size];
 
-      if (OverlapIsOnLine(a, b, polygon[i]) && OverlapIsOnLine(a, b, polygon[next])) edge[i][1] = edge[next][0] = 4 + e;
+      if (OverlapIsOnLine(a, b, polygon[i]) && OverlapIsOnLine(a, b, polygon[next])) edge[i][1] = edge[next][0] = nmortar + e;
     }
   }
 }
 
 /* Keeps the polygon's corners; vertex: of the nsize ones of the part of the nonmortar facet that it was clipped to */
-static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], const PetscInt edge[][2], PetscInt size, const PetscInt vertex[], ContactOverlap *o)
+static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2], PetscInt size, const PetscInt vertex[], ContactOverlap *o)
 {
   for (PetscInt i = 0; i < n; ++i) {
     ContactCorner *corner = &o->corner[o->ncorners++];
@@ -77,7 +78,7 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], const P
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscInt e = edge[i][k];
 
-      for (PetscInt v = 0; v < 2; ++v) corner->line[k][v] = e < 4 ? 4 + 3 - (e + v) % 4 : vertex[(e - 4 + v) % size];
+      for (PetscInt v = 0; v < 2; ++v) corner->line[k][v] = e < nmortar ? 4 + nmortar - 1 - (e + v) % nmortar : vertex[(e - nmortar + v) % size];
     }
   }
 }
@@ -131,9 +132,10 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
 */
 PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
-  PetscReal    n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
-  PetscInt     size[2], vertex[2][4], nparts;
-  ContactFrame frame;
+  const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
+  PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
+  PetscInt       size[2], vertex[2][4], nparts;
+  ContactFrame   frame;
 
   o->n = o->ncorners = o->ntriangles = 0;
   o->area                            = 0.0;
@@ -141,20 +143,20 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
   if (n2[0] * frame.axis[2][0] + n2[1] * frame.axis[2][1] + n2[2] * frame.axis[2][2] > limits->cosine) return PETSC_FALSE;
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
-  for (PetscInt a = 0; a < 4; ++a) { /* the mortar facet is seen from inside its body: clockwise */
-    reversed[a][0] = p2[3 - a][0];
-    reversed[a][1] = p2[3 - a][1];
+  for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body: clockwise */
+    reversed[a][0] = p2[nmortar - 1 - a][0];
+    reversed[a][1] = p2[nmortar - 1 - a][1];
   }
-  smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(4, reversed)));
+  smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
   nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
     PetscReal      polygon[CONTACT_MAX_POLYGON][2];
     PetscInt       edge[CONTACT_MAX_POLYGON][2];
-    const PetscInt n = ContactClip(4, reversed, size[k], part[k], polygon, edge);
+    const PetscInt n = ContactClip(nmortar, reversed, size[k], part[k], polygon, edge);
 
     if (!n || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
-    OverlapShareEdges(n, polygon, size[k], part[k], edge);
-    OverlapKeepCorners(n, polygon, edge, size[k], vertex[k], o);
+    OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
+    OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
     OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;

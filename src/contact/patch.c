@@ -3,7 +3,8 @@
   of normals n0 and n1 is the cubic whose chord is the straight edge d, bent along the mean N of the normals; its height at eta in
   [0, 1] is eta (1 - eta) (a0 (1 - eta) - a1 eta) with a = -2 d.n/(1 + N.n): the tangent of half an angle twice in place of the
   tangent of the angle, so that an arc's middle is exact. Heights of opposite edges are blended linearly (S. A. Coons 1967; with
-  quadratic edges T. Nagata, Comput. Aided Geom. Design 22 (2005)).
+  quadratic edges T. Nagata, Comput. Aided Geom. Design 22 (2005)). In a triangle, where the third edge is a point, that of the first counts with
+  the square: quadratic edges then make the quadratic surface.
 */
 #include "contactimpl.h"
 
@@ -43,6 +44,7 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
 /* The patch of the facet x with these unit normals of the smooth surface at its vertices; a zero normal is a missing one */
 void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *p)
 {
+  p->triangle = ContactFacetIsTriangle(x);
   for (PetscInt i = 0; i < 12; ++i) p->normal[i] = normal[i];
   for (PetscInt e = 0; e < 4; ++e) BendEdge(x, e, p);
 }
@@ -59,7 +61,7 @@ PetscReal ContactPatchBulge(const ContactPatch *p)
 /* The patch's point less the facet's at the parameters xi, and the normal there */
 void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3])
 {
-  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t}, blend[4] = {1.0 - t, s, t, 1.0 - s};
+  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t}, blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
   PetscReal       phi[4];
 
   ContactShape(xi, phi);

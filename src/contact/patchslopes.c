@@ -19,7 +19,7 @@ static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, Pe
 /* From the derivatives by the offset and the normal that ContactPatchEvaluate() has at xi: those by xi and by the patch */
 void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3], const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
 {
-  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t}, blend[4] = {1.0 - t, s, t, 1.0 - s};
+  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t}, blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
   PetscReal       phi[4], dphi[4][2];
 
   ContactShape(xi, phi);
@@ -31,7 +31,7 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
     const PetscReal height = EdgeHeight(p, e, along[e], blend[e], slopes);
 
     by_xi[e % 2] += forward * slopes[0] * direction;
-    by_xi[1 - e % 2] += outward * slopes[1] * direction;
+    by_xi[1 - e % 2] += (p->triangle && !e ? 2.0 * (1.0 - t) : 1.0) * outward * slopes[1] * direction;
     for (PetscInt k = 0; k < 2; ++k) {
       by_xi[k] += dphi[e][k] * normal;
       by->slope[e][k] = slopes[2 + k] * direction;

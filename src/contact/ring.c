@@ -1,33 +1,49 @@
 /*
   The facets about those of this rank, two deep, on whatever ranks they are: what the normals of a smooth surface are taken from.
 
-  A corner is 4 f + a, for vertex a of facet f; it stands for the edge from that vertex to the next as well. Neighbours across an
+  A corner is 4 f + a, for vertex a of facet f, of which a triangle has three; it stands for the edge from that vertex to the next as well. Neighbours across an
   edge that is sharper, undeformed, than the feature angle are none: each side of it has normals of its own.
 */
 #include "contactimpl.h"
 
-PetscInt ContactCornerAfter(PetscInt corner)
+/* Corners of the facet that a corner is of: a triangle has the node of its last one twice */
+static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)
 {
-  return 4 * (corner / 4) + (corner + 1) % 4;
+  const PetscInt *node = &ring->node[4 * (corner / 4)];
+
+  return node[2] == node[3] ? 3 : 4;
 }
 
-PetscInt ContactCornerBefore(PetscInt corner)
+PetscInt ContactCornerAfter(const ContactRing *ring, PetscInt corner)
 {
-  return 4 * (corner / 4) + (corner + 3) % 4;
+  return 4 * (corner / 4) + (corner % 4 + 1) % RingCountCorners(ring, corner);
+}
+
+PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
+{
+  const PetscInt n = RingCountCorners(ring, corner);
+
+  return 4 * (corner / 4) + (corner % 4 + n - 1) % n;
+}
+
+/* Whether it is the fourth of a triangle, which is none */
+PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
+{
+  return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));
 }
 
 /* First corner about a corner's node, clockwise, and the last, as far as no edge is sharp or on the border; true where all around is smooth */
 PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
-  while (ring->twin[ContactCornerBefore(*last)] >= 0) {
-    *last = ring->twin[ContactCornerBefore(*last)];
+  while (ring->twin[ContactCornerBefore(ring, *last)] >= 0) {
+    *last = ring->twin[ContactCornerBefore(ring, *last)];
     if (*last == corner) {
-      *last = ContactCornerAfter(ring->twin[corner]);
+      *last = ContactCornerAfter(ring, ring->twin[corner]);
       return PETSC_TRUE;
     }
   }
-  while (ring->twin[*first] >= 0) *first = ContactCornerAfter(ring->twin[*first]);
+  while (ring->twin[*first] >= 0) *first = ContactCornerAfter(ring, ring->twin[*first]);
   return PETSC_FALSE;
 }
 
@@ -61,7 +77,7 @@ PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
 /* Coordinates of the ends of the two edges of a facet that meet at a corner, from the corner's own */
 void ContactRingEdges(const ContactRing *ring, PetscInt corner, PetscReal after[3], PetscReal before[3])
 {
-  const PetscReal *x = &ring->x[3 * ring->node[corner]], *y = &ring->x[3 * ring->node[ContactCornerAfter(corner)]], *z = &ring->x[3 * ring->node[ContactCornerBefore(corner)]];
+  const PetscReal *x = &ring->x[3 * ring->node[corner]], *y = &ring->x[3 * ring->node[ContactCornerAfter(ring, corner)]], *z = &ring->x[3 * ring->node[ContactCornerBefore(ring, corner)]];
 
   for (PetscInt c = 0; c < 3; ++c) {
     after[c]  = y[c] - x[c];

@@ -46,7 +46,7 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
-/* The facets of four nodes that n facets of the mesh are cut into: their nodes, local and global numbers */
+/* The facets of four nodes, or triangles, that n facets of the mesh are cut into: their nodes, local and global numbers */
 static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], ContactSurface *s)
 {
   PetscSection global;
@@ -70,18 +70,6 @@ static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], Cont
   PetscFunctionReturn(0);
 }
 
-/* Collective error where a facet is a triangle, which has its last vertex twice */
-static PetscErrorCode SurfaceRefuseTriangles(MPI_Comm comm, const ContactSurface *s)
-{
-  PetscBool triangles = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->nfacets; ++f) triangles = (PetscBool)(triangles || s->vertex[4 * f + 2] == s->vertex[4 * f + 3]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &triangles, 1, MPIU_BOOL, MPI_LOR, comm));
-  PetscCheck(!triangles, comm, PETSC_ERR_SUP, "The face \"%s\" is of a body of tetrahedra: contact and ties are between hexahedra so far", s->name);
-  PetscFunctionReturn(0);
-}
-
 /* Collective. thickness: of every body */
 PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal thickness[], ContactSurface *s)
 {
@@ -101,7 +89,6 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscCheck(total > 0, comm, PETSC_ERR_ARG_WRONG, "Face \"%s\" of a contact pair has no facets", face);
   PetscCall(ISGetIndices(facets, &f));
   PetscCall(SurfaceCut(dm, n, f, s));
-  PetscCall(SurfaceRefuseTriangles(comm, s));
   PetscCall(SurfaceFindBody(dm, n, f, &s->body));
   s->thickness = thickness[s->body];
   PetscCall(ISRestoreIndices(facets, &f));
@@ -176,6 +163,7 @@ PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal n
     PetscReal area[3];
     PetscInt  offset;
 
+    if (i % 4 == 3 && s->vertex[i] == s->vertex[i - 1]) continue;
     ContactFacetAreaVector(&s->x[12 * (i / 4)], area);
     PetscCall(PetscSectionGetOffset(section, s->vertex[i], &offset));
     for (PetscInt c = 0; c < 3; ++c) a[offset + c] += area[c];

@@ -30,46 +30,66 @@ static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, P
   PetscFunctionReturn(0);
 }
 
-/* a = diag(w) mass^-1, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is covered by next to nothing */
-static PetscBool TieDual(const PetscReal mass[4][4], PetscReal a[4][4])
+/* a = diag(w) mass^-1 of n vertices, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is covered by next to nothing */
+static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
   PetscReal m[4][8];
 
-  for (PetscInt i = 0; i < 4; ++i) {
-    for (PetscInt j = 0; j < 4; ++j) {
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt j = 0; j < n; ++j) {
       m[i][j]     = mass[i][j];
-      m[i][4 + j] = i == j ? 1.0 : 0.0;
+      m[i][n + j] = i == j ? 1.0 : 0.0;
     }
   }
-  for (PetscInt k = 0; k < 4; ++k) {
+  for (PetscInt k = 0; k < n; ++k) {
     PetscInt pivot = k;
 
-    for (PetscInt i = k + 1; i < 4; ++i) pivot = PetscAbsReal(m[i][k]) > PetscAbsReal(m[pivot][k]) ? i : pivot;
+    for (PetscInt i = k + 1; i < n; ++i) pivot = PetscAbsReal(m[i][k]) > PetscAbsReal(m[pivot][k]) ? i : pivot;
     if (!(PetscAbsReal(m[pivot][k]) > 0.0)) return PETSC_FALSE;
-    for (PetscInt j = 0; j < 8; ++j) {
+    for (PetscInt j = 0; j < 2 * n; ++j) {
       const PetscReal swap = m[k][j];
 
       m[k][j]     = m[pivot][j];
       m[pivot][j] = swap;
     }
-    for (PetscInt j = 7; j >= k; --j) m[k][j] /= m[k][k];
-    for (PetscInt i = 0; i < 4; ++i) {
-      for (PetscInt j = 7; i != k && j >= k; --j) m[i][j] -= m[i][k] * m[k][j];
+    for (PetscInt j = 2 * n - 1; j >= k; --j) m[k][j] /= m[k][k];
+    for (PetscInt i = 0; i < n; ++i) {
+      for (PetscInt j = 2 * n - 1; i != k && j >= k; --j) m[i][j] -= m[i][k] * m[k][j];
     }
   }
-  for (PetscInt i = 0; i < 4; ++i) {
-    const PetscReal w = mass[i][0] + mass[i][1] + mass[i][2] + mass[i][3];
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscReal w = 0.0;
 
-    for (PetscInt j = 0; j < 4; ++j) a[i][j] = w * m[i][4 + j];
+    for (PetscInt j = 0; j < n; ++j) w += mass[i][j];
+    for (PetscInt j = 0; j < n; ++j) a[i][j] = w * m[i][n + j];
   }
   return PETSC_TRUE;
+}
+
+/* Integrals of the n functions of a facet: a triangle's last one is the sum of two */
+static void TieFold(PetscInt n, PetscReal rows[4][4])
+{
+  for (PetscInt b = 0; n == 3 && b < 4; ++b) {
+    rows[2][b] += rows[3][b];
+    rows[3][b] = 0.0;
+  }
+}
+
+/* What they are with each other */
+static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
+{
+  TieFold(n, mass);
+  for (PetscInt a = 0; n == 3 && a < 3; ++a) {
+    mass[a][2] += mass[a][3];
+    mass[a][3] = 0.0;
+  }
 }
 
 /* One nonmortar facet against the candidates near it */
 static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits, const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
 {
   const PetscReal  zero[12] = {0.0}, *x = &nonmortar->x[12 * f];
-  const PetscInt  *node       = &nonmortar->node[4 * f];
+  const PetscInt  *node = &nonmortar->node[4 * f], n = ContactFacetIsTriangle(x) ? 3 : 4;
   PetscReal        mass[4][4] = {{0.0}}, dual[4][4], whole[4];
   PetscScalar      areas[2][4];
   ContactIntegrals m;
@@ -81,6 +101,7 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
     ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
     for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += m.D[a / 4][a % 4];
   }
+  TieFoldMass(n, mass);
   (void)ContactFacetMass(x, whole);
   for (PetscInt a = 0; a < 4; ++a) {
     areas[0][a] = mass[a][0] + mass[a][1] + mass[a][2] + mass[a][3];
@@ -88,15 +109,16 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
   }
   PetscCall(VecSetValues(sums->covered, 4, node, areas[0], ADD_VALUES));
   PetscCall(VecSetValues(sums->whole, 4, node, areas[1], ADD_VALUES));
-  if (!TieDual(mass, dual)) PetscFunctionReturn(0);
+  if (!TieDual(n, mass, dual)) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < nnear; ++k) {
     if (!ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) continue;
     ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
-    for (PetscInt a = 0; a < 4; ++a) {
+    TieFold(n, m.M);
+    for (PetscInt a = 0; a < n; ++a) {
       for (PetscInt c = 0; c < 4; ++c) {
         PetscReal value = 0.0;
 
-        for (PetscInt b = 0; b < 4; ++b) value += dual[a][b] * m.M[b][c];
+        for (PetscInt b = 0; b < n; ++b) value += dual[a][b] * m.M[b][c];
         if (value != 0.0) PetscCall(TieSumsAdd(sums, node[a], mortar->node[4 * near[k] + c], value));
       }
     }

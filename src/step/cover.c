@@ -192,12 +192,21 @@ static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
   PetscFunctionReturn(0);
 }
 
+/* A triangle has its last vertex twice */
+static PetscInt CoverCountVertices(const PetscInt v[4])
+{
+  return v[2] == v[3] ? 3 : 4;
+}
+
 /* What the vertices of a facet gain from each other: the off-diagonals of its mass matrix times the differences of their pressures */
 static void CoverExchangeFacet(const PetscInt v[4], const PetscScalar c[], PetscScalar gain[])
 {
-  for (PetscInt a = 0; a < 4; ++a) {
-    for (PetscInt b = a + 1; b < 4; ++b) {
-      const PetscReal area_a = PetscRealPart(c[v[a]]), area_b = PetscRealPart(c[v[b]]), part = b - a == 2 ? 1.0 / 36.0 : 1.0 / 18.0;
+  const PetscInt n = CoverCountVertices(v);
+
+  for (PetscInt a = 0; a < n; ++a) {
+    for (PetscInt b = a + 1; b < n; ++b) {
+      const PetscReal area_a = PetscRealPart(c[v[a]]), area_b = PetscRealPart(c[v[b]]), part = n == 3 ? 1.0 / 24.0 : b - a == 2 ? 1.0 / 36.0
+                                                                                                                                : 1.0 / 18.0;
       PetscReal       flow;
 
       if (!(area_a > 0.0 && area_b > 0.0)) continue;
