@@ -1,4 +1,4 @@
-/* MeshCreate: level 0 on rank 0, distribution, refinement, layout of the unknowns */
+/* MeshCreate: level 0, distribution, refinement, layout of the unknowns */
 #include "meshimpl.h"
 #include <petscsf.h>
 
@@ -80,6 +80,30 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   PetscFunctionReturn(0);
 }
 
+/* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's partitioners are to part, is not; frees the bodies' grids */
+static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[], PetscBool may, PetscBool *dealt, MeshCurves *curves, DM *dm)
+{
+  PetscInt64  ncells = 0;
+  PetscBool   chosen, file = PETSC_FALSE;
+  PetscMPIInt size;
+  MeshOwners  owners = {.n = 0, .points = NULL};
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-petscpartitioner_type", &chosen));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    file = (PetscBool)(file || bodies[b].shape == SHAPE_GMSH);
+    ncells += meshes[b].ncells;
+  }
+  *dealt = owners.dealt = (PetscBool)(may && file && !chosen && size > 1 && ncells >= MESH_MIN_CELLS_PER_RANK * size);
+  if (owners.dealt) PetscCall(MeshDealGrids(comm, nbodies, meshes, &owners));
+  PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, &owners, dm));
+  PetscCall(MeshOwnersDestroy(&owners));
+  PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, curves));
+  PetscCall(MeshDestroyBodies(nbodies, meshes));
+  PetscFunctionReturn(0);
+}
+
 /* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, const MeshLocalRefinement *local, DM *dm)
 {
@@ -89,6 +113,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   MeshBody   *meshes;
   MeshCurves  curves;
   MeshHanging hanging = {NULL, NULL};
+  PetscBool   dealt = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(MeshInitializePackage());
@@ -105,9 +130,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
 
-  PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, dm));
-  PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, &curves));
-  PetscCall(MeshDestroyBodies(nbodies, meshes));
+  PetscCall(MeshCreateParted(comm, nbodies, bodies, meshes, local->nzones ? PETSC_FALSE : PETSC_TRUE, &dealt, &curves, dm));
   PetscCall(PetscFree(meshes));
   if (local->nzones) before = refine;
   else if (size > 1) {
@@ -119,7 +142,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
     PetscCall(MeshCurvesRefine(before, *dm, &curves));
   }
   if (local->nzones) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
-  if (size > 1) PetscCall(MeshDistribute(dm, &curves, &hanging));
+  if (size > 1 && !dealt) PetscCall(MeshDistribute(dm, &curves, &hanging));
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
   PetscCall(MeshSetSection(*dm, orders));
@@ -159,8 +182,9 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   Level: beginner
 
   Notes:
-  The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The mesh is generated on rank 0,
-  or read there from Gmsh files, and distributed as coarse as its balance allows; refinement is parallel. Refined
+  The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on rank 0,
+  or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh files before any rank makes a `DMPLEX` of them; refinement
+  is parallel. Refined
   vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file
   of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 

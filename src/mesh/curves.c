@@ -2,7 +2,7 @@
 #include "meshimpl.h"
 
 /* Coordinates of the places of a cell of so many corners */
-static PetscInt CurveSize(PetscInt ncorners)
+PetscInt MeshCurveSize(PetscInt ncorners)
 {
   return ncorners == 4 ? 30 : 81;
 }
@@ -23,7 +23,7 @@ PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[]
   PetscCall(PetscMalloc1(nbodies, &first));
   PetscCall(MeshGetFirstCells(nbodies, meshes, first));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c) PetscCall(PetscSectionSetDof(curves->section, first[b] + c, CurveSize(meshes[b].ncorners)));
+    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c) PetscCall(PetscSectionSetDof(curves->section, first[b] + c, MeshCurveSize(meshes[b].ncorners)));
   }
   PetscCall(PetscSectionSetUp(curves->section));
   PetscCall(PetscSectionGetStorageSize(curves->section, &n));
@@ -35,7 +35,7 @@ PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[]
     if (!meshes[b].quadratic || !meshes[b].grid.ncells) continue;
     PetscCall(PetscSectionGetOffset(curves->section, first[b], &offset));
     PetscCall(VecGetArray(curves->places, &x));
-    for (PetscInt i = 0; i < CurveSize(meshes[b].ncorners) * meshes[b].grid.ncells; ++i) x[offset + i] = meshes[b].grid.curve[i];
+    for (PetscInt i = 0; i < MeshCurveSize(meshes[b].ncorners) * meshes[b].grid.ncells; ++i) x[offset + i] = meshes[b].grid.curve[i];
     PetscCall(VecRestoreArray(curves->places, &x));
   }
   PetscCall(PetscFree(first));
@@ -153,7 +153,7 @@ static void CurveCut(PetscInt ncorners, const PetscScalar places[], const PetscR
   PetscReal xi[MESH_MAX_NODES][3], place[3];
 
   MeshPlacesSetStraight(ncorners, corners, xi);
-  for (PetscInt i = 0; 3 * i < CurveSize(ncorners); ++i) {
+  for (PetscInt i = 0; 3 * i < MeshCurveSize(ncorners); ++i) {
     CurveEvaluate(ncorners, places, xi[i], place);
     for (PetscInt d = 0; d < 3; ++d) part[3 * i + d] = place[d];
   }
@@ -189,7 +189,7 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
 
     PetscCall(PetscSectionGetDof(there.section, c, &n));
     if (!n) continue;
-    ncorners = n == CurveSize(4) ? 4 : 8;
+    ncorners = n == MeshCurveSize(4) ? 4 : 8;
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
     PetscCall(PetscSectionGetOffset(there.section, c, &child));
     CurveCut(ncorners, from + parent, (const PetscReal(*)[3])children[ncorners / 4 - 1].corners[c % nchildren], to + child);
@@ -265,7 +265,7 @@ PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fin
 
     PetscCall(PetscSectionGetDof(curves->section, c / nchildren, &n));
     if (!n) continue;
-    ncorners = n == CurveSize(4) ? 4 : 8;
+    ncorners = n == MeshCurveSize(4) ? 4 : 8;
     corners  = children[ncorners / 4 - 1].corners[c % nchildren];
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
     PetscCall(MeshGetCellPoints(fine, at.section, c, &n, points));

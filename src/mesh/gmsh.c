@@ -116,6 +116,10 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
   PetscFunctionBegin;
   *quadratic = PETSC_FALSE;
   for (PetscInt v = 3; v < 3 * grid->nvertices; ++v) size = PetscMax(size, PetscAbsReal(grid->coordinates[v] - grid->coordinates[v % 3]));
+  for (PetscInt e = 0; e < mesh->nelements; ++e) {
+    if (GmshIsWithin(mesh, &mesh->elements[e], volume) && mesh->elements[e].type->nnodes > mesh->elements[e].type->ncorners) *quadratic = PETSC_TRUE;
+  }
+  if (!*quadratic) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(ncoordinates * grid->ncells, &grid->curve));
   for (PetscInt e = 0; e < mesh->nelements; ++e) {
     const GmshElement *element = &mesh->elements[e];
@@ -130,7 +134,6 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
     }
     off   = GmshGetCurve((PetscInt)element->type->nnodes, (const PetscReal(*)[3])x, grid->curve + ncoordinates * c);
     bulge = PetscMax(bulge, off);
-    if (element->type->nnodes > element->type->ncorners) *quadratic = PETSC_TRUE;
     ++c;
   }
   if (bulge <= PETSC_SQRT_MACHINE_EPSILON * size) PetscCall(PetscFree(grid->curve));

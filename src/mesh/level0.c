@@ -1,5 +1,6 @@
-/* The mesh of all bodies at level 0, on rank 0, and its labels */
+/* The mesh of all bodies at level 0 and its labels, of the grids that a rank has */
 #include "meshimpl.h"
+#include <petscsf.h>
 
 /* The labels of all faces, on all ranks: those of a face without facets here are empty */
 static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[])
@@ -134,18 +135,38 @@ static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[]
   PetscFunctionReturn(0);
 }
 
-/* All bodies at level 0, on rank 0; the other ranks' parts are empty */
-PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], DM *dm)
+/* Vertices that other ranks own */
+static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners *owners)
+{
+  PetscMPIInt  rank;
+  PetscInt     n = 0, *leaves;
+  PetscSFNode *roots;
+  PetscSF      sf;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)dm), &rank));
+  PetscCall(PetscMalloc1(owners->n, &leaves));
+  PetscCall(PetscMalloc1(owners->n, &roots));
+  for (PetscInt v = 0; v < owners->n; ++v) {
+    if (owners->points[v].rank == rank) continue;
+    leaves[n]  = ncells + v;
+    roots[n++] = owners->points[v];
+  }
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(PetscSFSetGraph(sf, ncells + owners->n, n, leaves, PETSC_OWN_POINTER, roots, PETSC_OWN_POINTER));
+  PetscFunctionReturn(0);
+}
+
+/* The other ranks' parts are empty, unless the grids were dealt out */
+PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], const MeshOwners *owners, DM *dm)
 {
   RankError      error;
   PetscErrorCode ierr;
-  PetscMPIInt    rank;
   PetscInt       ncells = 0, nvertices = 0;
   PetscReal     *coordinates;
   DM             cells;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(DMCreate(comm, &cells));
   PetscCall(DMSetType(cells, DMPLEX));
   PetscCall(DMSetDimension(cells, 3));
@@ -160,15 +181,17 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
   PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s", error.message);
   PetscCall(DMPlexSymmetrize(cells));
   PetscCall(DMPlexStratify(cells));
+  if (owners->dealt) PetscCall(MeshShareVertices(cells, ncells, owners));
   PetscCall(DMPlexInterpolate(cells, dm));
   PetscCall(DMPlexBuildCoordinatesFromCellList(*dm, 3, coordinates));
   PetscCall(DMDestroy(&cells));
   PetscCall(PetscFree(coordinates));
   PetscCall(MeshCreateLabels(*dm, nbodies, bodies, meshes));
   PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = MeshLabelBodies(*dm, nbodies, bodies, meshes, ncells);
+  ierr = MeshLabelBodies(*dm, nbodies, bodies, meshes, ncells);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  for (PetscInt b = 0; b < nbodies; ++b) PetscCall(MeshCheckSubfacesFilled(*dm, &bodies[b]));
   PetscCall(MeshCompleteFaceLabels(*dm, nbodies, bodies, meshes));
   PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_FALSE));
   PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_FALSE));

@@ -189,10 +189,11 @@ PETSC_INTERN PetscErrorCode GmshFileGetGrid(MPI_Comm, GmshFile *, const SceneBod
 /* faces.c: name of the label of a body's face */
 PETSC_INTERN PetscErrorCode MeshFaceLabelName(const char body[], const char face[], size_t length, char name[]);
 
-/* subfaces.c: whether those that the body names are of its faces; their labels at level 0, not collective, on the rank that has
-   the body, an error if one has no facets. first: the first vertex */
+/* subfaces.c: whether those that the body names are of its faces; their labels at level 0, not collective, of this rank's part of
+   the body, first: the first vertex; collective: an error if one has no facets on any rank */
 PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
 PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first);
+PETSC_INTERN PetscErrorCode MeshCheckSubfacesFilled(DM, const SceneBody *);
 
 /* spots.c: labels of the nodes at the scene's points and edges, as faces have them */
 PETSC_INTERN PetscErrorCode MeshLabelSpots(DM, Scene);
@@ -258,6 +259,7 @@ typedef struct {
   PetscSection section; /* NULL: no body has any */
   Vec          places;
 } MeshCurves;
+PETSC_INTERN PetscInt       MeshCurveSize(PetscInt ncorners);
 PETSC_INTERN PetscErrorCode MeshCurvesCreate(DM level0, PetscInt nbodies, const MeshBody[], MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDistribute(PetscSF, DM distributed, MeshCurves *);
 /* fine: the mesh that the curves belong to, refined. Moves its vertices onto them, or all its nodes; replaces them by those of its cells */
@@ -285,10 +287,22 @@ typedef struct {
 } MeshLocalRefinement;
 PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const SceneBody[], DM *, MeshCurves *, MeshHanging *);
 
-/* level0.c: all bodies at level 0, on rank 0, with their labels; the first cell of each, tetrahedra before hexahedra as DMPlex wants them */
-PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
-PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], DM *);
+/* metis.c: METIS on a whole graph, part[v] in [0, nparts); and the partitioner, public */
+PETSC_INTERN PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[]);
 
-/* boundary.c, metis.c, create.c, support.c: the partitioner, MeshCreate(), and whether the scene holds its bodies, public */
+/* deal.c: collective; the grids on rank 0 become those of all ranks, each a part. Which rank owns each vertex here, as which point of a mesh of cells and vertices */
+typedef struct {
+  PetscBool    dealt; /* else all is on rank 0 */
+  PetscInt     n;
+  PetscSFNode *points;
+} MeshOwners;
+PETSC_INTERN PetscErrorCode MeshDealGrids(MPI_Comm, PetscInt nbodies, MeshBody[], MeshOwners *);
+PETSC_INTERN PetscErrorCode MeshOwnersDestroy(MeshOwners *);
+
+/* level0.c: all bodies at level 0 with their labels, on rank 0 or dealt out; the first cell of each, tetrahedra before hexahedra as DMPlex wants them */
+PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
+PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[], const MeshOwners *, DM *);
+
+/* boundary.c, create.c, support.c: MeshCreate(), and whether the scene holds its bodies, public */
 
 #endif

@@ -9,7 +9,7 @@
 #define METIS_RECURSIVE_MAX_PARTS 8
 
 /* Calls METIS on a whole graph; part[v] in [0, nparts) */
-static PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[])
+PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[])
 {
   idx_t n, ncon = 1, np, cut, *xadj, *adjncy, *vwgt = NULL, *where, options[METIS_NOPTIONS];
   int   status;

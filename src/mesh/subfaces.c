@@ -58,7 +58,6 @@ PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *
   for (PetscInt s = 0; s < body->nsubfaces; ++s) {
     const SceneSubface *subface = &body->subfaces[s];
     char                whole[PETSC_MAX_PATH_LEN], name[PETSC_MAX_PATH_LEN];
-    PetscInt            nselected = 0;
 
     PetscCall(MeshFaceLabelName(body->name, subface->of, sizeof(whole), whole));
     PetscCall(MeshFaceLabelName(body->name, subface->name, sizeof(name), name));
@@ -71,13 +70,25 @@ PetscErrorCode MeshLabelSubfaces(DM dm, const SceneBody *body, const ShapeGrid *
       PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
       PetscCall(DMGetLabelValue(dm, whole, join[0], &value));
       PetscCall(SubfaceHoldsFacet(body, subface, grid, q, &inside));
-      if (value == 1 && inside) {
-        PetscCall(DMSetLabelValue(dm, name, join[0], 1));
-        ++nselected;
-      }
+      if (value == 1 && inside) PetscCall(DMSetLabelValue(dm, name, join[0], 1));
       PetscCall(DMPlexRestoreJoin(dm, n, corners, &njoin, &join));
     }
-    PetscCheck(nselected, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name, whole);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshCheckSubfacesFilled(DM dm, const SceneBody *body)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < body->nsubfaces; ++s) {
+    char     whole[PETSC_MAX_PATH_LEN], name[PETSC_MAX_PATH_LEN];
+    PetscInt n;
+
+    PetscCall(MeshFaceLabelName(body->name, body->subfaces[s].of, sizeof(whole), whole));
+    PetscCall(MeshFaceLabelName(body->name, body->subfaces[s].name, sizeof(name), name));
+    PetscCall(DMGetStratumSize(dm, name, 1, &n));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+    PetscCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name, whole);
   }
   PetscFunctionReturn(0);
 }
