@@ -199,9 +199,9 @@ static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *
   PetscCall(VecNorm(s, NORM_2, &step));
   if (step > 0.0) {
     PetscCall(QuasiNewtonDamp(qn->B, s, y, &sy));
-    if (sy > 0.0) PetscCall(QuasiNewtonSetScale(tao, H, sy / (step * step)));
     PetscCall(VecAXPY(qn->sum, 1.0, y));
-    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum));
+    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* which since PETSc 3.22 scales B anew, by another rule */
+    if (sy > 0.0) PetscCall(QuasiNewtonSetScale(tao, H, sy / (step * step)));
     qn->npairs++;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &y));
