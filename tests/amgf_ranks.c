@@ -109,13 +109,13 @@ static PetscErrorCode CheckPivots(Context *c, PetscInt ranks)
   PetscFunctionReturn(0);
 }
 
-/* A filtered matrix that is not finite: all ranks learn of it, and with an error all of them err */
+/* A filtered matrix that is singular: all ranks learn of it, and with an error all of them err */
 static PetscErrorCode CheckFailure(Context *c, PetscInt ranks)
 {
   PetscErrorCode ierr;
   PCFailedReason reason;
   PetscInt       start;
-  PC             pc;
+  PC             pc, amg;
 
   PetscFunctionBeginUser;
   PetscCall(MatGetOwnershipRange(c->A, &start, NULL));
@@ -126,6 +126,8 @@ static PetscErrorCode CheckFailure(Context *c, PetscInt ranks)
   PetscCall(MatAssemblyEnd(c->A, MAT_FINAL_ASSEMBLY));
   for (PetscBool fails = PETSC_FALSE; fails <= PETSC_TRUE; fails++) {
     PetscCall(NewPC(c, ranks, &pc));
+    PetscCall(PCAMGFGetAMGPC(pc, &amg));
+    PetscCall(PCSetType(amg, PCNONE));
     PetscCall(PCSetErrorIfFailure(pc, fails));
     PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
     ierr = PCSetUp(pc);
