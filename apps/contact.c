@@ -10,6 +10,8 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
   -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
+  -accuracy_adaptive   refine for it where the error is, in place of everywhere\n\
+  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too\n\
   -accuracy_view       what -accuracy chose and attained (part of the table unless -quiet)\n\
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
@@ -209,7 +211,7 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, Simulation *sim)
+static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, const MeshMarks *marks, Simulation *sim)
 {
   StepTolerances tolerances;
 
@@ -221,6 +223,7 @@ static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Ac
   PetscCall(SimulationSetMonitor(*sim, (PetscBool)!app->quiet));
   PetscCall(SimulationSetFields(*sim, app->write, (PetscBool)(app->write && app->gauss)));
   PetscCall(SimulationSetFromOptions(*sim));
+  if (accuracy->adaptive) PetscCall(SimulationSetMarks(*sim, marks));
   PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);
 }
@@ -316,23 +319,26 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
 }
 
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
-static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, RunEnd *end, PetscBool *again)
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, RunEnd *end, PetscBool *again)
 {
   Simulation     sim;
   Output         output;
   StepTolerances tolerances;
   RunReport      report;
   PetscBool      converged;
+  const PetscInt mesh = accuracy->mesh;
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
-  PetscCall(AppCreateSimulation(app, scene, accuracy, &sim));
+  PetscCall(AppCreateSimulation(app, scene, accuracy, marks, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
   PetscCall(AppSimulateSteps(app, scene, sim, output, &converged));
   PetscCall(SimulationGetReport(sim, &report));
   PetscCall(SimulationGetTolerances(sim, &tolerances));
+  if (converged && accuracy->adaptive) PetscCall(SimulationPropose(sim, &accuracy->growth));
   if (converged) PetscCall(AccuracyAssess(accuracy, &tolerances, &report, scene, again));
+  if (accuracy->adaptive && accuracy->mesh > mesh) PetscCall(SimulationMark(sim, marks));
   if (accuracy->nlevels) report.accuracy = accuracy;
   if (converged && report.accuracy && !accuracy->reached) report.exit_code = RUN_ACCURACY_MISSED;
   if (report.exit_code == RUN_INTERRUPTED) PetscCall(AppWriteCheckpoint(app, scene, sim));
@@ -340,17 +346,6 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));
   PetscCall(SimulationDestroy(&sim));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode AppSayNext(const Accuracy *accuracy, Scene scene)
-{
-  const AccuracyLevel *now = &accuracy->levels[accuracy->nlevels - 1];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)accuracy->target, (double)now->error, now->unseen ? ", more than stress recovery sees" : PetscIsNanReal(now->change) ? " by stress recovery alone"
-                                                                                                                                                                                                                                                                 : "",
-                        (double)now->algebraic, scene->refine));
   PetscFunctionReturn(0);
 }
 
@@ -369,6 +364,7 @@ static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
 static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
   Accuracy  accuracy;
+  MeshMarks marks = {0, NULL, NULL};
   PetscBool again;
 
   PetscFunctionBeginUser;
@@ -377,10 +373,11 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
   PetscCall(SimulationCatchSignals());
   do {
-    PetscCall(AppSimulate(app, scene, &accuracy, end, &again));
-    if (again && !app->quiet) PetscCall(AppSayNext(&accuracy, scene));
+    PetscCall(AppSimulate(app, scene, &accuracy, &marks, end, &again));
+    if (again && !app->quiet) PetscCall(ReportViewNextMesh(&accuracy, scene->refine, PETSC_VIEWER_STDOUT_WORLD));
   } while (again);
   PetscCall(AccuracyDestroy(&accuracy));
+  PetscCall(MeshMarksDestroy(&marks));
   PetscFunctionReturn(0);
 }
 
@@ -389,7 +386,7 @@ static PetscErrorCode AppCheckScene(Scene scene)
   DM dm;
 
   PetscFunctionBeginUser;
-  PetscCall(MeshCreateScene(PETSC_COMM_WORLD, scene, &dm));
+  PetscCall(MeshCreateScene(PETSC_COMM_WORLD, scene, NULL, &dm));
   PetscCall(MeshCheckScene(dm, scene));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));

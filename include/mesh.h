@@ -34,8 +34,15 @@ static inline PetscInt MeshCorners(PetscInt nnodes)
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
-/* A scene's, refined where it says so */
-PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, DM *);
+/* Cells marked mesh after mesh, as numbers on the first rank; those marked last are the last */
+typedef struct {
+  PetscInt   n, *count; /* rounds, and the cells of each */
+  PetscInt **cells;
+} MeshMarks;
+/* A scene's, refined where it says so, and then where marks are; NULL: there will be none */
+PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, const MeshMarks *, DM *);
+PETSC_EXTERN PetscErrorCode MeshMarksAdd(DM, const PetscBool marked[], MeshMarks *);
+PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
 /* Which vertices hang amid an edge or a facet of a coarser cell, and of which others they are the mean; NULL: none */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);

@@ -16,6 +16,7 @@ PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewAccuracy(const RunReport *, PetscViewer);
+PETSC_EXTERN PetscErrorCode ReportViewNextMesh(const Accuracy *, PetscInt refine, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewEffects(const RunReport *, PetscViewer);
 
 #endif

@@ -154,8 +154,10 @@ typedef struct {
 /* What a mesh attained. Values are those of all load steps in turn */
 typedef struct {
   PetscInt       refine, dofs;
+  PetscInt       mesh;      /* number of the mesh, from 0 */
   PetscReal     *energy;    /* [force length] */
   PetscReal     *force;     /* of each pair its size, and the sum of the sizes of its rows' [force] */
+  PetscReal     *pressure;  /* of each pair the largest [force/length^2] */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
   PetscReal      change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
@@ -173,6 +175,10 @@ typedef struct {
   PetscBool      given;            /* by the user: it stays */
   PetscReal      update_tolerance; /* of the gap, relative to the largest displacement */
   PetscInt       updates;          /* linearizations of the gap a load step may take */
+  PetscInt       of;               /* what is to be accurate: AccuracyTargets */
+  PetscBool      adaptive;         /* cells are refined where the error is */
+  PetscInt       mesh;             /* number of the next run's mesh, from 0 */
+  PetscReal      growth;           /* unknowns of the next mesh, by those of this one */
   PetscInt       nlevels;
   AccuracyLevel *levels;
   PetscBool      reached;

@@ -7,6 +7,7 @@
 
 #include <petscdmplex.h>
 #include "scene.h"
+#include "mesh.h"
 #include "report.h"
 #include "checkpoint.h"
 
@@ -27,10 +28,14 @@ PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *
 PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
+PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
+/* Cells for the next mesh, by the errors of these load steps: how much it grows, and marks for it */
+PETSC_EXTERN PetscErrorCode SimulationPropose(Simulation, PetscReal *growth);
+PETSC_EXTERN PetscErrorCode SimulationMark(Simulation, MeshMarks *);
 /* The state, to be written; and one to go on from, before any load step: with which step */
 PETSC_EXTERN PetscErrorCode SimulationGetCheckpoint(Simulation, Checkpoint *);
 PETSC_EXTERN PetscErrorCode SimulationSetCheckpoint(Simulation, Checkpoint, PetscInt *step);

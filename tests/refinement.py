@@ -131,9 +131,10 @@ def judge():
     say("Hertz: fewer unknowns, a quarter of the error in force, and below 3 %", hand["dofs"] < uniform["dofs"] and errors[1] < 0.25 * errors[0] and errors[1] < 0.03, (uniform["dofs"], hand["dofs"], errors))
 
 
-if sys.argv[1] == "write":
-    for name, text in SCENES.items():
-        with open(name + ".yaml", "w") as file:
-            file.write(text)
-else:
-    judge()
+if __name__ == "__main__":
+    if sys.argv[1] == "write":
+        for name, text in SCENES.items():
+            with open(name + ".yaml", "w") as file:
+                file.write(text)
+    else:
+        judge()

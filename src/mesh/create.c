@@ -113,7 +113,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   MeshBody   *meshes;
   MeshCurves  curves;
   MeshHanging hanging = {NULL, NULL};
-  PetscBool   dealt = PETSC_FALSE;
+  PetscBool   dealt = PETSC_FALSE, locally = (PetscBool)(local->nzones || local->marks);
 
   PetscFunctionBegin;
   PetscCall(MeshInitializePackage());
@@ -126,13 +126,13 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscCall(MeshCheckSize(comm, nbodies, meshes, refine, &ncells));
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
-    PetscCheck(!local->nzones || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP, "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the mesh file", bodies[b].name);
+    PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP, "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the mesh file", bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
 
-  PetscCall(MeshCreateParted(comm, nbodies, bodies, meshes, local->nzones ? PETSC_FALSE : PETSC_TRUE, &dealt, &curves, dm));
+  PetscCall(MeshCreateParted(comm, nbodies, bodies, meshes, (PetscBool)!locally, &dealt, &curves, dm));
   PetscCall(PetscFree(meshes));
-  if (local->nzones) before = refine;
+  if (locally) before = refine;
   else if (size > 1) {
     for (PetscInt64 n = ncells; before < refine && n < MESH_MIN_CELLS_PER_RANK * size; n *= 8) ++before;
   }
@@ -141,7 +141,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
     PetscCall(MeshCurvesApply(&curves, before, *dm, PETSC_FALSE));
     PetscCall(MeshCurvesRefine(before, *dm, &curves));
   }
-  if (local->nzones) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
+  if (locally) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
   if (size > 1 && !dealt) PetscCall(MeshDistribute(dm, &curves, &hanging));
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
@@ -197,7 +197,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 @*/
 PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, DM *dm)
 {
-  const MeshLocalRefinement none = {0, NULL};
+  const MeshLocalRefinement none = {0, NULL, NULL};
 
   PetscFunctionBegin;
   PetscCall(MeshCreateRefined(comm, nbodies, bodies, refine, &none, dm));
@@ -211,7 +211,8 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
 
   Input Parameters:
 + comm  - communicator
-- scene - the scene, the same on all ranks
+. scene - the scene, the same on all ranks
+- marks - cells marked on meshes made before, which are refined after the others; `NULL` where none are to be marked
 
   Output Parameter:
 . dm - the mesh, a `DMPLEX` with one component a body
@@ -223,11 +224,11 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer cells
   are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is curved.
 
-.seealso: `MeshCreate()`, `MeshGetHanging()`, `MeshCheckScene()`
+.seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
 @*/
-PetscErrorCode MeshCreateScene(MPI_Comm comm, Scene scene, DM *dm)
+PetscErrorCode MeshCreateScene(MPI_Comm comm, Scene scene, const MeshMarks *marks, DM *dm)
 {
-  const MeshLocalRefinement local = {scene->nrefinements, scene->refinements};
+  const MeshLocalRefinement local = {scene->nrefinements, scene->refinements, marks};
 
   PetscFunctionBegin;
   PetscCall(MeshCreateRefined(comm, scene->nbodies, scene->bodies, scene->refine, &local, dm));

@@ -202,6 +202,30 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
+/* Corners of a part of a cell that local refinement made, in [0, 1]^3 */
+static void CurveGetPart(const PetscInt place[4], PetscReal corners[8][3])
+{
+  for (PetscInt i = 0; i < 24; ++i) corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
+}
+
+/* The places of such a part's corners; those stay where the cell that it is of has no curve */
+PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
+{
+  PetscInt           n = 0, whole;
+  const PetscScalar *from;
+  PetscReal          corners[8][3];
+
+  PetscFunctionBegin;
+  if (curves->section) PetscCall(PetscSectionGetDof(curves->section, hexes->root[cell], &n));
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscSectionGetOffset(curves->section, hexes->root[cell], &whole));
+  PetscCall(VecGetArrayRead(curves->places, &from));
+  CurveGetPart(&hexes->place[4 * cell], corners);
+  for (PetscInt a = 0; a < 8; ++a) CurveEvaluate(8, from + whole, corners[a], places[a]);
+  PetscCall(VecRestoreArrayRead(curves->places, &from));
+  PetscFunctionReturn(0);
+}
+
 /* Those of the parts of cells that local refinement made */
 PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *curves)
 {
@@ -225,15 +249,14 @@ PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *cur
   PetscCall(VecGetArrayRead(curves->places, &from));
   PetscCall(VecGetArrayWrite(there.places, &to));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
-    const PetscInt *place = &hexes->place[4 * c];
-    PetscInt        whole, part;
-    PetscReal       corners[8][3];
+    PetscInt  whole, part;
+    PetscReal corners[8][3];
 
     PetscCall(PetscSectionGetDof(there.section, c, &n));
     if (!n) continue;
     PetscCall(PetscSectionGetOffset(curves->section, hexes->root[c], &whole));
     PetscCall(PetscSectionGetOffset(there.section, c, &part));
-    for (PetscInt i = 0; i < 24; ++i) corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
+    CurveGetPart(&hexes->place[4 * c], corners);
     CurveCut(8, from + whole, (const PetscReal(*)[3])corners, to + part);
   }
   PetscCall(VecRestoreArrayWrite(there.places, &to));

@@ -163,6 +163,7 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
     PetscCall(MatDestroy(&means));
   }
   PetscCall(PetscFree4(vertices.number, vertices.node, vertices.at, vertices.parent));
+  PetscCall(MeshNumberCells(dm, hanging));
   PetscCall(MeshHangingDestroy(hanging));
   PetscFunctionReturn(0);
 }

@@ -157,17 +157,26 @@ static PetscErrorCode HexesFindHolders(const MeshHexes *hexes, PetscInt start[],
   PetscFunctionReturn(0);
 }
 
+/* The same, allocated */
+static PetscErrorCode HexesCreateHolders(const MeshHexes *hexes, PetscInt **start, PetscInt **holders)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(hexes->nvertices + 1, start));
+  PetscCall(HexesFindHolders(hexes, *start, NULL));
+  for (PetscInt v = 1; v <= hexes->nvertices; ++v) (*start)[v] += (*start)[v - 1];
+  PetscCall(PetscMalloc1((*start)[hexes->nvertices], holders));
+  PetscCall(HexesFindHolders(hexes, *start, *holders));
+  PetscFunctionReturn(0);
+}
+
 /* Where a vertex of a cell that is to be refined hangs, the cell that it hangs on is refined too */
 static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt *start, *holders, *pending, n = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(hexes->nvertices + 1, &start));
-  PetscCall(HexesFindHolders(hexes, start, NULL));
-  for (PetscInt v = 1; v <= hexes->nvertices; ++v) start[v] += start[v - 1];
-  PetscCall(PetscMalloc2(start[hexes->nvertices], &holders, hexes->ncells, &pending));
-  PetscCall(HexesFindHolders(hexes, start, holders));
+  PetscCall(HexesCreateHolders(hexes, &start, &holders));
+  PetscCall(PetscMalloc1(hexes->ncells, &pending));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     if (marked[c]) pending[n++] = c;
   }
@@ -182,7 +191,31 @@ static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
       }
     }
   }
-  PetscCall(PetscFree2(holders, pending));
+  PetscCall(PetscFree(pending));
+  PetscCall(PetscFree(holders));
+  PetscCall(PetscFree(start));
+  PetscFunctionReturn(0);
+}
+
+/* The cells that vertices of some hang on, in place of these; any: whether there are any */
+PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], PetscBool *any)
+{
+  PetscInt  *start, *holders;
+  PetscBool *of;
+
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  PetscCall(HexesCreateHolders(hexes, &start, &holders));
+  PetscCall(PetscMalloc1(hexes->ncells, &of));
+  PetscCall(PetscArraycpy(of, marked, hexes->ncells));
+  PetscCall(PetscArrayzero(marked, hexes->ncells));
+  for (PetscInt i = 0; i < 8 * hexes->ncells; ++i) {
+    const PetscInt v = hexes->vertex[i];
+
+    for (PetscInt k = start[v]; of[i / 8] && k < start[v + 1]; ++k) *any = marked[holders[k]] = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(of));
+  PetscCall(PetscFree(holders));
   PetscCall(PetscFree(start));
   PetscFunctionReturn(0);
 }

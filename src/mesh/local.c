@@ -167,6 +167,8 @@ PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBo
   PetscCall(RankErrorBegin(&error));
   ierr = MeshHexesCreate(*dm, &hexes);
   if (!ierr && rank == 0) ierr = MeshHexesRefineZones(*dm, bodies, local->nzones, local->zones, &hexes);
+  if (!ierr && rank == 0) ierr = MeshHexesMend(*dm, bodies, curves, &hexes);
+  if (!ierr && rank == 0 && local->marks) ierr = MeshHexesRefineMarks(local->marks, *dm, bodies, curves, &hexes);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscCall(LocalCreateMesh(*dm, &hexes, &fine));

@@ -233,6 +233,7 @@ PETSC_INTERN PetscErrorCode MeshMapNodes(DM, PetscInt nbodies, const SceneBody[]
 
 /* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: at one of its nodes, also in bodies that are mapped
    after refinement */
+PETSC_INTERN PetscReal      MeshCellQuality(PetscInt n, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
 /* refine.c: so many uniform refinements of a mesh in place */
@@ -248,6 +249,7 @@ typedef struct {
 } MeshHexes;
 PETSC_INTERN PetscErrorCode MeshHexesCreate(DM, MeshHexes *);
 PETSC_INTERN PetscErrorCode MeshHexesRefine(MeshHexes *, PetscBool marked[]);
+PETSC_INTERN PetscErrorCode MeshHexesMarkHolders(const MeshHexes *, PetscBool marked[], PetscBool *any);
 PETSC_INTERN PetscErrorCode MeshHexesFindHanging(const MeshHexes *, PetscBool hangs[]);
 PETSC_INTERN PetscErrorCode MeshHexesDestroy(MeshHexes *);
 
@@ -265,8 +267,12 @@ PETSC_INTERN PetscErrorCode MeshCurvesDistribute(PetscSF, DM distributed, MeshCu
 /* fine: the mesh that the curves belong to, refined. Moves its vertices onto them, or all its nodes; replaces them by those of its cells */
 PETSC_INTERN PetscErrorCode MeshCurvesApply(const MeshCurves *, PetscInt levels, DM fine, PetscBool nodes);
 PETSC_INTERN PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *);
+PETSC_INTERN PetscErrorCode MeshCurvesPlacePart(const MeshCurves *, const MeshHexes *, PetscInt cell, PetscReal places[8][3]);
 PETSC_INTERN PetscErrorCode MeshCurvesCutOut(const MeshHexes *, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
+
+/* mend.c: fine cells stay the right side out */
+PETSC_INTERN PetscErrorCode MeshHexesMend(DM, const SceneBody[], const MeshCurves *, MeshHexes *);
 
 /* hanging.c: vertices amid an edge or a side of a cell; what is carried along as the mesh is distributed, and what becomes of it */
 typedef struct {
@@ -279,11 +285,16 @@ PETSC_INTERN PetscErrorCode MeshHangingFinish(DM, MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHangingPlace(DM);
 PETSC_INTERN PetscErrorCode MeshHangingDestroy(MeshHanging *);
 
+/* marks.c: marked cells */
+PETSC_INTERN PetscErrorCode MeshNumberCells(DM, const MeshHanging *);
+PETSC_INTERN PetscErrorCode MeshHexesRefineMarks(const MeshMarks *, DM, const SceneBody[], const MeshCurves *, MeshHexes *);
+
 /* local.c: local refinement, in place; the mesh is that of the first rank, with its curves */
 #define MESH_INNER_LABEL "inner" /* of facets inside a body that have one cell */
 typedef struct {
   PetscInt               nzones;
   const SceneRefinement *zones;
+  const MeshMarks       *marks; /* NULL: there will be none */
 } MeshLocalRefinement;
 PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const SceneBody[], DM *, MeshCurves *, MeshHanging *);
 

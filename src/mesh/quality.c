@@ -28,7 +28,7 @@ static void QualitySlope(PetscInt n, PetscReal x[][3], PetscInt a, PetscInt d, P
 }
 
 /* Smallest of the Jacobian's determinants at the nodes, in units of the longest slope cubed */
-static PetscReal CellQuality(PetscInt n, PetscReal x[][3])
+PetscReal MeshCellQuality(PetscInt n, PetscReal x[][3])
 {
   PetscReal smallest = PETSC_MAX_REAL, longest = 0;
 
@@ -109,7 +109,7 @@ PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[],
       PetscCall(PetscSectionGetOffset(places.section, nodes[a], &offset));
       for (PetscInt d = 0; d < 3; ++d) x[a][d] = PetscRealPart(array[offset + d]);
     }
-    if (CellQuality(n, x) > 1e-12) continue;
+    if (MeshCellQuality(n, x) > 1e-12) continue;
     for (PetscInt i = 0; i < 3 * n; ++i) center[i % 3] += x[i / 3][i % 3] / (PetscReal)n;
     if (QualityIsBefore(center, place[b])) PetscCall(PetscArraycpy(place[b], center, 3));
     ++count[b];

@@ -36,3 +36,44 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %s\n", acc->end));
   PetscFunctionReturn(0);
 }
+
+/* how: the error of the mesh is known */
+static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[], PetscViewer viewer)
+{
+  const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];
+  const PetscReal      next = acc->growth * (PetscReal)now->dofs;
+  PetscLogDouble       all  = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < acc->nlevels; ++l) all += acc->levels[l].time;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns leaves %g%s, the solver %g, after %.1f s; ", (double)acc->target, now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
+  if (acc->mesh > now->mesh) PetscCall(PetscViewerASCIIPrintf(viewer, "the next has about %" PetscInt_FMT "\n", (PetscInt)next));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "next, a tighter tolerance\n"));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportViewNextMesh - Prints what the last mesh attained, and what comes next
+
+   Collective on the viewer
+
+   Input Parameters:
++  acc    - what -accuracy chose, at least one run assessed
+.  refine - uniform refinements of the next run
+-  viewer - an ASCII viewer
+
+   Level: intermediate
+
+.seealso: `AccuracyAssess()`, `ReportViewAccuracy()`
+@*/
+PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscViewer viewer)
+{
+  const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
+  const char          *how = now->unseen ? ", more than stress recovery sees" : PetscIsNanReal(now->change) ? " by stress recovery alone"
+                                                                                                            : "";
+
+  PetscFunctionBegin;
+  if (acc->adaptive) PetscCall(AccuracyViewAdapted(acc, how, viewer));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)acc->target, (double)now->error, how, (double)now->algebraic, refine));
+  PetscFunctionReturn(0);
+}

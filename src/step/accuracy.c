@@ -2,11 +2,20 @@
 #include <accuracy.h>
 #include <math.h>
 
-#define ACCURACY_RATE    4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
-#define ACCURACY_UPDATES 20
-#define ACCURACY_UNSEEN  2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
-#define ACCURACY_MINOR   1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
-#define ACCURACY_MARGIN  0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
+#define ACCURACY_RATE       4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
+#define ACCURACY_LEAST_RATE 1.25 /* of adaptive refinement, which may make a mesh of next to the same error */
+#define ACCURACY_UPDATES    20
+#define ACCURACY_UNSEEN     2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
+#define ACCURACY_MINOR      1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+#define ACCURACY_MARGIN     0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
+
+/* What -accuracy_of names; each includes those before it */
+typedef enum {
+  ACCURACY_ENERGY,
+  ACCURACY_FORCE,
+  ACCURACY_PRESSURE
+} AccuracyTarget;
+static const char *const AccuracyTargets[] = {"energy", "force", "pressure"};
 
 /*@C
    AccuracySetFromOptions - How accurate a run is to be
@@ -21,6 +30,8 @@
 
    Options Database Keys:
 +  -accuracy <target>         - relative error wanted in energy and contact force
+.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's largest pressure too
+.  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
 .  -accuracy_share <0.1>      - what of it the solver may leave
 -  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
 
@@ -31,6 +42,7 @@
 PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
 {
   PetscReal max_dofs = 1e6;
+  PetscInt  of       = ACCURACY_FORCE;
   PetscBool set, estimate = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -38,6 +50,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   acc->share = 0.1;
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
   PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
+  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets, ACCURACY_PRESSURE + 1, AccuracyTargets[of], &of, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine cells where the error is", "AccuracyAssess", acc->adaptive, &acc->adaptive, NULL));
   PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
   PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
   PetscOptionsEnd();
@@ -46,6 +60,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
   PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
+  acc->adaptive         = (PetscBool)(set && acc->adaptive);
+  acc->of               = of;
   acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
   acc->tolerance        = ACCURACY_MARGIN * acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
@@ -103,13 +119,23 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
   return size > 0.0 ? difference / size : 0.0;
 }
 
-/* Of the energy, and of each pair's force by its size and by the sum of its rows' */
-static PetscReal AccuracyChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+/* Of the energy, and of each pair's force by its size and by the sum of its rows', where they are asked for */
+static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
 {
   PetscReal change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0), largest = 0.0;
 
+  if (of == ACCURACY_ENERGY) return change;
   for (PetscInt i = 0; i < 2 * npairs * nsteps; ++i) largest = PetscMax(largest, now->force[i]);
   for (PetscInt k = 0; k < 2 * npairs; ++k) change = PetscMax(change, AccuracyLargestChange(nsteps, 2 * npairs, now->force + k, before->force + k, k % 2 ? ACCURACY_MINOR * largest : largest));
+  return change;
+}
+
+/* Of each pair's largest pressure */
+static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+{
+  PetscReal change = 0.0;
+
+  for (PetscInt p = 0; p < npairs; ++p) change = PetscMax(change, AccuracyLargestChange(nsteps, npairs, now->pressure + p, before->pressure + p, 0.0));
   return change;
 }
 
@@ -119,7 +145,7 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
 
   for (PetscInt l = acc->nlevels - 2; l >= 0; --l) {
-    if (acc->levels[l].refine < now->refine) return &acc->levels[l];
+    if (acc->levels[l].mesh < now->mesh) return &acc->levels[l];
   }
   return NULL;
 }
@@ -127,24 +153,29 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 /*
    Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
    than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
-   the recovered error stands; where they differ by more than recovery can tell, nothing of their difference is taken off
+   the recovered error stands; where they differ by more than recovery can tell, nothing of their difference is taken off.
+   Pressures err with the stress, whose error is the root of that of the energy
 */
-static void AccuracyAssessMesh(AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
 {
-  PetscReal ratio;
+  PetscReal ratio, pressure;
 
   now->error  = now->recovery;
   now->change = NAN;
   if (!before) return;
-  now->change = AccuracyChange(now, before, nsteps, npairs);
+  now->change = AccuracyChange(acc->of, now, before, nsteps, npairs);
   now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, 2.0, ACCURACY_RATE);
+  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, acc->adaptive ? ACCURACY_LEAST_RATE : 2.0, ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
+  if (acc->of < ACCURACY_PRESSURE) return;
+  pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
+  now->change = PetscMax(now->change, pressure);
+  now->error  = PetscMax(now->error, pressure / (PetscSqrtReal(ratio) - 1.0));
 }
 
 /* Of each pair in a load step */
-static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[])
+static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[], PetscReal pressure[])
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < npairs; ++p) {
@@ -152,6 +183,7 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
 
     force[2 * p]     = f ? PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) : 0.0;
     force[2 * p + 1] = f ? step->pairs[p].normal_force : 0.0;
+    pressure[p]      = f ? step->pairs[p].pressure : 0.0;
   }
   PetscFunctionReturn(0);
 }
@@ -165,8 +197,9 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscCall(PetscRealloc((acc->nlevels + 1) * sizeof(*acc->levels), &acc->levels));
   level = &acc->levels[acc->nlevels++];
   PetscCall(PetscMemzero(level, sizeof(*level)));
-  PetscCall(PetscMalloc2(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force));
+  PetscCall(PetscMalloc3(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force, npairs * report->nsteps, &level->pressure));
   level->refine = report->refine;
+  level->mesh   = acc->mesh;
   level->dofs   = report->dofs;
   level->time   = report->time.total;
   for (PetscInt s = 0; s < report->nsteps; ++s) {
@@ -174,7 +207,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
 
     level->energy[s] = step->energy;
     largest          = PetscMax(largest, step->energy);
-    PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s));
+    PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));
   }
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step   = &report->steps[s];
@@ -183,7 +216,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
     level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
     level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
   }
-  AccuracyAssessMesh(level, AccuracyCoarser(acc), report->nsteps, npairs);
+  AccuracyAssessMesh(acc, level, AccuracyCoarser(acc), report->nsteps, npairs);
   PetscFunctionReturn(0);
 }
 
@@ -192,7 +225,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
   const PetscBool      single = (PetscBool)!AccuracyCoarser(acc);
-  const PetscReal      next   = 8.0 * (PetscReal)now->dofs;
+  const PetscReal      next   = (acc->adaptive ? acc->growth : 8.0) * (PetscReal)now->dofs;
 
   PetscFunctionBegin;
   acc->reached = (PetscBool)(!single && now->error <= 2.0 * acc->target);
@@ -222,7 +255,7 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   PetscFunctionBegin;
   *tighten = PETSC_FALSE;
   if (now->algebraic <= allowed) PetscFunctionReturn(0);
-  for (PetscInt l = 0; l < acc->nlevels; ++l) runs += (acc->levels[l].refine == now->refine);
+  for (PetscInt l = 0; l < acc->nlevels; ++l) runs += (acc->levels[l].mesh == now->mesh);
   *tighten = (PetscBool)(!acc->given && runs <= 2);
   if (*tighten) acc->tolerance *= PetscMax(0.01, ACCURACY_MARGIN * allowed / now->algebraic);
   else {
@@ -258,6 +291,9 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,
    so that all the coarser meshes together cost a seventh of the last. A target that the first mesh meets costs 8 times that mesh.
 
+   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names; what is extrapolated follows the
+   rate that recovery shows, of 1.25 at least.
+
    Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
    repeated with it.
 
@@ -274,7 +310,8 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
   PetscCall(AccuracyRecord(acc, report, scene->npairs));
   PetscCall(AccuracyDecideOnMesh(acc, &refine));
   PetscCall(AccuracyDecideOnTolerance(acc, &tighten));
-  if (refine) ++scene->refine;
+  if (refine) ++acc->mesh;
+  if (refine && !acc->adaptive) ++scene->refine;
   *again = (PetscBool)(refine || tighten);
   PetscFunctionReturn(0);
 }
@@ -289,7 +326,7 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 PetscErrorCode AccuracyDestroy(Accuracy *acc)
 {
   PetscFunctionBegin;
-  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree2(acc->levels[l].energy, acc->levels[l].force));
+  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree3(acc->levels[l].energy, acc->levels[l].force, acc->levels[l].pressure));
   PetscCall(PetscFree(acc->levels));
   acc->nlevels = 0;
   PetscFunctionReturn(0);

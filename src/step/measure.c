@@ -46,12 +46,13 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
 {
   const PetscReal size = PetscSqrtReal(2.0 * report->energy);
-  PetscReal       sum  = 0.0;
+  PetscReal       sum = 0.0, *cells = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
-  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, NULL));
+  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->marks ? &cells : NULL));
+  if (sim->marks) PetscCall(AdaptAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;

@@ -96,7 +96,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(StepEventsRead(&sim->start));
   PetscCall(ResidentGet(sim->comm, &sim->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreateScene(sim->comm, scene, &sim->dm));
+  PetscCall(MeshCreateScene(sim->comm, scene, sim->marks, &sim->dm));
   PetscCall(MeshCheckScene(sim->dm, scene));
   PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));

@@ -235,6 +235,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
   PetscCall(ResultsFree(&s->results));
+  PetscCall(PetscFree2(s->adapt.errors, s->adapt.marked));
   PetscCall(ProbesDestroy(&s->probes));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));

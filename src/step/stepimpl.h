@@ -175,6 +175,12 @@ typedef struct {
   Vec      work;
 } Ties;
 
+/* Of adapt.c, where the next mesh may have cells refined: squared errors of this rank's cells, summed over load steps, and which are to be refined */
+typedef struct {
+  PetscReal *errors;
+  PetscBool *marked;
+} Adapt;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -210,6 +216,8 @@ struct _n_Simulation {
   PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
   PetscBool            estimate;   /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;    /* of one load step */
+  const MeshMarks     *marks;      /* NULL: no cells are to be marked */
+  Adapt                adapt;
   Progress             progress;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
@@ -382,6 +390,9 @@ PETSC_INTERN PetscErrorCode ResultsFree(Results *);
 PETSC_INTERN PetscErrorCode ProbesCreate(DM, Scene, Probes *);
 PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
+
+/* adapt.c */
+PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);

@@ -1,0 +1,66 @@
+/*
+   Thin cells along curved surfaces: a vertex that hangs is on the straight edge of the coarser cell, not on the curve, which may turn a fine cell inside out. The
+   coarser cells are refined then, until none of the finer ones loses more than a part of itself.
+*/
+#include "meshimpl.h"
+
+#define MEND_LEAST 0.25 /* of the smallest Jacobian that a cell has with all its vertices on the curve */
+
+/* Where all vertices are, those that hang on the curve too */
+static PetscErrorCode MendPlace(DM dm, const SceneBody bodies[], const MeshCurves *curves, const MeshHexes *hexes, PetscReal x[])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    const PetscInt *vertex = &hexes->vertex[8 * c];
+    const Shape    *shape;
+    PetscInt        body;
+    PetscReal       places[8][3];
+
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, hexes->root[c], &body));
+    PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[body], &shape));
+    for (PetscInt a = 0; a < 8; ++a) {
+      PetscCall(PetscArraycpy(places[a], &hexes->x[3 * vertex[a]], 3));
+      if (shape && shape->map && bodies[body].curved) PetscCall(shape->map(&bodies[body], places[a], places[a]));
+    }
+    PetscCall(MeshCurvesPlacePart(curves, hexes, c, places));
+    for (PetscInt a = 0; a < 8; ++a) PetscCall(PetscArraycpy(&x[3 * vertex[a]], places[a], 3));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The quality of a cell at places of the vertices; hangs: those that hang are between others, NULL: none does */
+static PetscReal MendQuality(const MeshHexes *hexes, PetscInt cell, const PetscReal x[], const PetscBool hangs[])
+{
+  PetscReal corners[8][3];
+
+  for (PetscInt a = 0; a < 8; ++a) {
+    const PetscInt v = hexes->vertex[8 * cell + a], *parent = &hexes->parent[4 * v], n = parent[2] < 0 ? 2 : 4;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      corners[a][d] = hangs && hangs[v] ? 0 : x[3 * v + d];
+      for (PetscInt i = 0; hangs && hangs[v] && i < n; ++i) corners[a][d] += x[3 * parent[i] + d] / (PetscReal)n;
+    }
+  }
+  return MeshCellQuality(8, corners);
+}
+
+/* Not collective: on the rank that has the cells */
+PetscErrorCode MeshHexesMend(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
+{
+  PetscBool more = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  while (more) {
+    PetscReal *x;
+    PetscBool *hangs, *marked;
+
+    PetscCall(PetscMalloc3(3 * hexes->nvertices, &x, hexes->nvertices, &hangs, hexes->ncells, &marked));
+    PetscCall(MendPlace(dm, bodies, curves, hexes, x));
+    PetscCall(MeshHexesFindHanging(hexes, hangs));
+    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, c, x, hangs) < MEND_LEAST * MendQuality(hexes, c, x, NULL));
+    PetscCall(MeshHexesMarkHolders(hexes, marked, &more));
+    if (more) PetscCall(MeshHexesRefine(hexes, marked));
+    PetscCall(PetscFree3(x, hangs, marked));
+  }
+  PetscFunctionReturn(0);
+}

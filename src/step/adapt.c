@@ -1,0 +1,204 @@
+/* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at the contact as the last one has it */
+#include "stepimpl.h"
+
+#define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */
+
+/*@C
+   SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before
+
+   Collective
+
+   Input Parameters:
++  sim   - the simulation, before SimulationSetUp()
+-  marks - the marks, which must outlive the simulation's set-up; none at the beginning
+
+   Level: developer
+
+.seealso: `SimulationPropose()`, `SimulationMark()`, `MeshMarksAdd()`
+@*/
+PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body = &scene->bodies[b];
+
+    PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally", body->name, body->order);
+    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: leave the option out", body->name);
+  }
+  PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out", scene->ties[0].name);
+  sim->marks = marks;
+  PetscFunctionReturn(0);
+}
+
+/* Squared errors of cells add up over the load steps */
+PetscErrorCode AdaptAddErrors(Simulation sim, PetscReal cells[])
+{
+  PetscInt cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
+/* The errors of this rank's cells above a threshold, over the ranks */
+static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
+{
+  PetscFunctionBegin;
+  *sum = 0.0;
+  for (PetscInt c = 0; c < n; ++c) *sum += sim->adapt.errors[c] >= threshold ? sim->adapt.errors[c] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of cells: equal ones by symmetry stay together, on any number of ranks */
+static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
+{
+  const PetscReal step    = PetscPowReal(2.0, -0.125);
+  PetscReal       largest = 0.0, threshold, all, sum = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, sim->adapt.errors[c]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCall(AdaptSum(sim, n, 0.0, &all));
+  threshold = 1.03 * largest;
+  while (sum < ADAPT_SHARE * all) {
+    threshold *= step;
+    PetscCall(AdaptSum(sim, n, threshold, &sum));
+  }
+  for (PetscInt c = 0; c < n; ++c) sim->adapt.marked[c] = (PetscBool)(sim->adapt.errors[c] >= threshold && sim->adapt.errors[c] > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* 1 at vertices where the pair is in contact, a local vector */
+static PetscErrorCode AdaptFindClosed(Simulation sim, PetscInt pair, Vec *local)
+{
+  PetscSection global;
+  PetscInt     rstart;
+  Vec          closed;
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(DMGetGlobalVector(sim->dm, &closed));
+  PetscCall(VecZeroEntries(closed));
+  PetscCall(VecGetOwnershipRange(closed, &rstart, NULL));
+  PetscCall(VecGetArray(closed, &a));
+  for (PetscInt k = 0; k < sim->npoints; ++k) {
+    PetscInt offset;
+
+    if (sim->points[k].pair != pair || !sim->points[k].closed) continue;
+    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &offset));
+    a[offset - rstart] = 1.0;
+  }
+  PetscCall(VecRestoreArray(closed, &a));
+  PetscCall(DMGetLocalVector(sim->dm, local));
+  PetscCall(DMGlobalToLocal(sim->dm, closed, INSERT_VALUES, *local));
+  PetscCall(DMRestoreGlobalVector(sim->dm, &closed));
+  PetscFunctionReturn(0);
+}
+
+/* The cells of deformable bodies behind a face's facets that have a vertex in contact */
+static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec closed)
+{
+  PetscSection       section;
+  IS                 facets;
+  PetscInt           n, cstart;
+  const PetscInt    *f;
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, NULL));
+  PetscCall(MeshGetFacets(sim->dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  PetscCall(VecGetArrayRead(closed, &a));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt *cells;
+    PetscInt        vertices[4], body;
+    PetscBool       any = PETSC_FALSE;
+
+    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
+    for (PetscInt k = 0; k < 4; ++k) {
+      PetscInt offset;
+
+      PetscCall(PetscSectionGetOffset(section, vertices[k], &offset));
+      any = (PetscBool)(any || PetscRealPart(a[offset]) > 0.0);
+    }
+    PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
+    PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
+    if (any && sim->scene->bodies[body].material.type != MATERIAL_RIGID) sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(closed, &a));
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationPropose - Chooses the cells that the next mesh is to have refined
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, with marks and after its load steps
+
+   Output Parameter:
+.  growth - how many times its unknowns the next mesh has, about
+
+   Level: developer
+
+   Notes:
+   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and both sides of what was in contact in the
+   last one, where facets err too, which recovery does not see.
+
+.seealso: `SimulationMark()`, `AccuracyAssess()`
+@*/
+PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
+{
+  PetscInt cstart, cend, counts[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  PetscCall(AdaptMarkErrors(sim, cend - cstart));
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    Vec closed;
+
+    PetscCall(AdaptFindClosed(sim, p, &closed));
+    PetscCall(AdaptMarkFace(sim, sim->scene->pairs[p].mortar, closed));
+    PetscCall(AdaptMarkFace(sim, sim->scene->pairs[p].nonmortar, closed));
+    PetscCall(DMRestoreLocalVector(sim->dm, &closed));
+  }
+  for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->adapt.marked[c];
+  counts[1] = cend - cstart;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->comm));
+  *growth = 1.0 + 7.0 * (PetscReal)counts[0] / (PetscReal)counts[1];
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationMark - Marks the cells that were proposed
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, after SimulationPropose()
+
+   Output Parameter:
+.  marks - the marks that it was made with; those for the next mesh are added
+
+   Level: developer
+
+.seealso: `SimulationSetMarks()`, `SimulationPropose()`
+@*/
+PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshMarksAdd(sim->dm, sim->adapt.marked, marks));
+  PetscFunctionReturn(0);
+}

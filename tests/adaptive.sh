@@ -1,0 +1,28 @@
+# -accuracy_adaptive: Hertz's ball from 1,131 unknowns, a beam, rings whose facets err where stress recovery sees nothing, thin cells along a curve; the same
+# meshes on three ranks; what is asked of; what is refused, in one sentence. adaptive.py holds the summaries against references.
+contact=$AMGF_DIR/bin/contact
+PYTHONPATH=$AMGF_DIR/tests "$PYTHON" "$AMGF_DIR/tests/adaptive.py" write
+"$PYTHON" "$AMGF_DIR/share/scenes/meshes.py" hertz_cylinder coarse > cylinder.yaml
+cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
+
+run() { # summary, scene, options
+  name=$1
+  scene=$2
+  shift 2
+  "$contact" "$scene.yaml" -quiet -summary "$name.json" -accuracy_adaptive "$@" || echo "$name: exit code $?"
+}
+run ball ball -accuracy 3e-3 > progress
+run peak ball -accuracy 1e-2 -accuracy_of pressure
+run small ball -accuracy 1e-3 -accuracy_max_dofs 5000 2> /dev/null
+mpiexec --oversubscribe -n 3 "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 3e-3 -summary ranks.json
+run cylinder cylinder -accuracy 3e-3
+run cantilever cantilever -accuracy 1e-2
+run energy cantilever -accuracy 1e-2 -accuracy_of energy
+"$contact" cantilever.yaml -quiet -refine 2 -summary fine.json
+run shrink shrink -accuracy 3e-3 2> /dev/null
+PYTHONPATH=$AMGF_DIR/share/scenes:$AMGF_DIR/tests "$PYTHON" "$AMGF_DIR/tests/adaptive.py" judge
+"$contact" cantilever.yaml -accuracy 1e-2 -accuracy_adaptive | grep -a '^Accuracy 0.01: a mesh' | sed 's/leaves .*; the next/leaves ...; the next/'
+# what is refused
+sed 's/layers: 4/layers: 4, order: 2/' ball.yaml > order2.yaml
+for scene in order2 rigid tied; do "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_adaptive 2>&1 || echo "exit code $?"; done
+"$contact" ball.yaml -quiet -accuracy 1e-2 -accuracy_of size 2>&1 | grep -a -m 1 error
