@@ -124,11 +124,11 @@ static PetscErrorCode CheckFailure(Context *c, PetscInt ranks)
   if (!start) PetscCall(MatSetValue(c->A, 0, 0, 0.0, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(c->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(c->A, MAT_FINAL_ASSEMBLY));
-  for (PetscBool fails = PETSC_FALSE; fails <= PETSC_TRUE; fails++) {
+  for (int fails = 0; fails < 2; fails++) {
     PetscCall(NewPC(c, ranks, &pc));
     PetscCall(PCAMGFGetAMGPC(pc, &amg));
     PetscCall(PCSetType(amg, PCNONE));
-    PetscCall(PCSetErrorIfFailure(pc, fails));
+    PetscCall(PCSetErrorIfFailure(pc, fails ? PETSC_TRUE : PETSC_FALSE));
     PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
     ierr = PCSetUp(pc);
     PetscCall(PetscPopErrorHandler());
