@@ -107,6 +107,7 @@ SCENES = {
     "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
     "cattaneo": CYLINDERS,
     "shaft": SHAFT,
+    "inclined": SHAFT.replace("[0, 90]", "[13, 103]"),
     "foreseen": FORESEEN,
 }
 
@@ -167,6 +168,8 @@ def judge():
     verdict("restarted, dissipated", abs(a["dissipated"] / b["dissipated"] - 1), 1e-6)
     shaft = last("shaft")
     verdict("shaft, force over friction x pressure x area", abs(-shaft["force"][2] / (0.12 * shaft["normal_force"]) - 1), 5e-3)
+    pressed = [load(name)["steps"][0]["pairs"][0]["shear_force"] for name in ("shaft", "inclined")]
+    verdict("shaft between inclined planes, friction of the press fit", abs(pressed[1] / pressed[0] - 1), 0.01)
     cattaneo()
 
 

@@ -69,8 +69,9 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* bits[v]: of the axes along which a face that node v is of is held, all ranks' facets */
-static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt bits[])
+/* Of the nodes of faces with these displacements, all ranks' facets. Not inclined: bits of the axes along which they are held; inclined: 1 + the number of a
+   symmetry plane along no axis that they are on */
+static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscBool inclined, PetscInt marks[])
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < n; ++k) {
@@ -79,7 +80,7 @@ static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement 
     const PetscInt *f;
     PetscInt        nfacets;
 
-    if (displacements[k].moves) continue;
+    if (displacements[k].moves || (inclined && !displacements[k].inclined)) continue;
     PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
     PetscCall(ISGetLocalSize(facets, &nfacets));
     PetscCall(ISGetIndices(facets, &f));
@@ -87,7 +88,7 @@ static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement 
       PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
 
       PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
-      for (PetscInt a = 0; a < nnodes; ++a) bits[nodes[a]] |= axes;
+      for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = inclined ? k + 1 : marks[nodes[a]] | axes;
     }
     PetscCall(ISRestoreIndices(facets, &f));
     PetscCall(ISDestroy(&facets));
@@ -105,11 +106,28 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscCall(DMGetPointSF(dm, &sf));
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
   PetscCall(PetscCalloc1(npoints, &bits));
-  PetscCall(BorderMarkHeld(dm, n, displacements, bits));
+  PetscCall(BorderMarkHeld(dm, n, displacements, PETSC_FALSE, bits));
   PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscCalloc1(s->nfacets, &s->held));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->held[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
   PetscCall(PetscFree(bits));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which vertex a of facet i is; 0: none */
+PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[], const ContactSurface *s, PetscInt plane[])
+{
+  PetscSF  sf;
+  PetscInt npoints, *marks;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &marks));
+  PetscCall(BorderMarkHeld(dm, n, displacements, PETSC_TRUE, marks));
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) plane[i] = marks[s->vertex[i]];
+  PetscCall(PetscFree(marks));
   PetscFunctionReturn(0);
 }

@@ -161,6 +161,7 @@ PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 /* border.c: fills in a surface's border; where it is held */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindPlanes(DM, PetscInt n, const SceneDisplacement[], const ContactSurface *, PetscInt plane[]);
 
 /* exchange.c: mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
 typedef struct {
@@ -280,7 +281,7 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
   PetscInt  *vertex;         /* [nlocal] local DMPlex points */
-  PetscInt  *held;           /* [nlocal] bits of the axes along which there is no slip; NULL: not yet asked for */
+  PetscInt  *held;           /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined plane across which there is none; NULL: not yet asked for */
   PetscReal *normal;         /* [3 nlocal] averaged unit normals */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;           /* int phi_A over the whole undeformed nonmortar face [length^2] */

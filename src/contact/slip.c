@@ -5,18 +5,36 @@
 
    for any displacement u of the vertices. Where both faces touch, a rigid motion of both has none.
 
-   Where a vertex is held along an axis and its face is not, as on planes of symmetry that the face ends on, there is no slip along that axis: the
+   Where a vertex is held along an axis and its face is not, as on planes of symmetry that the face ends on, there is no slip along that axis, or across that plane: the
    rows about it depend on less than one another's unknowns, and forces of friction there would be any.
 */
 #include "contactimpl.h"
 
-/* The part of an axis across a unit normal, of length 1; false where there is next to none */
+/* The part of a unit vector across a unit normal, of length 1; false where there is next to none */
+static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])
+{
+  const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
+
+  for (PetscInt c = 0; c < 3; ++c) t[c] = v[c] - along * n[c];
+  return (PetscBool)(ContactScaleToUnit(t) > least);
+}
+
 static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal t[3])
 {
-  const PetscReal least = 0.1;
+  PetscReal v[3] = {0.0, 0.0, 0.0};
 
-  for (PetscInt c = 0; c < 3; ++c) t[c] = (c == axis ? 1.0 : 0.0) - n[axis] * n[c];
-  return (PetscBool)(ContactScaleToUnit(t) > least);
+  v[axis] = 1.0;
+  return SlipTangentOf(n, v, t);
+}
+
+/* Two unit vectors across a unit normal and each other, of which the one across a plane through the vertex, of that unit normal, is zero; false where the plane is none that
+   the face ends on */
+static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
+{
+  if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
+  ContactCross(t + 3, n, t);
+  for (PetscInt d = 0; d < 3; ++d) t[3 + d] = 0.0;
+  return PETSC_TRUE;
 }
 
 /* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose tangents are zero */
@@ -57,32 +75,84 @@ static PetscErrorCode SlipMarkHeld(Contact contact, ContactPairData *pair, Vec h
   PetscFunctionReturn(0);
 }
 
-/* contact->rows.held: bits of the axes along which each row has no slip */
+/* plane: the rows of the pair whose vertices are on an inclined plane, and which: none where all are */
+static PetscErrorCode SlipMarkPlanes(Contact contact, ContactPairData *pair, Vec plane)
+{
+  ContactSurface *s = &pair->nonmortar;
+  PetscInt       *planes, off = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(4 * s->nfacets, &planes));
+  PetscCall(ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, s, planes));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) off = off || !planes[i];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_INT, MPI_MAX, contact->comm));
+  for (PetscInt i = 0; off && i < 4 * s->nfacets; ++i) {
+    if (planes[i]) PetscCall(VecSetValue(plane, pair->row[i], planes[i], INSERT_VALUES));
+  }
+  PetscCall(PetscFree(planes));
+  PetscFunctionReturn(0);
+}
+
+/* contact->rows.held: bits of the axes along which each row has no slip, and planes */
 static PetscErrorCode SlipFindHeld(Contact contact)
 {
   ContactRows *rows = &contact->rows;
-  Vec          held[3];
+  Vec          held[4];
 
   PetscFunctionBegin;
   if (rows->held) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
-  for (PetscInt c = 0; c < 3; ++c) {
+  for (PetscInt c = 0; c < 4; ++c) {
     PetscCall(VecDuplicate(rows->mass, &held[c]));
     PetscCall(VecZeroEntries(held[c]));
   }
-  for (PetscInt p = 0; p < contact->npairs; ++p)
-    if (contact->pairs[p].rubs) PetscCall(SlipMarkHeld(contact, &contact->pairs[p], held));
-  for (PetscInt c = 0; c < 3; ++c) {
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    if (!contact->pairs[p].rubs) continue;
+    PetscCall(SlipMarkHeld(contact, &contact->pairs[p], held));
+    PetscCall(SlipMarkPlanes(contact, &contact->pairs[p], held[3]));
+  }
+  for (PetscInt c = 0; c < 4; ++c) {
     const PetscScalar *a;
 
     PetscCall(VecAssemblyBegin(held[c]));
     PetscCall(VecAssemblyEnd(held[c]));
     PetscCall(VecGetArrayRead(held[c], &a));
-    for (PetscInt i = 0; i < rows->nlocal; ++i) rows->held[i] |= (PetscRealPart(a[i]) > 0.0 ? 1 : 0) << c;
+    for (PetscInt i = 0; i < rows->nlocal; ++i) rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0 ? 1
+                                                                                                                                     : 0)
+                                                                 << c;
     PetscCall(VecRestoreArrayRead(held[c], &a));
     PetscCall(VecDestroy(&held[c]));
   }
   PetscFunctionReturn(0);
+}
+
+/* A tangent along which, more than across, the vertex is held becomes zero */
+static void SlipDropHeld(PetscInt held, PetscReal t[3])
+{
+  const PetscReal half  = 0.5;
+  PetscReal       along = 0.0;
+
+  for (PetscInt c = 0; c < 3; ++c)
+    if (held >> c & 1) along = PetscMax(along, PetscAbsReal(t[c]));
+  for (PetscInt c = 0; c < 3; ++c) t[c] = along > half ? 0.0 : t[c];
+}
+
+/* Of a row: none across what its vertex is held by */
+static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
+{
+  const PetscReal *n    = &contact->rows.normal[3 * row];
+  const PetscInt   held = contact->rows.held[row], plane = held / 8 - 1;
+  PetscReal        across[3];
+
+  if (plane >= 0) {
+    for (PetscInt c = 0; c < 3; ++c) across[c] = contact->displacements[plane].normal[c];
+    (void)ContactScaleToUnit(across);
+    if (SlipTangentsInPlane(n, across, t)) {
+      SlipDropHeld(held, t);
+      return;
+    }
+  }
+  SlipTangents(n, held % 8, t);
 }
 
 /* What a row of the couplings covers: the integral of phi_A over the other side, [length^2] */
@@ -156,7 +226,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscCall(MatGetOwnershipRange(lin->slip, &start, NULL));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt k = 0; k < lin->nlocal; ++k) {
-    SlipTangents(&contact->rows.normal[3 * kept[k]], contact->rows.held[kept[k]], &lin->tangent[6 * k]);
+    SlipRowTangents(contact, kept[k], &lin->tangent[6 * k]);
     if (contact->pairs[lin->pair[k]].rubs) PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k, lin->slip, &lin->covered[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
