@@ -11,10 +11,10 @@ typedef struct {
   char      name[16];
   PetscReal lower[3], upper[3];
   PetscInt  cells[3];
-  PetscBool tetrahedra; /* of order 1, six a cell */
 } Box;
 
-static inline PetscErrorCode CreateBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt refine, DM *dm)
+/* The last of the boxes are of tetrahedra of order 1, six a cell */
+static inline PetscErrorCode CreateMixedBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt ntetrahedra, PetscInt refine, DM *dm)
 {
   SceneBody *body;
 
@@ -29,10 +29,17 @@ static inline PetscErrorCode CreateBoxes(MPI_Comm comm, PetscInt n, Box boxes[],
       body[b].cells[d] = boxes[b].cells[d];
     }
     body[b].order = 1;
-    if (boxes[b].tetrahedra) PetscCall(TetrahedraFromBox(&body[b]));
+    if (b >= n - ntetrahedra) PetscCall(TetrahedraFromBox(&body[b]));
   }
   PetscCall(MeshCreate(comm, n, body, refine, dm));
   PetscCall(PetscFree(body));
+  PetscFunctionReturn(0);
+}
+
+static inline PetscErrorCode CreateBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt refine, DM *dm)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CreateMixedBoxes(comm, n, boxes, 0, refine, dm));
   PetscFunctionReturn(0);
 }
 

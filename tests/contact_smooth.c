@@ -227,16 +227,15 @@ static void KinkedPlace(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_
   y[2] = x[2] + 0.1 * x[0] * x[0] + 0.05 * x[0] * x[1] - PetscMax(x[0] - 1.0, 0.0);
 }
 
-/* tetrahedra: of none, of the outer one, of both */
-static PetscErrorCode CreateKinked(PetscInt tetrahedra, DM *dm)
+static PetscErrorCode CreateKinked(PetscInt ntetrahedra, DM *dm)
 {
   Box box[2] = {
-    {"inner", {0, 0, -1}, {2, 1, 0}, {6, 4, 1}, (PetscBool)(tetrahedra > 1)},
-    {"outer", {0.25, 0.1, 0}, {1.85, 0.9, 1}, {8, 3, 1}, (PetscBool)(tetrahedra > 0)},
+    {"inner", {0, 0, -1}, {2, 1, 0}, {6, 4, 1}},
+    {"outer", {0.25, 0.1, 0}, {1.85, 0.9, 1}, {8, 3, 1}},
   };
 
   PetscFunctionBeginUser;
-  PetscCall(CreateBoxes(PETSC_COMM_WORLD, 2, box, 0, dm));
+  PetscCall(CreateMixedBoxes(PETSC_COMM_WORLD, 2, box, ntetrahedra, 0, dm));
   PetscCall(SetPlaces(*dm, KinkedPlace, NULL));
   PetscFunctionReturn(0);
 }
