@@ -2,62 +2,40 @@
 #include "elasticityimpl.h"
 #include <mesh.h>
 
-/* Adds factor[d] times the integral of each shape function over the cells of one body (PETSC_DECIDE: all) to a global vector */
-static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, const PetscReal factor[3], Vec total)
+/* Integrals of the shape functions */
+static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal volume[CELL_MAX_NODES])
 {
-  Vec                coordinates, local;
-  const PetscScalar *x;
-  PetscScalar       *l;
+  PetscReal G[3][CELL_MAX_NODES];
 
-  PetscFunctionBegin;
-  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
-  PetscCall(DMGetLocalVector(e->dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  PetscCall(VecGetArray(local, &l));
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt   n = e->cellstart[c + 1] - e->cellstart[c], *nodes = e->cellnodes + e->cellstart[c];
-    const CellBasis *basis = e->bodies[e->cellbody[c]].basis;
-    PetscReal        X[3][CELL_MAX_NODES], G[3][CELL_MAX_NODES], volume[CELL_MAX_NODES] = {0};
+  for (PetscInt a = 0; a < basis->nnodes; ++a) volume[a] = 0;
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients((int)basis->nnodes, basis, q, X, G);
 
-    if (body != PETSC_DECIDE && body != e->cellbody[c]) continue;
-    CellGather(n, nodes, x, X);
-    for (PetscInt q = 0; q < basis->npoints; ++q) {
-      const PetscReal w = CellGradients((int)n, basis, q, X, G);
-
-      for (PetscInt a = 0; a < n; ++a) volume[a] += w * basis->N[q][a];
-    }
-    for (PetscInt a = 0; a < n; ++a) {
-      for (int i = 0; i < 3; ++i) l[3 * nodes[a] + i] += factor[i] * volume[a];
-    }
+    for (PetscInt a = 0; a < basis->nnodes; ++a) volume[a] += w * basis->N[q][a];
   }
-  PetscCall(VecRestoreArray(local, &l));
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
-  PetscCall(DMRestoreLocalVector(e->dm, &local));
-  PetscFunctionReturn(0);
 }
 
-/* Adds to the values of a tetrahedron's 10 nodes what they lack to be in proportion to the integrals of the squared shape functions, those of the corners' own being negative */
-static void ElasticityEvenMass(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+/* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals of the squared shape functions */
+static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
 
+  CellVolumes(basis, X, mass);
+  if (basis->nnodes != 10) return;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w = CellGradients(10, basis, q, X, G);
 
-    whole += w;
-    for (PetscInt a = 0; a < 10; ++a) {
-      square[a] += w * PetscSqr(basis->N[q][a]);
-      sum += w * PetscSqr(basis->N[q][a]);
-      mass[a] -= w * basis->N[q][a];
-    }
+    for (PetscInt a = 0; a < 10; ++a) square[a] += w * PetscSqr(basis->N[q][a]);
   }
-  for (PetscInt a = 0; a < 10; ++a) mass[a] += whole / sum * square[a];
+  for (PetscInt a = 0; a < 10; ++a) {
+    whole += mass[a];
+    sum += square[a];
+  }
+  for (PetscInt a = 0; a < 10; ++a) mass[a] = whole / sum * square[a];
 }
 
-/* The same over all cells */
-static PetscErrorCode ElasticityAddEvenMass(Elasticity e, Vec total)
+/* Adds factor[d] times the integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
+static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]), const PetscReal factor[3], Vec total)
 {
   Vec                coordinates, local;
   const PetscScalar *x;
@@ -71,12 +49,12 @@ static PetscErrorCode ElasticityAddEvenMass(Elasticity e, Vec total)
   PetscCall(VecGetArray(local, &l));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt n = e->cellstart[c + 1] - e->cellstart[c], *nodes = e->cellnodes + e->cellstart[c];
-    PetscReal      X[3][CELL_MAX_NODES], mass[CELL_MAX_NODES]        = {0};
+    PetscReal      X[3][CELL_MAX_NODES], values[CELL_MAX_NODES];
 
-    if (n != 10) continue;
+    if (body != PETSC_DECIDE && body != e->cellbody[c]) continue;
     CellGather(n, nodes, x, X);
-    ElasticityEvenMass(e->bodies[e->cellbody[c]].basis, X, mass);
-    for (PetscInt i = 0; i < 3 * n; ++i) l[3 * nodes[i / 3] + i % 3] += mass[i / 3];
+    integrals(e->bodies[e->cellbody[c]].basis, X, values);
+    for (PetscInt i = 0; i < 3 * n; ++i) l[3 * nodes[i / 3] + i % 3] += factor[i % 3] * values[i / 3];
   }
   PetscCall(VecRestoreArray(local, &l));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
@@ -113,8 +91,7 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
   PetscFunctionBegin;
   PetscCall(DMCreateGlobalVector(e->dm, mass));
   PetscCall(VecZeroEntries(*mass));
-  PetscCall(ElasticityAddVolume(e, PETSC_DECIDE, one, *mass));
-  PetscCall(ElasticityAddEvenMass(e, *mass));
+  PetscCall(ElasticityAddVolume(e, PETSC_DECIDE, CellMasses, one, *mass));
   PetscFunctionReturn(0);
 }
 
@@ -139,7 +116,7 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
 {
   PetscFunctionBegin;
   PetscCheck(body == PETSC_DECIDE || (body >= 0 && body < e->nbodies), PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
-  PetscCall(ElasticityAddVolume(e, body, density, force));
+  PetscCall(ElasticityAddVolume(e, body, CellVolumes, density, force));
   PetscFunctionReturn(0);
 }
 

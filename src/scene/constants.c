@@ -89,8 +89,31 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* A line each, as it is read */
-PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
+static PetscErrorCode ConstantView(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", constant->name));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  if (constant->n == 1) PetscCall(SceneViewReal(viewer, *value));
+  else PetscCall(SceneViewList(viewer, constant->n, value));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+{
+  const char *name = constant == &isotropic[0] ? "E" : constant == &isotropic[1] ? "nu"
+                                                                                 : constant->name;
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
+  for (PetscInt k = 0; k < constant->n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Those that are required or not 0 */
+static PetscErrorCode ConstantsShow(const Material *material, PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
   const MaterialConstant *constants;
   const PetscInt          n    = MaterialConstants(material->type, &constants);
@@ -100,33 +123,24 @@ PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
   for (PetscInt i = 0; i < n; ++i) {
     const PetscReal *value = MaterialConstantAt(&constants[i], &copy);
 
-    if (!MaterialConstantIsSet(&constants[i], value)) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", constants[i].name));
-    PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-    if (constants[i].n == 1) PetscCall(SceneViewReal(viewer, *value));
-    else PetscCall(SceneViewList(viewer, constants[i].n, value));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+    if (MaterialConstantIsSet(&constants[i], value)) PetscCall(show(&constants[i], value, viewer));
   }
+  PetscFunctionReturn(0);
+}
+
+/* A line each, as it is read */
+PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(ConstantsShow(material, ConstantView, viewer));
   PetscFunctionReturn(0);
 }
 
 /* In words, within a line */
 PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
 {
-  const MaterialConstant *constants;
-  const PetscInt          n    = MaterialConstants(material->type, &constants);
-  Material                copy = *material;
-
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscReal *value = MaterialConstantAt(&constants[i], &copy);
-
-    if (!MaterialConstantIsSet(&constants[i], value)) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", constants == isotropic && i == 0 ? "E" : constants == isotropic && i == 1 ? "nu"
-                                                                                                                                 : constants[i].name));
-    for (PetscInt k = 0; k < constants[i].n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
-  }
+  PetscCall(ConstantsShow(material, ConstantDescribe, viewer));
   PetscFunctionReturn(0);
 }
 
