@@ -366,7 +366,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: tetrahedra
-      args: -tetrahedra -pc_type pbjacobi -above 0.3
+      args: -tetrahedra -pc_type pbjacobi -below 0.4
       output_file: output/elasticity_manufactured.out
 
 TEST*/

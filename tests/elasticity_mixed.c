@@ -76,9 +76,7 @@ static PetscErrorCode CreateElasticity(DM dm, const MaterialType types[NBODIES],
 
   PetscFunctionBeginUser;
   for (PetscInt b = 0; b < NBODIES; ++b) {
-    materials[b].type    = types[b];
-    materials[b].young   = b + 1;
-    materials[b].poisson = 0.3;
+    materials[b] = (Material){.type = types[b], .young = b + 1, .poisson = 0.3};
   }
   PetscCall(ElasticityCreate(dm, NBODIES, materials, elements, e));
   PetscCall(ProblemFixFace(dm, "chain.zmin", &rows));
