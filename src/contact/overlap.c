@@ -94,8 +94,7 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
-    if (area == 0.0) continue;
-    o->area += area;
+    o->area += area; /* one of no area, where corners coincide, too: its area changes with them */
     o->triangle[o->ntriangles++] = (ContactTriangle){{first, first + t, first + t + 1}, sign};
     for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};

@@ -123,11 +123,11 @@ static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, Pe
   }
 }
 
-/* The points of triangle t, and its area's derivative */
+/* The points of triangle t, and its area's derivative, which a triangle of no area has as well */
 static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair, PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
 {
   const ContactTriangle *triangle = &o->triangle[t];
-  PetscReal              sum[4] = {0}, covered[4] = {0}, area = 0.0;
+  PetscReal              mean[4] = {0}, mean_cover[4] = {0};
 
   for (PetscInt q = 0; q < rule->n; ++q) {
     const PetscInt k = t * rule->n + q;
@@ -135,21 +135,20 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
 
     PlanePointEvaluate(pair, 0, o->xi1[k], &point[0]);
     PlanePointEvaluate(pair, 1, o->xi2[k], &point[1]);
-    area += o->weight[k];
     for (PetscInt a = 0; a < 4; ++a) {
       PetscReal place[2];
 
-      sum[a] += AddPoint(point, a, o->weight[k], &by[a], place);
+      gap[a] += AddPoint(point, a, o->weight[k], &by[a], place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].gap);
-      covered[a] += AddPointCover(&point[0], a, o->weight[k], &by[a].cover, place);
+      cover[a] += AddPointCover(&point[0], a, o->weight[k], &by[a].cover, place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].cover);
+      mean[a] += rule->weight[q] * point[0].phi[a] * (point[1].height - point[0].height);
+      mean_cover[a] += rule->weight[q] * point[0].phi[a];
     }
   }
   for (PetscInt a = 0; a < 4; ++a) {
-    AddArea(o, triangle, sum[a] / area, &by[a].gap);
-    AddArea(o, triangle, covered[a] / area, &by[a].cover);
-    gap[a] += sum[a];
-    cover[a] += covered[a];
+    AddArea(o, triangle, mean[a], &by[a].gap);
+    AddArea(o, triangle, mean_cover[a], &by[a].cover);
   }
 }
 
