@@ -339,7 +339,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
       point->gap      = PetscRealPart(a[i + 2] / a[i]);
     }
     for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
-    point->closed = (PetscBool)(2.0 * PetscRealPart(s[i + 1]) > PetscRealPart(b[i]));
+    point->closed = (PetscBool)(2.0 * PetscRealPart(s[i + 1]) > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * PetscRealPart(b[i])); /* half of it, but for rounding, is not enough */
   }
   PetscCall(VecRestoreArrayRead(vertices->force, &f));
   PetscCall(VecRestoreArrayRead(vertices->sides, &s));

@@ -11,6 +11,7 @@ static const PetscReal cover_ratio     = 0.3; /* of a vertex over a better cover
 static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is covered in part */
 static const PetscInt  cover_rings     = 4;   /* of facets about such vertices in which pressures are evened out */
 static const PetscInt  cover_exchanges = 3;
+static const PetscReal cover_rounding  = 1e-8; /* by which a limit is missed to be missed: meshes of simple fractions meet it to the last digits */
 
 /* The facets of both faces of a pair, those of order 2 cut at their nodes, and what is known of their vertices, in the order of local vectors */
 typedef struct {
@@ -66,7 +67,7 @@ static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried,
       const PetscInt  a = facets->offset[4 * f + pair / 4], b = facets->offset[4 * f + pair % 4];
       const PetscReal own = PetscRealPart(r[a]), area = PetscRealPart(r[b + 1]);
 
-      if (!(own > 0.0) || own >= cover_ratio * PetscRealPart(r[b])) continue;
+      if (!(own > 0.0) || own >= (1.0 - cover_rounding) * cover_ratio * PetscRealPart(r[b])) continue;
       if (!c) o[a + 2] += area;
       for (PetscInt i = 0; c && i < 3; ++i) o[b + i] += area / r[a + 2] * c[a + i];
     }
@@ -170,7 +171,7 @@ static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
   PetscCall(VecGetLocalSize(edge, &n));
   PetscCall(VecGetArrayRead(facets->cover, &r));
   PetscCall(VecGetArray(edge, &o));
-  for (PetscInt i = 0; i < n; i += 3) o[i] = PetscRealPart(r[i]) > 0.0 && PetscRealPart(r[i]) < cover_partial ? 1.0 : 0.0;
+  for (PetscInt i = 0; i < n; i += 3) o[i] = PetscRealPart(r[i]) > 0.0 && PetscRealPart(r[i]) < (1.0 - cover_rounding) * cover_partial ? 1.0 : 0.0;
   PetscCall(VecRestoreArray(edge, &o));
   PetscCall(VecRestoreArrayRead(facets->cover, &r));
   for (PetscInt i = 0; i < 2; ++i) PetscCall(DMGetLocalVector(dm, &local[i]));

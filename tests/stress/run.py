@@ -170,6 +170,8 @@ def main():
         for row in sweeps.rows(args.folder, 0):
             if row.quick:
                 print(f"{row.group}, {row.name}: {'; '.join(sweeps.solve_row(args, row)['wrong']) or row.end}")
+        for result in units.quick(args):
+            print(f"{result['name']}, {result['unit']}: {'; '.join(result['wrong']) or 'the same answer'}")
         return 0
     report = Report(args)
     report.say(HEADER)
