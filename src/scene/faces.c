@@ -19,7 +19,26 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
   return PETSC_DECIDE;
 }
 
-/* Three bounds, each a number or infinite */
+/* A bound, a number or infinite as people or YAML write it */
+static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const char word[], PetscReal *bound)
+{
+  static const char *const names[] = {"inf", ".inf", "-inf", "-.inf"};
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); ++i) {
+    PetscBool same;
+
+    PetscCall(PetscStrcasecmp(word, names[i], &same));
+    if (same) {
+      *bound = i < 2 ? PETSC_INFINITY : PETSC_NINFINITY;
+      PetscFunctionReturn(0);
+    }
+  }
+  PetscCall(SceneParseReal(keys, key, word, bound));
+  PetscFunctionReturn(0);
+}
+
+/* Three bounds */
 static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const char which[], PetscReal infinite, PetscReal bounds[3])
 {
   char        key[SCENE_KEY_LENGTH];
@@ -33,15 +52,7 @@ static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const c
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (!text) PetscFunctionReturn(0);
   PetscCall(SceneParseList(keys, key, text, &n, &words));
-  for (PetscInt d = 0; d < n; ++d) {
-    PetscBool below, above;
-
-    PetscCall(PetscStrcasecmp(words[d], "-inf", &below));
-    PetscCall(PetscStrcasecmp(words[d], "inf", &above));
-    if (below) bounds[d] = PETSC_NINFINITY;
-    else if (above) bounds[d] = PETSC_INFINITY;
-    else PetscCall(SceneParseReal(keys, key, words[d], &bounds[d]));
-  }
+  for (PetscInt d = 0; d < n; ++d) PetscCall(SceneReadBound(keys, key, words[d], &bounds[d]));
   if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
   PetscFunctionReturn(0);
 }
