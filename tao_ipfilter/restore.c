@@ -12,6 +12,7 @@
 #define IP_RESTORE_MAX    200  /* steps */
 #define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
 #define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
+#define IP_RESTORE_LEAST  1e-6 /* of one that is, if it does not fall */
 
 /* psi at the point of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
@@ -128,12 +129,12 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks until psi falls, inside the bounds, and puts more of the metric into the next step's model the worse this one was; *psi is its value there,
-   *alpha 0 where it does not */
+/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not. The next step's model gets more of the metric the
+   worse this one was, and less where a whole step gains as much as the model promises at least, but for a fraction: half of the slope */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal armijo   = 1e-4;
+  const PetscReal armijo   = 1e-4, fair = 0.5;
   const PetscInt  halvings = 12, max_halvings_of_a_fair_model = 1;
 
   PetscFunctionBegin;
@@ -149,8 +150,9 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(RestoreViolation(tao, &ip->trial, &trial));
     if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
-    *psi = trial;
     if (k > max_halvings_of_a_fair_model) ip->restore.zeta *= 10.0;
+    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope) ip->restore.zeta *= 0.1;
+    *psi = trial;
     PetscFunctionReturn(0);
   }
   *alpha = 0.0;
@@ -374,9 +376,10 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
     if (falls) {
       idle   = 0;
       *least = PETSC_INFINITY;
-    } else if (gradient <= IP_RESTORE_SMALL || gradient > falling * *least) idle++;
+    } else if (gradient <= IP_RESTORE_LEAST) idle = patience;
+    else if (gradient <= IP_RESTORE_SMALL || gradient > falling * *least) idle++;
     *least = PetscMin(*least, gradient);
-    ip->restore.zeta *= alpha > 0.5 || !descent ? 0.1 : (alpha > 0.0 ? 1.0 : 10.0);
+    if (alpha == 0.0) ip->restore.zeta *= descent ? 10.0 : 0.1;
     if (alpha == 0.0) continue;
     PetscCall(RestoreTakeTrial(tao));
     PetscCall(RestoreAccepts(tao, theta0, ok));
