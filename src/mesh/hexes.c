@@ -93,6 +93,7 @@ PetscErrorCode MeshHexesDestroy(MeshHexes *hexes)
   PetscCall(PetscFree(hexes->root));
   PetscCall(PetscFree(hexes->place));
   PetscCall(PetscFree(hexes->x));
+  PetscCall(PetscFree(hexes->placed));
   PetscCall(PetscFree(hexes->parent));
   if (hexes->middles) {
     PetscCall(PetscHMapIJDestroy(&hexes->middles->edges));

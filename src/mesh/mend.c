@@ -6,32 +6,49 @@
 
 #define MEND_LEAST 0.25 /* of the smallest Jacobian that a cell has with all its vertices on the curve */
 
-/* Where all vertices are, those that hang on the curve too */
-static PetscErrorCode MendPlace(DM dm, const SceneBody bodies[], const MeshCurves *curves, const MeshHexes *hexes, PetscReal x[])
+/* The places of a cell's vertices, those that hang on the curve too */
+static PetscErrorCode MendPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
 {
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < hexes->ncells; ++c) {
-    const PetscInt *vertex = &hexes->vertex[8 * c];
-    const Shape    *shape;
-    PetscInt        body;
-    PetscReal       places[8][3];
+  const Shape *shape;
+  PetscInt     body;
 
-    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, hexes->root[c], &body));
-    PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[body], &shape));
-    for (PetscInt a = 0; a < 8; ++a) {
-      PetscCall(PetscArraycpy(places[a], &hexes->x[3 * vertex[a]], 3));
-      if (shape && shape->map && bodies[body].curved) PetscCall(shape->map(&bodies[body], places[a], places[a]));
-    }
-    PetscCall(MeshCurvesPlacePart(curves, hexes, c, places));
-    for (PetscInt a = 0; a < 8; ++a) PetscCall(PetscArraycpy(&x[3 * vertex[a]], places[a], 3));
+  PetscFunctionBegin;
+  PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, hexes->root[cell], &body));
+  PetscCall(ShapeGet(PETSC_COMM_SELF, &bodies[body], &shape));
+  for (PetscInt a = 0; a < 8; ++a) {
+    PetscCall(PetscArraycpy(places[a], &hexes->x[3 * hexes->vertex[8 * cell + a]], 3));
+    if (shape && shape->map && bodies[body].curved) PetscCall(shape->map(&bodies[body], places[a], places[a]));
   }
+  PetscCall(MeshCurvesPlacePart(curves, hexes, cell, places));
   PetscFunctionReturn(0);
 }
 
-/* The quality of a cell at places of the vertices; hangs: those that hang are between others, NULL: none does */
-static PetscReal MendQuality(const MeshHexes *hexes, PetscInt cell, const PetscReal x[], const PetscBool hangs[])
+/* Vertices that came since the last time: a shape's map may cost more than all else, and no vertex moves */
+static PetscErrorCode MendPlace(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
-  PetscReal corners[8][3];
+  PetscReal places[8][3];
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc(3 * hexes->nvertices * sizeof(*hexes->placed), &hexes->placed));
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    const PetscInt *vertex = &hexes->vertex[8 * c];
+    PetscBool       come   = PETSC_FALSE;
+
+    for (PetscInt a = 0; a < 8; ++a) come = (PetscBool)(come || vertex[a] >= hexes->nplaced);
+    if (come) PetscCall(MendPlaceCell(dm, bodies, curves, hexes, c, places));
+    for (PetscInt a = 0; come && a < 8; ++a) {
+      if (vertex[a] >= hexes->nplaced) PetscCall(PetscArraycpy(&hexes->placed[3 * vertex[a]], places[a], 3));
+    }
+  }
+  hexes->nplaced = hexes->nvertices;
+  PetscFunctionReturn(0);
+}
+
+/* The quality of a cell with its vertices placed; hangs: those that hang are between others, NULL: none does */
+static PetscReal MendQuality(const MeshHexes *hexes, PetscInt cell, const PetscBool hangs[])
+{
+  const PetscReal *x = hexes->placed;
+  PetscReal        corners[8][3];
 
   for (PetscInt a = 0; a < 8; ++a) {
     const PetscInt v = hexes->vertex[8 * cell + a], *parent = &hexes->parent[4 * v], n = parent[2] < 0 ? 2 : 4;
@@ -51,16 +68,15 @@ PetscErrorCode MeshHexesMend(DM dm, const SceneBody bodies[], const MeshCurves *
 
   PetscFunctionBegin;
   while (more) {
-    PetscReal *x;
     PetscBool *hangs, *marked;
 
-    PetscCall(PetscMalloc3(3 * hexes->nvertices, &x, hexes->nvertices, &hangs, hexes->ncells, &marked));
-    PetscCall(MendPlace(dm, bodies, curves, hexes, x));
+    PetscCall(PetscMalloc2(hexes->nvertices, &hangs, hexes->ncells, &marked));
+    PetscCall(MendPlace(dm, bodies, curves, hexes));
     PetscCall(MeshHexesFindHanging(hexes, hangs));
-    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, c, x, hangs) < MEND_LEAST * MendQuality(hexes, c, x, NULL));
+    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, c, hangs) < MEND_LEAST * MendQuality(hexes, c, NULL));
     PetscCall(MeshHexesMarkHolders(hexes, marked, &more));
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
-    PetscCall(PetscFree3(x, hangs, marked));
+    PetscCall(PetscFree2(hangs, marked));
   }
   PetscFunctionReturn(0);
 }

@@ -245,6 +245,8 @@ typedef struct {
   PetscInt              *root, *place;                    /* 4 numbers a cell: where in its root the lower corner is, in cells of its size, and how often the root was refined */
   PetscInt               nvertices, maxvertices, *parent; /* 4 a vertex: those that it was made amid, on an edge or a side; the others are negative */
   PetscReal             *x;                               /* 3 a vertex, as the mesh has them */
+  PetscInt               nplaced;                         /* the first so many vertices have been placed: mend.c */
+  PetscReal             *placed;                          /* 3 a vertex, where they are with all vertices on the curves */
   struct _n_MeshMiddles *middles;
 } MeshHexes;
 PETSC_INTERN PetscErrorCode MeshHexesCreate(DM, MeshHexes *);
