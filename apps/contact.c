@@ -211,7 +211,7 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, const MeshMarks *marks, Simulation *sim)
+static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, const MeshMarks *marks, StepForecast *forecast, Simulation *sim)
 {
   StepTolerances tolerances;
 
@@ -224,6 +224,7 @@ static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Ac
   PetscCall(SimulationSetFields(*sim, app->write, (PetscBool)(app->write && app->gauss)));
   PetscCall(SimulationSetFromOptions(*sim));
   if (accuracy->adaptive) PetscCall(SimulationSetMarks(*sim, marks));
+  if (accuracy->target > 0.0) PetscCall(SimulationSetForecast(*sim, forecast));
   PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);
 }
@@ -319,7 +320,7 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
 }
 
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
-static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, RunEnd *end, PetscBool *again)
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, StepForecast *forecast, RunEnd *end, PetscBool *again)
 {
   Simulation     sim;
   Output         output;
@@ -330,7 +331,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
-  PetscCall(AppCreateSimulation(app, scene, accuracy, marks, &sim));
+  PetscCall(AppCreateSimulation(app, scene, accuracy, marks, forecast, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
   PetscCall(AppSimulateSteps(app, scene, sim, output, &converged));
@@ -363,9 +364,10 @@ static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
 
 static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
-  Accuracy  accuracy;
-  MeshMarks marks = {0, NULL, NULL};
-  PetscBool again;
+  Accuracy     accuracy;
+  MeshMarks    marks    = {0, NULL, NULL};
+  StepForecast forecast = {.dm = NULL};
+  PetscBool    again;
 
   PetscFunctionBeginUser;
   PetscCall(AppCheckFiles(app, scene));
@@ -373,11 +375,12 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
   PetscCall(SimulationCatchSignals());
   do {
-    PetscCall(AppSimulate(app, scene, &accuracy, &marks, end, &again));
+    PetscCall(AppSimulate(app, scene, &accuracy, &marks, &forecast, end, &again));
     if (again && !app->quiet) PetscCall(ReportViewNextMesh(&accuracy, scene->refine, PETSC_VIEWER_STDOUT_WORLD));
   } while (again);
   PetscCall(AccuracyDestroy(&accuracy));
   PetscCall(MeshMarksDestroy(&marks));
+  PetscCall(StepForecastDestroy(&forecast));
   PetscFunctionReturn(0);
 }
 

@@ -88,6 +88,9 @@ typedef struct {
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
+/* Fields of a mesh, global vectors, at points of this rank: nfields x 3 values a point; missing: points of all ranks that no cell is near */
+PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
+
 /* In which cells of a mesh are points? Of any cells, which need not be those of a DM */
 typedef struct _n_MeshLocator *MeshLocator;
 PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[]);

@@ -163,7 +163,8 @@ typedef struct {
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
   PetscBool      unseen;    /* it changed by more than recovery accounts for */
   PetscReal      algebraic; /* of the solver, relative, in energy */
-  PetscLogDouble time;      /* [s] */
+  PetscInt       amg_applications;
+  PetscLogDouble time; /* [s] */
 } AccuracyLevel;
 
 typedef struct {

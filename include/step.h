@@ -21,6 +21,13 @@ typedef struct {
   PetscReal gap_untrue; /* the same, beyond which a load step has not converged */
 } StepTolerances;
 
+/* What load steps ended with on a mesh: displacement and, of each contact pair, pressures. Begins as zeros */
+typedef struct {
+  DM       dm;
+  PetscInt nsteps, nfields;
+  Vec     *fields; /* nsteps x nfields */
+} StepForecast;
+
 /* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
@@ -29,6 +36,9 @@ PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
+/* Where load steps start, found on another mesh; then what they end with on this one */
+PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
+PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);

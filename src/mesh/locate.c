@@ -1,5 +1,5 @@
 /*
-   Which cell is a point in? Points are sorted into the bins of a grid; each cell looks at those in the bins about it, and the point's place in the
+   Which cell is a point in? Points are sorted into the bins of a grid, as narrow as they are close; each cell looks at those in the bins about it, and the point's place in the
    cell is where the cell's map takes it, linear or quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
 */
 #include "meshimpl.h"
@@ -7,23 +7,49 @@
 /* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between facets */
 static const PetscReal locate_margin = 0.25;
 
-/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1] */
+/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at first[d][i] */
 typedef struct {
-  PetscInt  n[3], *start, *order;
-  PetscReal lower[3], size[3];
+  PetscInt   n[3], *start, *order;
+  PetscReal *first[3];
 } LocateBins;
 
+/* The last that begins at x or before; those outside go to the nearest */
 static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
 {
-  const PetscReal place = (x - bins->lower[d]) / bins->size[d];
+  PetscInt low = 0, high = bins->n[d];
 
-  return place <= 0 ? 0 : place >= (PetscReal)bins->n[d] ? bins->n[d] - 1
-                                                         : (PetscInt)place;
+  while (high - low > 1) {
+    const PetscInt middle = (low + high) / 2;
+
+    if (bins->first[d][middle] <= x) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
 {
   return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
+}
+
+/* Bins along an axis with as many points each, so that meshes graded towards a place have narrow ones there */
+static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d, LocateBins *bins)
+{
+  PetscReal *sorted;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(npoints, &sorted));
+  PetscCall(PetscCalloc1(nbins, &bins->first[d]));
+  for (PetscInt i = 0; i < npoints; ++i) sorted[i] = points[i][d];
+  PetscCall(PetscSortReal(npoints, sorted));
+  bins->n[d] = 1;
+  for (PetscInt b = 1; b < nbins; ++b) {
+    const PetscReal first = sorted[(PetscInt)((PetscInt64)b * npoints / nbins)];
+
+    if (first > sorted[0] && (bins->n[d] == 1 || first > bins->first[d][bins->n[d] - 1])) bins->first[d][bins->n[d]++] = first;
+  }
+  PetscCall(PetscFree(sorted));
+  PetscFunctionReturn(0);
 }
 
 /* About one point a bin, where they fill their box */
@@ -33,17 +59,7 @@ static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[
   PetscInt       nbins;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < 3; ++d) {
-    PetscReal upper = PETSC_MIN_REAL;
-
-    bins->lower[d] = PETSC_MAX_REAL;
-    for (PetscInt i = 0; i < npoints; ++i) {
-      bins->lower[d] = PetscMin(bins->lower[d], points[i][d]);
-      upper          = PetscMax(upper, points[i][d]);
-    }
-    bins->n[d]    = upper > bins->lower[d] ? side : 1;
-    bins->size[d] = upper > bins->lower[d] ? (upper - bins->lower[d]) / (PetscReal)side : 1.0;
-  }
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(LocateBinsPart(npoints, points, npoints ? side : 1, d, bins));
   nbins = bins->n[0] * bins->n[1] * bins->n[2];
   PetscCall(PetscCalloc1(nbins + 1, &bins->start));
   PetscCall(PetscMalloc1(npoints, &bins->order));
@@ -59,6 +75,7 @@ static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[
 static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
 {
   PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(PetscFree(bins->first[d]));
   PetscCall(PetscFree(bins->start));
   PetscCall(PetscFree(bins->order));
   PetscFunctionReturn(0);

@@ -169,6 +169,7 @@ static const ReportField level_fields[] = {
   FIELD(AccuracyLevel, error, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "mesh error", "", 12)}),
   FIELD(AccuracyLevel, unseen, FIELD_BOOL, "", .absent = "", .columns = {COLUMN(TABLE_LEVELS, "", "", 0, .format = "beyond recovery", .behind = PETSC_TRUE)}),
   FIELD(AccuracyLevel, algebraic, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "solver error", "", 12)}),
+  FIELD(AccuracyLevel, amg_applications, FIELD_INT, "", .columns = {COLUMN(TABLE_LEVELS, "amg", "applic", 8)}),
   FIELD(AccuracyLevel, time, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_LEVELS, "time", "", 10, .with_unit = PETSC_TRUE)}),
   END,
 };

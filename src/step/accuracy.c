@@ -206,6 +206,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
     const StepReport *step = &report->steps[s];
 
     level->energy[s] = step->energy;
+    level->amg_applications += step->amg_applications;
     largest          = PetscMax(largest, step->energy);
     PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));
   }
@@ -290,6 +291,8 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,
    so that all the coarser meshes together cost a seventh of the last. A target that the first mesh meets costs 8 times that mesh.
+
+   Load steps of each mesh but the first start from what they ended with on the one before, see `SimulationSetForecast()`.
 
    Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names; what is extrapolated follows the
    rate that recovery shows, of 1.25 at least.

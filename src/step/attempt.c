@@ -26,7 +26,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
-  else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, u, report));
+  else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, resume, u, report));
   else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, resume, u, report, sol));
   else PetscCall(OptimizerSolve(p, resume, u, report, sol));
   if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
@@ -59,6 +59,14 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
   PetscCall(VecDuplicate(u, du));
   PetscCall(VecWAXPY(*du, -1.0, u_linearized, u));
   PetscCall(VecNorm(*du, NORM_INFINITY, moved));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AttemptCopy(Vec u, Vec *copy)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, copy));
+  PetscCall(VecCopy(u, *copy));
   PetscFunctionReturn(0);
 }
 
@@ -211,7 +219,7 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants 
    One linearization: u with the gap of sim->linearization, `at_u` on exit the gap at u. end: u is the last, for its gap is true or it
    is no solution; slid: vertices under pressure have no row at u, so that its gap is not known there
 */
-static PetscErrorCode AttemptOnce(StepProblem *p, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
+static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
 {
   Simulation sim     = p->sim;
   PetscBool  is_true = PETSC_FALSE;
@@ -219,7 +227,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, Vec u_linearized, Vec u, StepR
   PetscFunctionBegin;
   *end  = PETSC_TRUE;
   *slid = PETSC_FALSE;
-  PetscCall(AttemptLinearized(p, (PetscBool)(report->contact_updates > 0), u_linearized, u, report, sol));
+  PetscCall(AttemptLinearized(p, resume, u_linearized, u, report, sol));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
@@ -257,8 +265,8 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
   PetscFunctionReturn(0);
 }
 
-/* sim->linearization is the one u was found with; `at_u` on exit the one at u */
-static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
+/* sim->linearization is the one u was found with; `at_u` on exit the one at u. foreseen: it is at u as given, where the solve starts */
+static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
 {
   Simulation sim          = p->sim;
   GapSecants secants      = {0};
@@ -268,14 +276,12 @@ static PetscErrorCode AttemptContact(StepProblem *p, Vec u, StepReport *report, 
   PetscFunctionBegin;
   report->contact_updates = 0;
   report->gap_untrue      = PETSC_FALSE;
+  if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
-    PetscCall(AttemptOnce(p, u_linearized, u, report, sol, at_u, &end, &slid));
+    PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
     if (end || report->contact_updates == sim->scene->contact_updates) break;
-    if (u_linearized == sim->path.u) {
-      PetscCall(VecDuplicate(u, &u_linearized));
-      PetscCall(VecCopy(sim->path.u, u_linearized));
-    }
+    if (u_linearized == sim->path.u) PetscCall(AttemptCopy(sim->path.u, &u_linearized));
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
@@ -304,6 +310,20 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
   PetscFunctionReturn(0);
 }
 
+/* sim->linearization becomes that at a foreseen u; else that of the last state, sim->upcoming, which is then no more */
+static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool foreseen, Vec u)
+{
+  PetscFunctionBegin;
+  if (foreseen) {
+    PetscCall(AttemptLinearizeGap(sim, time, u, &sim->linearization));
+    PetscFunctionReturn(0);
+  }
+  sim->linearization = sim->upcoming;
+  sim->upcoming      = NULL;
+  PetscCall(InterferenceAdd(sim, time, 1.0, sim->linearization));
+  PetscFunctionReturn(0);
+}
+
 /*
    The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures and gaps
    of the last good solve stay with it.
@@ -314,23 +334,23 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   StepProblem          p;
   ContactSolution      sol  = {.gap = NULL};
   ContactLinearization good = sim->linearization, at_u = NULL;
+  PetscBool            foreseen;
   Vec                  u;
 
   PetscFunctionBegin;
   if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeFaces(sim, sim->path.u, &sim->upcoming));
-  if (sim->contact && sim->path.time == 0.0 && !report->cuts) {
+  if (sim->contact && sim->path.time == 0.0 && !report->cuts && !sim->forecast.failed) {
     PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
     PetscCall(StartWarn(sim, sim->upcoming));
   }
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(VecDuplicate(sim->path.u, &u));
   if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0) PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
+  PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
-    sim->linearization = sim->upcoming;
-    sim->upcoming      = NULL;
-    PetscCall(InterferenceAdd(sim, time, 1.0, sim->linearization));
-    PetscCall(AttemptContact(&p, u, report, &sol, &at_u));
-  } else PetscCall(AttemptSolve(&p, PETSC_FALSE, u, report, &sol));
+    PetscCall(AttemptBegin(sim, time, foreseen, u));
+    PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
+  } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
 
   if (report->converged) {
     PetscCall(MeasureState(&p, u, &sol, report));
@@ -338,10 +358,11 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     if (sim->contact) PetscCall(FrictionSettle(sim, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
+    PetscCall(ContactLinearizationDestroy(&sim->upcoming));
     sim->upcoming = at_u;
     if (sim->contact) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
   } else if (sim->contact) {
-    if (report->contact_updates) PetscCall(ContactLinearizationDestroy(&sim->linearization));
+    if (report->contact_updates || foreseen) PetscCall(ContactLinearizationDestroy(&sim->linearization));
     else {
       sim->upcoming = sim->linearization;
       PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));

@@ -41,8 +41,8 @@ static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConver
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve(), which goes on from the iterate attained where a factorization takes the place of the AMG; *its: of both together */
-static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, Vec b, Vec x, PetscInt *its)
+/* KSPSolve() from x as it is, or from zero; it goes on from the iterate attained where a factorization takes the place of the AMG; *its: of both together */
+static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool resume, Vec b, Vec x, PetscInt *its)
 {
   LinearPatience patience = {.left = PETSC_FALSE};
   PetscInt       more     = 0;
@@ -56,7 +56,9 @@ static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, Vec b, Vec x
   patience.later--;
   PetscCall(KSPGetAndClearConvergenceTest(ksp, &patience.test, &patience.ctx, &patience.destroy));
   PetscCall(KSPSetConvergenceTest(ksp, amgf ? LinearTest : patience.test, amgf ? (void *)&patience : patience.ctx, NULL));
+  PetscCall(KSPSetInitialGuessNonzero(ksp, resume));
   PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_FALSE));
   PetscCall(KSPSetConvergenceTest(ksp, patience.test, patience.ctx, patience.destroy));
   PetscCall(KSPGetIterationNumber(ksp, its));
   if (!patience.left) PetscFunctionReturn(0);
@@ -98,8 +100,8 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   PetscFunctionReturn(0);
 }
 
-/* A quadratic step without contact or bounds: one Newton step, K w = -force, is exact */
-PetscErrorCode LinearSolve(StepProblem *p, Vec u, StepReport *report)
+/* A quadratic step without contact or bounds: one Newton step, K w = -force, is exact; resume: PCG begins at u */
+PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report)
 {
   KSP                ksp = NULL;
   KSPConvergedReason reason;
@@ -112,7 +114,8 @@ PetscErrorCode LinearSolve(StepProblem *p, Vec u, StepReport *report)
   PetscCall(LinearGetKSP(p->sim, &ksp));
   PetscCall(ReportGetCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
-  PetscCall(LinearSolvePatiently(p->sim, ksp, p->force, p->w, &its));
+  if (resume) PetscCall(VecWAXPY(p->w, -1.0, u, p->base));
+  PetscCall(LinearSolvePatiently(p->sim, ksp, resume, p->force, p->w, &its));
   PetscCall(PetscTime(&t1));
   report->solve_time += t1 - t0;
   PetscCall(VecWAXPY(u, -1.0, p->w, p->base));

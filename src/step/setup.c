@@ -108,6 +108,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(SimulationSetUpElasticity(sim));
   PetscCall(ResidentGet(sim->comm, &sim->report.memory.assembly));
   PetscCall(SimulationSetUpContact(sim));
+  PetscCall(ForecastSetUp(sim));
   PetscCall(SimulationSetUpReport(sim));
   PetscFunctionReturn(0);
 }

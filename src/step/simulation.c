@@ -128,7 +128,7 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  sim - the simulation, before SimulationSetUp()
 
    Options Database Keys:
-+  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one; default true
++  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a coarser mesh ended with; default true
 .  -load_max_cuts <5>         - how often a load step that fails is halved
 .  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
 .  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
@@ -236,6 +236,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->points));
   PetscCall(ResultsFree(&s->results));
   PetscCall(PetscFree2(s->adapt.errors, s->adapt.marked));
+  PetscCall(StepForecastDestroy(&s->forecast.here));
   PetscCall(ProbesDestroy(&s->probes));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));

@@ -88,7 +88,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   StepReport     *report    = &sim->report.steps[step - sim->first_step];
   const PetscReal end       = (PetscReal)(step + 1);
   PetscReal       increment = sim->increment > 0.0 ? sim->increment : end - sim->path.time;
-  PetscBool       again     = PETSC_TRUE, stop;
+  PetscBool       again     = PETSC_TRUE, anew, stop;
   PetscLogDouble  t0, t1;
 
   PetscFunctionBegin;
@@ -109,10 +109,15 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
       ++report->substeps;
       PetscCall(ProgressReach(sim));
       increment *= 2.0;
-    } else PetscCall(SimulationCut(sim, report, &increment, &again));
+    }
+    PetscCall(ForecastAssess(sim, report->converged, &anew));
+    if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, &increment, &again));
     sim->increment = increment;
   }
-  if (sim->path.time >= end) sim->increment = 0.0;
+  if (sim->path.time >= end) {
+    sim->increment = 0.0;
+    PetscCall(ForecastRecord(sim));
+  }
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;

@@ -181,6 +181,13 @@ typedef struct {
   PetscBool *marked;
 } Adapt;
 
+/* Of forecast.c: what load steps ended with on another mesh, interpolated to this one; none where nothing is foreseen */
+typedef struct {
+  StepForecast *found; /* the caller's; NULL: none is wanted */
+  StepForecast  here;
+  PetscBool     used, failed; /* by the last attempt; by any */
+} Forecast;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm             comm;
@@ -218,6 +225,7 @@ struct _n_Simulation {
   PetscInt             maxcuts;    /* of one load step */
   const MeshMarks     *marks;      /* NULL: no cells are to be marked */
   Adapt                adapt;
+  Forecast             forecast;
   Progress             progress;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
@@ -341,7 +349,7 @@ PETSC_INTERN PetscErrorCode LooseTest(const StepProblem *, Vec u, StepReport *);
 /* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
 #define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
-PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
@@ -390,6 +398,12 @@ PETSC_INTERN PetscErrorCode ResultsFree(Results *);
 PETSC_INTERN PetscErrorCode ProbesCreate(DM, Scene, Probes *);
 PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
+
+/* forecast.c */
+PETSC_INTERN PetscErrorCode ForecastSetUp(Simulation);
+PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
+PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
+PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
 
 /* adapt.c */
 PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);

@@ -1,0 +1,174 @@
+/*
+   Load steps that were solved on another mesh of the same bodies, as a coarser one that -accuracy began with: the displacements and pressures that each of them ended
+   with are interpolated, and the step starts from there. The gap is linearized there first, so that fewer updates are left.
+*/
+#include "stepimpl.h"
+
+/*@C
+   SimulationSetForecast - Has load steps start from what they ended with on another mesh, and leave what they end with
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, before SimulationSetUp()
+
+   Input/Output Parameter:
+.  forecast - the states on the other mesh, zeros where there was none; those on this one as load steps end. It must outlive the simulation
+
+   Level: developer
+
+   Notes:
+   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that fails with it is tried again without.
+   It is left aside where one linearization of the gap is asked for, which is that at the last state, and where displacements are bounded by the last increments.
+
+.seealso: `SimulationSetMarks()`, `StepForecastDestroy()`, `MeshEvaluate()`
+@*/
+PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
+{
+  PetscFunctionBegin;
+  sim->forecast.found = forecast;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   StepForecastDestroy - Frees a forecast
+
+   Collective
+
+   Input Parameter:
+.  forecast - zeros then
+
+   Level: developer
+
+.seealso: `SimulationSetForecast()`
+@*/
+PetscErrorCode StepForecastDestroy(StepForecast *forecast)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < forecast->nsteps * forecast->nfields; ++f) PetscCall(VecDestroy(&forecast->fields[f]));
+  PetscCall(PetscFree(forecast->fields));
+  PetscCall(DMDestroy(&forecast->dm));
+  forecast->nsteps = 0;
+  PetscFunctionReturn(0);
+}
+
+/* To this mesh's nodes; *here stays empty where nodes of it are far from the other */
+static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found, StepForecast *here)
+{
+  const PetscInt     n = found->nsteps * found->nfields;
+  PetscInt           nlocal, missing;
+  PetscReal         *values;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(sim->places.x, &nlocal));
+  PetscCall(PetscMalloc1(n * nlocal, &values));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(MeshEvaluate(found->dm, n, found->fields, nlocal / 3, (const PetscReal(*)[3])x, sim->places.body, values, &missing));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  if (!missing) {
+    here->nsteps  = found->nsteps;
+    here->nfields = found->nfields;
+    PetscCall(PetscMalloc1(n, &here->fields));
+  }
+  for (PetscInt f = 0; f < n && !missing; ++f) {
+    PetscScalar *a;
+
+    PetscCall(VecDuplicate(sim->path.u, &here->fields[f]));
+    PetscCall(VecGetArrayWrite(here->fields[f], &a));
+    for (PetscInt i = 0; i < nlocal; ++i) a[i] = values[3 * (n * (i / 3) + f) + i % 3];
+    PetscCall(VecRestoreArrayWrite(here->fields[f], &a));
+  }
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(0);
+}
+
+/* Once there are mesh and contact; from then on the forecast is kept of this mesh */
+PetscErrorCode ForecastSetUp(Simulation sim)
+{
+  StepForecast *found = sim->forecast.found;
+
+  PetscFunctionBegin;
+  if (!found) PetscFunctionReturn(0);
+  if (sim->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1)) PetscCall(ForecastTransfer(sim, found, &sim->forecast.here));
+  PetscCall(StepForecastDestroy(found));
+  found->nfields = 1 + (sim->contact ? sim->scene->npairs : 0);
+  found->dm      = sim->dm;
+  PetscCall(PetscObjectReference((PetscObject)sim->dm));
+  PetscFunctionReturn(0);
+}
+
+/* The pressures of a pair as a field, or back */
+static PetscErrorCode ForecastCopyPressures(ContactMemory *m, PetscInt pair, Vec field, PetscBool back)
+{
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &a));
+  for (PetscInt i = 0; i < m->nowned; ++i) {
+    const PetscInt k = pair * m->nowned + i;
+
+    if (!back) a[3 * i] = m->pressure[k];
+    else {
+      m->pressure[k] = PetscMax(PetscRealPart(a[3 * i]), 0.0);
+      m->slack[k]    = 0.0;
+    }
+  }
+  PetscCall(VecRestoreArray(field, &a));
+  PetscFunctionReturn(0);
+}
+
+/* At the end of a load step that converged */
+PetscErrorCode ForecastRecord(Simulation sim)
+{
+  StepForecast *found = sim->forecast.found;
+  Vec          *fields;
+
+  PetscFunctionBegin;
+  if (!found) PetscFunctionReturn(0);
+  PetscCall(PetscRealloc((size_t)((found->nsteps + 1) * found->nfields) * sizeof(*fields), &found->fields));
+  fields = &found->fields[found->nsteps++ * found->nfields];
+  for (PetscInt f = 0; f < found->nfields; ++f) {
+    PetscCall(VecDuplicate(sim->path.u, &fields[f]));
+    PetscCall(VecZeroEntries(fields[f]));
+    if (f) PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_FALSE));
+  }
+  PetscCall(VecCopy(sim->path.u, fields[0]));
+  PetscFunctionReturn(0);
+}
+
+/* u, and the pressures that are remembered, as the forecast has them for the problem's time; *foreseen: whether it has that, and it is of use */
+PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
+{
+  Simulation      sim    = p->sim;
+  StepForecast   *here   = &sim->forecast.here;
+  const PetscInt  step   = (PetscInt)p->time - sim->first_step;
+  const PetscBool has    = (PetscBool)(p->time == PetscFloorReal(p->time) && step >= 1 && step <= here->nsteps);
+  PetscReal       energy = 0.0;
+  Vec            *fields = has ? &here->fields[(step - 1) * here->nfields] : NULL;
+
+  PetscFunctionBegin;
+  *foreseen = PETSC_FALSE;
+  if (!has) PetscFunctionReturn(0);
+  PetscCall(VecCopy(fields[0], u));
+  PetscCall(PrescribedApply(&sim->prescribed, p->time, u));
+  PetscCall(TiesFollow(&sim->ties, u));
+  if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &energy));
+  *foreseen = sim->forecast.used = EnergyIsFinite(energy);
+  for (PetscInt f = 1; *foreseen && f < here->nfields; ++f) PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* After an attempt: one that used the forecast and failed is to be made again without, as are all later ones */
+PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *again)
+{
+  PetscFunctionBegin;
+  *again             = (PetscBool)(sim->forecast.used && !converged);
+  sim->forecast.used = PETSC_FALSE;
+  if (!*again) PetscFunctionReturn(0);
+  sim->forecast.failed = PETSC_TRUE;
+  PetscCall(StepForecastDestroy(&sim->forecast.here));
+  if (sim->contact) PetscCall(PetscArrayzero(sim->memory.pressure, sim->memory.npairs * sim->memory.nowned));
+  PetscFunctionReturn(0);
+}
