@@ -11,7 +11,8 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -contact_free        also solve the first step without contact, for comparison\n\
   -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
   -accuracy_adaptive   refine for it where the error is, in place of everywhere\n\
-  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too\n\
+  -accuracy_order 2    give the first mesh elements of that order before it is refined\n\
+  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too; displacement, of the scene's probes, and energy\n\
   -accuracy_view       what -accuracy chose and attained (part of the table unless -quiet)\n\
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\

@@ -155,9 +155,11 @@ typedef struct {
 typedef struct {
   PetscInt       refine, dofs;
   PetscInt       mesh;      /* number of the mesh, from 0 */
+  PetscBool      raised;    /* it is the one before with a higher order */
   PetscReal     *energy;    /* [force length] */
   PetscReal     *force;     /* of each pair its size, and the sum of the sizes of its rows' [force] */
   PetscReal     *pressure;  /* of each pair the largest [force/length^2] */
+  PetscReal     *displaced; /* of each point of the scene's probes, 3 components [length] */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
   PetscReal      change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
@@ -168,6 +170,7 @@ typedef struct {
 } AccuracyLevel;
 
 typedef struct {
+  MPI_Comm       comm;
   PetscReal      target;           /* relative error in energy and contact force; 0: accuracy is not asked for */
   PetscReal      share;            /* of it that the solver may leave */
   PetscInt       max_dofs;         /* of a mesh */
@@ -178,6 +181,7 @@ typedef struct {
   PetscInt       updates;          /* linearizations of the gap a load step may take */
   PetscInt       of;               /* what is to be accurate: AccuracyTargets */
   PetscBool      adaptive;         /* cells are refined where the error is */
+  PetscInt       order;            /* of the bodies from the second mesh on; 0: as the scene has it */
   PetscInt       mesh;             /* number of the next run's mesh, from 0 */
   PetscReal      growth;           /* unknowns of the next mesh, by those of this one */
   PetscInt       nlevels;

@@ -1,5 +1,5 @@
 # -accuracy TARGET: Hertz's cylinder from a coarse mesh, its force against the exact one, his sphere, and a cantilever; what the estimates
-# are worth, and what cannot be reached is said. accuracy.py holds the summaries against the exact solution.
+# are worth, order 2 in place of refinement, displacements of probes, and what cannot be reached is said. accuracy.py holds the summaries against the exact solution.
 contact=$AMGF_DIR/bin/contact
 
 for body in sphere cylinder; do
@@ -40,6 +40,11 @@ run() { # summary, scene, options
   shift 2
   "$contact" "$scene.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
 }
+cp cantilever.yaml tip.yaml
+printf 'probes:\n  - tip: {point: [10, 0, 0]}\n  - middle: {point: [5, 0, 0.5]}\n' >> tip.yaml
+sed 's/poisson: 0.3/&\n      order: 2/' tip.yaml > tip_2.yaml
+sed 's/poisson: 0.3/&\n      element: incompatible/' tip.yaml > tip_incompatible.yaml
+
 run exact cylinder -refine 1
 run cylinder_1 cylinder -accuracy 1e-2
 run cylinder_2 cylinder -accuracy 3e-3
@@ -49,17 +54,23 @@ run cylinder_given cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_ipfilter_to
 run cylinder_gatol cylinder -accuracy 1e-2 -accuracy_share 1e-4 -tao_gatol 1e-2 -contact_smooth false -contact_updates 1 -tao_ipfilter_subspace false
 run cylinder_small cylinder -accuracy 1e-4 -accuracy_max_dofs 20000
 run sphere sphere -accuracy 3e-3 -accuracy_max_dofs 45000
+run raised cylinder -accuracy 1e-3 -accuracy_order 2
 run cylinder_single cylinder -accuracy 1e-1 -accuracy_max_dofs 10000
 run cantilever cantilever -accuracy 1e-2
 "$contact" shrink.yaml -quiet -summary shrink.json -accuracy 3e-3 -accuracy_max_dofs 1e4 2> /dev/null
 run cantilever_fine cantilever -refine 2
+run tip tip -accuracy 2e-2 -accuracy_of displacement
+run tip_raised tip -accuracy 3e-3 -accuracy_of displacement -accuracy_order 2
+run tip_fine tip_2 -refine 1
 for rings in rings_8_2.2 rings_20_2.2; do run $rings $rings -accuracy 3e-3; done
 run rings_facets rings_facets -accuracy 3e-3 -accuracy_max_dofs 5e3
 run pin pin -accuracy 2e-2
 run pin_refused pin -accuracy 3e-3 -accuracy_max_dofs 2e4
 PYTHONPATH=$AMGF_DIR/share/scenes "$PYTHON" "$AMGF_DIR/tests/accuracy.py"
 
-for wrong in '-accuracy 0' '-accuracy 2' '-accuracy little' '-accuracy 0.1 -accuracy_share 1' '-accuracy 0.1 -error_estimate 0'; do
+"$contact" cantilever.yaml -accuracy 1e-2 -accuracy_order 2 | grep -a '^Accuracy 0.01: the mesh' | sed 's/leaves .*; next/leaves ...; next/'
+for scene in tip_2 tip_incompatible; do "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_order 2 2>&1 || echo "exit code $?"; done
+for wrong in '-accuracy nan' '-accuracy -0.1' '-accuracy 0.1 -accuracy_order 3' '-accuracy 0.1 -accuracy_order 2 -accuracy_adaptive' '-accuracy 0.1 -accuracy_of displacement' '-accuracy 0' '-accuracy 2' '-accuracy little' '-accuracy 0.1 -accuracy_share 1' '-accuracy 0.1 -error_estimate 0'; do
   # shellcheck disable=SC2086
   "$contact" cantilever.yaml -quiet $wrong 2>&1 | grep -a '^contact: error' | head -n 1
 done

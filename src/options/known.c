@@ -6,7 +6,7 @@
 /* clang-format off */
 /* All that pc_amgf, tao_ipfilter, src and apps ask for; tests/options.py holds the list against their sources */
 const char *const OptionsOurs[] = {
-  "accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_feature_angle", "contact_free", "contact_gap", "contact_gap_tol", "contact_normal_cosine",
+  "accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of", "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_feature_angle", "contact_free", "contact_gap", "contact_gap_tol", "contact_normal_cosine",
   "contact_normals", "contact_overlap_drop", "contact_penalty", "contact_quadrature", "contact_row_drop", "contact_search_depth",
   "contact_search_distance", "contact_smooth", "contact_update_tol", "contact_updates", "contact_view", "displacement_bounds", "effects_view", "elasticity_mat_type",
   "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_monitor", "load_steps", "load_warm_start", "model", "output", "output_gauss", "pc_amgf_amg_lag",

@@ -74,6 +74,7 @@ PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscVie
 
   PetscFunctionBegin;
   if (acc->adaptive) PetscCall(AccuracyViewAdapted(acc, how, viewer));
+  else if (acc->order && !now->mesh && acc->mesh) PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, order %" PetscInt_FMT "\n", (double)acc->target, (double)now->error, how, (double)now->algebraic, acc->order));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)acc->target, (double)now->error, how, (double)now->algebraic, refine));
   PetscFunctionReturn(0);
 }

@@ -3,19 +3,21 @@
 #include <math.h>
 
 #define ACCURACY_RATE       4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
+#define ACCURACY_RAISED     16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
 #define ACCURACY_LEAST_RATE 1.25 /* of adaptive refinement, which may make a mesh of next to the same error */
 #define ACCURACY_UPDATES    20
 #define ACCURACY_UNSEEN     2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
 #define ACCURACY_MINOR      1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
 #define ACCURACY_MARGIN     0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
 
-/* What -accuracy_of names; each includes those before it */
+/* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
 typedef enum {
   ACCURACY_ENERGY,
   ACCURACY_FORCE,
-  ACCURACY_PRESSURE
+  ACCURACY_PRESSURE,
+  ACCURACY_DISPLACEMENT
 } AccuracyTarget;
-static const char *const AccuracyTargets[] = {"energy", "force", "pressure"};
+static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C
    AccuracySetFromOptions - How accurate a run is to be
@@ -30,9 +32,11 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure"};
 
    Options Database Keys:
 +  -accuracy <target>         - relative error wanted in energy and contact force
-.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's largest pressure too
+.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's largest pressure too;
+                                displacement: of energy and the displacements of the scene's probes
 .  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
 .  -accuracy_share <0.1>      - what of it the solver may leave
+.  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's but for that; default: as the scene has it
 -  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
 
    Level: beginner
@@ -43,18 +47,22 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
 {
   PetscReal max_dofs = 1e6;
   PetscInt  of       = ACCURACY_FORCE;
-  PetscBool set, estimate = PETSC_TRUE;
+  PetscBool set, ordered, estimate = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(acc, sizeof(*acc)));
+  acc->comm  = comm;
   acc->share = 0.1;
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
   PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
-  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets, ACCURACY_PRESSURE + 1, AccuracyTargets[of], &of, NULL));
+  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets, ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
   PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine cells where the error is", "AccuracyAssess", acc->adaptive, &acc->adaptive, NULL));
   PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
   PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
+  PetscCall(PetscOptionsInt("-accuracy_order", "Order of all bodies from the second mesh on", "AccuracyAssess", acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
+  PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT, "-accuracy_order must be 2, not %" PetscInt_FMT ": it raises the order of the first mesh", acc->order);
+  PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP, "-accuracy_order does not go with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
   PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
   PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
@@ -65,6 +73,25 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
   acc->tolerance        = ACCURACY_MARGIN * acc->share * acc->target;
   acc->update_tolerance = 0.25 * acc->share * acc->target;
+  PetscFunctionReturn(0);
+}
+
+/* Of order 1 before, and no element that is of order 1 alone; the probes that are to be accurate */
+static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
+{
+  PetscInt npoints = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; acc->order && acc->mesh == 0 && b < scene->nbodies; ++b) {
+    const SceneBody *body = &scene->bodies[b];
+
+    if (body->material.type == MATERIAL_RIGID) continue;
+    PetscCheck(body->order < 2, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2 raises the order of the first mesh, and body \"%s\" has order 2 there: leave one of them out", body->name);
+    PetscCheck(body->element != ELEMENT_INCOMPATIBLE, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has element incompatible, which is of order 1: take full or bbar", body->name);
+    PetscCheck(body->order || body->shape != SHAPE_GMSH, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has the order of its mesh file's cells: say order: 1, from which it is raised", body->name);
+  }
+  for (PetscInt i = 0; i < scene->nprobes; ++i) npoints += !scene->probes[i].line;
+  PetscCheck(acc->of != ACCURACY_DISPLACEMENT || npoints, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_of displacement is that of the scene's probes, and it has none at a point");
   PetscFunctionReturn(0);
 }
 
@@ -95,6 +122,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
 
   PetscFunctionBegin;
   if (acc->target == 0.0) PetscFunctionReturn(0);
+  PetscCall(AccuracyCheckScene(acc, scene));
   acc->contact = (PetscBool)(scene->npairs > 0);
   if (!acc->contact) tolerances->linear = acc->tolerance;
   else {
@@ -119,12 +147,32 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
   return size > 0.0 ? difference / size : 0.0;
 }
 
+/* Of each probe, by size */
+static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt nprobes)
+{
+  PetscReal change = 0.0;
+
+  for (PetscInt i = 0; i < nprobes; ++i) {
+    PetscReal difference = 0.0, size = 0.0;
+
+    for (PetscInt s = 0; s < nsteps; ++s) {
+      const PetscReal *u = &now->displaced[3 * (s * nprobes + i)], *v = &before->displaced[3 * (s * nprobes + i)];
+
+      difference = PetscMax(difference, PetscSqr(u[0] - v[0]) + PetscSqr(u[1] - v[1]) + PetscSqr(u[2] - v[2]));
+      size       = PetscMax(size, PetscSqr(u[0]) + PetscSqr(u[1]) + PetscSqr(u[2]));
+    }
+    change = PetscMax(change, size > 0.0 ? PetscSqrtReal(difference / size) : 0.0);
+  }
+  return change;
+}
+
 /* Of the energy, and of each pair's force by its size and by the sum of its rows', where they are asked for */
-static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
 {
   PetscReal change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0), largest = 0.0;
 
-  if (of == ACCURACY_ENERGY) return change;
+  if (of == ACCURACY_DISPLACEMENT) change = PetscMax(change, AccuracyDisplacementChange(now, before, nsteps, nprobes));
+  if (of == ACCURACY_ENERGY || of == ACCURACY_DISPLACEMENT) return change;
   for (PetscInt i = 0; i < 2 * npairs * nsteps; ++i) largest = PetscMax(largest, now->force[i]);
   for (PetscInt k = 0; k < 2 * npairs; ++k) change = PetscMax(change, AccuracyLargestChange(nsteps, 2 * npairs, now->force + k, before->force + k, k % 2 ? ACCURACY_MINOR * largest : largest));
   return change;
@@ -156,22 +204,27 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
    the recovered error stands; where they differ by more than recovery can tell, nothing of their difference is taken off.
    Pressures err with the stress, whose error is the root of that of the energy
 */
-static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
 {
   PetscReal ratio, pressure;
 
   now->error  = now->recovery;
   now->change = NAN;
   if (!before) return;
-  now->change = AccuracyChange(acc->of, now, before, nsteps, npairs);
+  now->change = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
   now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, acc->adaptive ? ACCURACY_LEAST_RATE : 2.0, ACCURACY_RATE);
+  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, acc->adaptive ? ACCURACY_LEAST_RATE : 2.0, now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
   now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
-  if (acc->of < ACCURACY_PRESSURE) return;
+  if (acc->of != ACCURACY_PRESSURE) return;
   pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
   now->change = PetscMax(now->change, pressure);
   now->error  = PetscMax(now->error, pressure / (PetscSqrtReal(ratio) - 1.0));
+}
+
+static void AccuracyRecordProbes(const StepReport *step, PetscReal displaced[])
+{
+  for (PetscInt i = 0; i < 3 * step->nprobes; ++i) displaced[i] = step->probes[i / 3].displacement[i % 3];
 }
 
 /* Of each pair in a load step */
@@ -192,14 +245,16 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
 {
   AccuracyLevel *level;
   PetscReal      largest = 0.0;
+  const PetscInt nprobes = report->nsteps ? report->steps[0].nprobes : 0;
 
   PetscFunctionBegin;
   PetscCall(PetscRealloc((acc->nlevels + 1) * sizeof(*acc->levels), &acc->levels));
   level = &acc->levels[acc->nlevels++];
   PetscCall(PetscMemzero(level, sizeof(*level)));
-  PetscCall(PetscMalloc3(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force, npairs * report->nsteps, &level->pressure));
+  PetscCall(PetscMalloc4(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force, npairs * report->nsteps, &level->pressure, 3 * nprobes * report->nsteps, &level->displaced));
   level->refine = report->refine;
   level->mesh   = acc->mesh;
+  level->raised = (PetscBool)(acc->order && acc->mesh == 1);
   level->dofs   = report->dofs;
   level->time   = report->time.total;
   for (PetscInt s = 0; s < report->nsteps; ++s) {
@@ -207,8 +262,9 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
 
     level->energy[s] = step->energy;
     level->amg_applications += step->amg_applications;
-    largest          = PetscMax(largest, step->energy);
+    largest = PetscMax(largest, step->energy);
     PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));
+    AccuracyRecordProbes(step, level->displaced + 3 * nprobes * s);
   }
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step   = &report->steps[s];
@@ -217,7 +273,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
     level->recovery  = PetscMax(level->recovery, weight * PetscSqr(step->error_estimate));
     level->algebraic = PetscMax(level->algebraic, weight * step->algebraic_error);
   }
-  AccuracyAssessMesh(acc, level, AccuracyCoarser(acc), report->nsteps, npairs);
+  AccuracyAssessMesh(acc, level, AccuracyCoarser(acc), report->nsteps, npairs, nprobes);
   PetscFunctionReturn(0);
 }
 
@@ -266,6 +322,16 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   PetscFunctionReturn(0);
 }
 
+/* Of all bodies that have one */
+static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (scene->bodies[b].material.type != MATERIAL_RIGID) scene->bodies[b].order = order;
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@C
    AccuracyAssess - Was the run accurate enough, and what is to be done if not?
 
@@ -297,6 +363,9 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
    Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names; what is extrapolated follows the
    rate that recovery shows, of 1.25 at least.
 
+   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and the error is extrapolated with a factor of 16
+   at most; later ones are refined.
+
    Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
    repeated with it.
 
@@ -304,7 +373,8 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
 @*/
 PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene, PetscBool *again)
 {
-  PetscBool refine, tighten;
+  const PetscBool raise = (PetscBool)(acc->order && acc->mesh == 0);
+  PetscBool       refine, tighten;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
@@ -314,7 +384,8 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
   PetscCall(AccuracyDecideOnMesh(acc, &refine));
   PetscCall(AccuracyDecideOnTolerance(acc, &tighten));
   if (refine) ++acc->mesh;
-  if (refine && !acc->adaptive) ++scene->refine;
+  if (refine && raise) PetscCall(AccuracyRaiseOrder(acc->order, scene));
+  else if (refine && !acc->adaptive) ++scene->refine;
   *again = (PetscBool)(refine || tighten);
   PetscFunctionReturn(0);
 }
@@ -329,7 +400,7 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 PetscErrorCode AccuracyDestroy(Accuracy *acc)
 {
   PetscFunctionBegin;
-  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree3(acc->levels[l].energy, acc->levels[l].force, acc->levels[l].pressure));
+  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree4(acc->levels[l].energy, acc->levels[l].force, acc->levels[l].pressure, acc->levels[l].displaced));
   PetscCall(PetscFree(acc->levels));
   acc->nlevels = 0;
   PetscFunctionReturn(0);
