@@ -17,7 +17,7 @@
      measure  stiffness, scale, terms, worth, kkt
      system   rows, operator, assemble, subspace, condense
      linear   residual, guard, krylov, direct, linsolve, augmented, proximal, equality
-     space    basis, compliance, activeset, termset, reduced, kept, filteredspace, filteredsubspace
+     space    basis, compliance, activeset, termsystem, termfactor, termdense, termsolve, termlaws, termpath, termset, reduced, kept, filteredspace, filteredsubspace
      step     filter, merit, barrier, regularize, direction, linesearch, newtonsubspace, penalty, freestep, warm, start, relax, restore
      driver   reason, degenerate, convergence, monitor, setup, solve
      type     opts, view, api, ipfilter
@@ -415,7 +415,7 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
   return c->C + (size_t)c->column[row] * (size_t)c->m;
 }
 
-/* The contact problem with w eliminated, as activeset.c and termset.c state it: constraints, and below them two rows a norm term */
+/* The contact problem with w eliminated, as activeset.c and termlaws.c state it: constraints, and below them two rows a norm term */
 typedef struct {
   PetscInt         m, k, kmax;       /* rows; directions, and room for them */
   PetscReal       *JZ, *T, *h, *t;   /* columns of length m and kmax */
@@ -448,9 +448,10 @@ typedef struct {
   PetscReal    *f, *v;       /* scratch, of rows */
   Vec           r, z, w, Kw; /* of rows and of W */
   PetscBool     stale;       /* the factors no longer serve */
+  PetscReal    *C;           /* C, where GMRES has given up: termdense.c; NULL: it has not */
 } IPTermSystem;
 
-/* What is closed and slips of constraints and norm terms: termset.c */
+/* What is closed and slips of constraints and norm terms: termlaws.c */
 typedef struct {
   PetscInt     m, n;                /* constraints and terms */
   PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
@@ -825,11 +826,38 @@ PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[], const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
 PETSC_INTERN PetscErrorCode IPTermSystemAssemble(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *, const PetscReal f[], PetscReal v[]);
-PETSC_INTERN PetscErrorCode IPTermSystemSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+
+/* termfactor.c */
+PETSC_INTERN PetscErrorCode IPTermFactorPrepare(IPTermSystem *, const IPReducedSystem *, PetscBool *ready);
+PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[], PetscReal z[]);
+
+/* termdense.c */
+PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);
+PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+
+/* termsolve.c */
+PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+
+/* termlaws.c */
+PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *);
+PETSC_INTERN PetscErrorCode IPTermLawsDestroy(IPTermSet *);
+PETSC_INTERN PetscInt       IPTermLawsRow(const IPTermSet *, PetscInt term);
+PETSC_INTERN PetscReal      IPTermLawsBound(const IPTermSet *, const IPReducedSystem *, PetscInt term);
+PETSC_INTERN PetscErrorCode IPTermLawsMove(IPTermSet *, const IPReducedSystem *);
+PETSC_INTERN void           IPTermLawsRelieve(const IPTermSet *, const IPReducedSystem *);
+PETSC_INTERN PetscReal      IPTermLawsGiveWay(const IPTermSet *, PetscInt row);
+PETSC_INTERN void           IPTermLawsResist(IPTermSet *);
+PETSC_INTERN void           IPTermLawsMotion(const IPTermSet *, const IPReducedSystem *, PetscInt term, PetscReal v[2]);
+PETSC_INTERN PetscReal      IPTermLawsTrial(const IPTermSet *, const IPReducedSystem *, PetscInt term, PetscReal b[2]);
+PETSC_INTERN PetscInt       IPTermLawsOfRow(const IPTermSet *, PetscInt row, PetscInt *component);
+PETSC_INTERN PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *, const IPReducedSystem *);
+PETSC_INTERN PetscReal      IPTermLawsMerit(const IPTermSet *, const IPReducedSystem *);
+PETSC_INTERN PetscErrorCode IPTermLawsRenew(IPTermSet *, const IPReducedSystem *);
+
+/* termpath.c */
+PETSC_INTERN PetscErrorCode IPTermPathFollow(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *followed);
 
 /* termset.c */
-PETSC_INTERN PetscErrorCode IPTermSetCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *);
-PETSC_INTERN PetscErrorCode IPTermSetDestroy(IPTermSet *);
 PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
 
 /* reduced.c */

@@ -182,7 +182,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(VecDestroy(&r->on_rows));
   PetscCall(VecScatterDestroy(&r->to_terms));
   PetscCall(VecDestroy(&r->on_terms));
-  PetscCall(IPTermSetDestroy(&r->terms));
+  PetscCall(IPTermLawsDestroy(&r->terms));
   PetscCall(IPComplianceDestroy(&r->compliance));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(ReducedFreeSystem(&r->system));
@@ -258,7 +258,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, 
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedCreateSystem(r, basis));
   if (r->first) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
-  if (r->nterms) PetscCall(IPTermSetCreate(r->m, r->nterms, basis->max, KWW, JW, &r->terms));
+  if (r->nterms) PetscCall(IPTermLawsCreate(r->m, r->nterms, basis->max, KWW, JW, &r->terms));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscCall(ReducedTell(r, definite));

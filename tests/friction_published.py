@@ -5,6 +5,8 @@ python3 friction_published.py scenes writes them; python3 friction_published.py 
 GRECO: a plate pressed onto a rigid ground and pushed from the side, tangential displacements of five points of its base (M. Raous, P. Chabrand, F. Lebon, Numerical methods for
 frictional contact problems and applications, J. Theor. Appl. Mech. 7, 1988, and the benchmarks that took it up; codes scatter by 5 %).
 Torque: a shaft shrunk into a hub and turned, both held by their other faces: Lame's pressure for plane strain, and friction x pressure x 2 pi r^2 L.
+Capstan: a belt laid around a quarter and a half of a rigid pulley, tightened by both ends, then the pulley turns; tensions T2 / T1 = exp(friction x angle), of a belt of a thickness by the radius
+that friction acts at over that of the tension. Another belt is pulled over a pulley by one end, against a dead load at the other.
 Lift: a block that is pushed until half of its base lifts off, on a base that sticks, or has a coefficient so large that it does.
 """
 import json
@@ -14,6 +16,7 @@ import sys
 PUBLISHED = {0: 28.6, 1.25: 27.2, 5: 22.8, 7.5: 19.8, 11.25: 15.0}  # place along the base [mm]: displacement [1e-3 mm]
 YOUNG, POISSON, INTERFERENCE, FRICTION, LENGTH = 200000, 0.3, 0.02, 0.12, 2
 BORE, FIT, RIM = 15.0, 25.0, 40.0
+PULLEY = 50
 
 
 def greco(cells):
@@ -62,6 +65,45 @@ ramps:
 """
 
 
+def pulley(angle):
+    return f"  - pulley: {{shape: tube_arc, axis: z, radii: [40, {PULLEY}], angles: [-20, {angle + 20}], extent: [-0.5, 1.5], cells: [1, {(angle + 40) // 5}, 1], material: rigid}}\n"
+
+
+def belt(angle, cells, thickness, layers):
+    return f"  - belt: {{shape: tube_arc, axis: z, radii: [{PULLEY}, {PULLEY + thickness}], angles: [0, {angle}], extent: [0, 1], cells: [{layers}, {cells}, 1], young: 1000, poisson: 0, element: incompatible}}\n"
+
+
+def capstan(angle, cells, thickness):
+    tight = "[-0.1, free, free]" if angle == 90 else "[free, -0.1, free]"
+    return f"""problem: capstan
+bodies:
+{pulley(angle)}{belt(angle, cells, thickness, 1)}displacements:
+  - turn: {{body: pulley, value: [0, 0, 0], rotation: [0, 0, 0.5], center: [0, 0, 0], ramp: turn}}
+  - slack: {{face: belt.amin, value: [free, -0.1, free], ramp: pull}}
+  - tight: {{face: belt.amax, value: {tight}, ramp: pull}}
+symmetry: [belt.lmin, belt.lmax]
+contact:
+  - wrap: {{mortar: pulley.outer, nonmortar: belt.inner, friction: 0.3}}
+load: {{steps: 2}}
+ramps:
+  - pull: {{factors: [1, 1]}}
+  - turn: {{factors: [0, 1]}}
+"""
+
+
+PULLED = f"""problem: pulled
+bodies:
+{pulley(180)}{belt(180, 48, 1, 2)}displacements:
+  - fix: {{body: pulley, value: [0, 0, 0]}}
+  - pull: {{face: belt.amax, value: [0, -0.5, free]}}
+tractions:
+  - weight: {{face: belt.amin, value: [0, -1, 0]}}
+symmetry: [belt.lmin, belt.lmax]
+contact:
+  - wrap: {{mortar: pulley.outer, nonmortar: belt.inner, friction: 0.3}}
+"""
+
+
 def lift(law):
     return f"""problem: lift
 bodies:
@@ -86,6 +128,11 @@ SCENES = {
     "greco_64": greco(64),
     "torque_42": torque(28, 21),
     "torque_84": torque(56, 42),
+    "capstan_90_24": capstan(90, 24, 0.5),
+    "capstan_90_48": capstan(90, 48, 0.5),
+    "capstan_180_48": capstan(180, 48, 0.8),
+    "capstan_180_96": capstan(180, 96, 0.8),
+    "pulled": PULLED,
     "lift_rough": lift("stick: true"),
     "lift_100": lift("friction: 100"),
 }
@@ -124,9 +171,20 @@ def judge_torque():
         verdict(f"{name}, torque off its closed form", abs(torque / (FRICTION * pressure * 2 * math.pi * FIT**2 * LENGTH) - 1), limit)
 
 
+def judge_capstan():
+    for name, angle, thickness, published in ("capstan_90_24", 90, 0.5, 1.602), ("capstan_90_48", 90, 0.5, 1.602), ("capstan_180_48", 180, 0.8, 2.566), ("capstan_180_96", 180, 0.8, 2.566):
+        tension = {face["name"]: math.hypot(*face["reaction"][:2]) for face in load(name)["steps"][-1]["faces"]}
+        ratio = tension["belt.amin"] / tension["belt.amax"]
+        verdict(f"{name}, tensions off those of a thin belt", abs(ratio / published - 1), 0.01)
+        verdict(f"{name}, off those of one of its thickness", abs(math.log(ratio) / (0.3 * math.radians(angle) * PULLEY / (PULLEY + thickness / 2)) - 1), 2e-3)
+    run = load("pulled")
+    print("pulled:", "converged" if run["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in run["steps"]))
+
+
 def judge_ranks():
-    one, three = (load(name)["steps"][-1]["pairs"] for name in ("torque_42", "torque_42_3"))
-    verdict("torque_42, 3 ranks against 1", max(abs(a["shear_force"] / b["shear_force"] - 1) for a, b in zip(one, three)), 1e-6)
+    for name in "torque_42", "capstan_90_24":
+        one, three = (load(name + ranks)["steps"][-1]["pairs"] for ranks in ("", "_3"))
+        verdict(f"{name}, 3 ranks against 1", max(abs(a["shear_force"] / b["shear_force"] - 1) for a, b in zip(one, three)), 1e-6)
 
 
 def judge_lift():
@@ -146,5 +204,6 @@ if len(sys.argv) > 1 and sys.argv[1] == "scenes":
 else:
     judge_greco()
     judge_torque()
+    judge_capstan()
     judge_ranks()
     judge_lift()

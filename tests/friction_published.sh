@@ -6,6 +6,6 @@ run() {
   shift 2
   timeout 300 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json"
 }
-for scene in greco_32 greco_64 torque_42 torque_84 lift_rough lift_100; do run $scene $scene; done
-run torque_42_3 torque_42 mpiexec --oversubscribe -n 3
+for scene in greco_32 greco_64 torque_42 torque_84 capstan_90_24 capstan_90_48 capstan_180_48 capstan_180_96 pulled lift_rough lift_100; do run $scene $scene; done
+for scene in torque_42 capstan_90_24; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
 "$PYTHON" "$AMGF_DIR/tests/friction_published.py"
