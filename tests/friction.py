@@ -91,6 +91,11 @@ contact:
 load: {steps: 3}
 """
 
+def proportional(steps):
+    """Pressure and push grow together: any number of steps goes the same way"""
+    return slide(120, "friction: 0.3", [(k + 1) / steps for k in range(steps)]).replace(f"{{factors: {[1] * steps}}}", f"{{steps: {steps}}}")
+
+
 DRIVEN = "  - carry: {face: block.zmax, value: [0.02, 0, free], ramp: across}\n"
 CYCLE = slide(0, "friction: 0.3", (0, 0.5, 1, 0.5, 0, -0.5, -1, 0, 1), DRIVEN)
 
@@ -105,6 +110,7 @@ SCENES = {
     "finite": slide(0, "friction: 0.3", driven=DRIVEN, material=", material: neohookean"),
     "cycle": CYCLE,
     "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
+    **{f"proportional_{n}": proportional(n) for n in (1, 2, 5, 20)},
     "cattaneo": CYLINDERS,
     "shaft": SHAFT,
     "inclined": SHAFT.replace("[0, 90]", "[13, 103]"),
@@ -162,6 +168,7 @@ def judge():
         one, three = load(name + "_1rank") or load(name), load(name + "_3")
         worst = max(abs(a["pairs"][0]["force"][k] - b["pairs"][0]["force"][k]) for a, b in zip(one["steps"], three["steps"]) for k in range(3))
         verdict(f"{name}, 3 ranks against 1", worst / one["steps"][-1]["pairs"][0]["normal_force"], 1e-6)
+    judge_proportional()
     whole, parts = load("cycle"), load("cycle_restarted")
     a, b = whole["steps"][-1], parts["steps"][-1]
     verdict("restarted, force", abs(a["pairs"][0]["force"][0] / b["pairs"][0]["force"][0] - 1), 1e-6)
@@ -171,6 +178,16 @@ def judge():
     pressed = [load(name)["steps"][0]["pairs"][0]["shear_force"] for name in ("shaft", "inclined")]
     verdict("shaft between inclined planes, friction of the press fit", abs(pressed[1] / pressed[0] - 1), 0.01)
     cattaneo()
+
+
+def judge_proportional():
+    """All of a step's work is of loads here; tilting normals leave a hundredth of a per cent"""
+    ends = {n: load(f"proportional_{n}")["steps"][-1] for n in (1, 2, 5, 20)}
+    for n, step in ends.items():
+        pair, fine = step["pairs"][0], ends[20]["pairs"][0]
+        verdict(f"proportional path in {n} steps, friction and stick area", max(abs(pair[key] / fine[key] - 1) for key in ("shear_force", "stick_area", "slip_area")), 1e-5)
+        verdict(f"proportional path in {n} steps, dissipation", abs(pair["dissipated"] / fine["dissipated"] - 1), 5e-3)
+        verdict(f"proportional path in {n} steps, energy balance", abs(step["energy"] + step["dissipated"] - step["work"]) / step["work"], 1e-4)
 
 
 def cattaneo():
