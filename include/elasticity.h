@@ -39,7 +39,7 @@ PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
 /* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */
 PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);
-PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], Vec force);
+PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], const PetscReal point[3], Vec force);
 /* Stiffness of springs to the ground, one a row, in energy, force and tangent; NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness);
 /* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient; fitted to a function of the

@@ -113,6 +113,7 @@ typedef struct {
   PetscBool         moves;       /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
   PetscReal         rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
   PetscReal         center[3];   /* which moves by value [length] */
+  PetscBool         released[6]; /* of a rigid body: its motions along, and about, the axes through the center that are free, for forces to drive */
   PetscBool         inclined;    /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
   PetscReal         normal[3];   /* of any length */
   DisplacementPlace at;
@@ -132,10 +133,12 @@ typedef struct {
 /* Dead load on a face, uniform; or with a resultant, and then linear where there is a moment */
 typedef struct {
   char     *name;
-  char     *face;
+  char     *face;      /* of a resultant also all of a rigid body, "<body>" SCENE_WHOLE_BODY */
   PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
   PetscReal value[3];
-  PetscReal moment[3]; /* of a resultant, about the face's centroid, at factor 1 [force length] */
+  PetscReal moment[3]; /* of a resultant, about the point where it acts, at factor 1 [force length] */
+  PetscBool placed;    /* it acts at a point that is given, else at the face's centroid */
+  PetscReal point[3];  /* [length] */
   PetscInt  ramp;
 } SceneTraction;
 

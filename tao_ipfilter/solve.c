@@ -118,11 +118,13 @@ static PetscErrorCode ResetSolve(Tao tao)
 }
 
 /* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than the tolerance and its
-   KKT error is no larger; of two that differ in no digit the later one is better */
+   KKT error is no larger, which is all that counts where one of them is acceptable; of two that differ in no digit the later one is better */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
+  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
   const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol), same = 1.01;
 
+  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol) return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
 }
 

@@ -197,7 +197,8 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
 + elasticity - the context
 . face       - name of the face, "<body>.<face>"
 . resultant  - the force [force]
-- moment     - the moment about the face's centroid [force length]
+. moment     - the moment about the point where the force acts [force length]
+- point      - that point; `NULL`: the face's centroid [length]
 
   Output Parameter:
 . force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
@@ -209,10 +210,10 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityAddPressure()`
 @*/
-PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3], const PetscReal moment[3], Vec force)
+PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3], const PetscReal moment[3], const PetscReal point[3], Vec force)
 {
   FaceTraction t = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  PetscReal    sums[10];
+  PetscReal    sums[10], arm[3] = {0, 0, 0}, about[3];
   PetscBool    solved;
 
   PetscFunctionBegin;
@@ -220,7 +221,9 @@ PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscRe
   for (int d = 0; d < 3; ++d) t.center[d] = sums[1 + d] / sums[0];
   PetscCall(FaceMeasure(e, face, t.center, sums));
   for (int d = 0; d < 3; ++d) t.a[d] = resultant[d] / sums[0];
-  solved = FaceSolveMoment(sums + 4, moment, t.b);
+  for (int d = 0; point && d < 3; ++d) arm[d] = point[d] - t.center[d];
+  for (int d = 0; d < 3; ++d) about[d] = moment[d] + arm[(d + 1) % 3] * resultant[(d + 2) % 3] - arm[(d + 2) % 3] * resultant[(d + 1) % 3];
+  solved = FaceSolveMoment(sums + 4, about, t.b);
   PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG, "The face \"%s\" is too slender to carry a moment", face);
   PetscCall(FaceAddField(e, face, FaceTwisted, &t, force));
   PetscFunctionReturn(0);

@@ -120,6 +120,25 @@ static PetscErrorCode SupportAddSpot(Support *support, const SceneDisplacement *
   PetscFunctionReturn(0);
 }
 
+/* The motions of a rigid body that are not free, where others are; on the first rank */
+static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b, PetscBool *released)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PetscMPIInt            rank;
+
+  PetscFunctionBegin;
+  *released = PETSC_FALSE;
+  for (PetscInt m = 0; m < 6; ++m) *released = (PetscBool)(*released || displacement->released[m]);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
+    if (displacement->released[m]) continue;
+    if (m < 3) SupportAddMotion(support, b, axes[m], displacement->center, 1);
+    else support->row[6 * b + m] = 1;
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -127,6 +146,7 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   const PetscInt        *f;
   PetscInt               n, b, total;
   PetscReal              normal[3], length = 0;
+  PetscBool              released;
 
   PetscFunctionBegin;
   if (displacement->at != DISPLACEMENT_FACE) {
@@ -136,9 +156,10 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   for (PetscInt d = 0; d < 3; ++d) length += PetscSqr(displacement->normal[d]);
   for (PetscInt d = 0; d < 3; ++d) normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
+  PetscCall(SupportAddRigid(support, displacement, b, &released));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt i = 0; !released && i < n; ++i) {
     PetscInt  vertices[4];
     PetscReal x[4][3];
 

@@ -171,7 +171,10 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  displacement %s: %s", here->name, here->face));
     for (PetscInt i = 0; i < 3; ++i) {
-      if (here->fixed[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
+      if (here->fixed[i] || (SceneIsWholeBody(here->face) && !here->released[i])) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
+    }
+    for (PetscInt i = 0; i < 6; ++i) {
+      if (here->released[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", free %s %c", i < 3 ? "along" : "about", "xyz"[i % 3]));
     }
     if (here->inclined) PetscCall(PetscViewerASCIIPrintf(viewer, ", no displacement along (%.6g, %.6g, %.6g)", (double)here->normal[0], (double)here->normal[1], (double)here->normal[2]));
     if (SceneRotates(here)) PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)", (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0], (double)here->center[1], (double)here->center[2]));
@@ -186,6 +189,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
     const SceneTraction *here = &scene->tractions[t];
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s %s: %s, (%.6g, %.6g, %.6g)", here->resultant ? "force" : "traction", here->name, here->face, (double)here->value[0], (double)here->value[1], (double)here->value[2]));
+    if (here->placed) PetscCall(PetscViewerASCIIPrintf(viewer, ", at (%.6g, %.6g, %.6g)", (double)here->point[0], (double)here->point[1], (double)here->point[2]));
     if (here->resultant) PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0], (double)here->moment[1], (double)here->moment[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }

@@ -8,6 +8,12 @@ PetscBool SceneRotates(const SceneDisplacement *d)
   return (PetscBool)(d->rotation[0] != 0 || d->rotation[1] != 0 || d->rotation[2] != 0);
 }
 
+/* Whether any rotation of a rigid body is free */
+PetscBool SceneTurnsFreely(const SceneDisplacement *d)
+{
+  return (PetscBool)(d->released[3] || d->released[4] || d->released[5]);
+}
+
 PetscBool SceneIsWholeBody(const char face[])
 {
   const size_t length = strlen(face), end = strlen(SCENE_WHOLE_BODY);
@@ -44,32 +50,85 @@ PetscErrorCode SceneReadTarget(SceneKeys keys, Scene scene, SceneDisplacement *d
   PetscFunctionReturn(0);
 }
 
+/* Three angles, each a number or the word free */
+static PetscErrorCode SceneReadAngles(SceneKeys keys, const char key[], const char text[], SceneDisplacement *d)
+{
+  char   **words;
+  PetscInt n = 3;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseList(keys, key, text, &n, &words));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(PetscStrcasecmp(words[i], "free", &d->released[3 + i]));
+    if (!d->released[3 + i]) PetscCall(SceneParseReal(keys, key, words[i], &d->rotation[i]));
+  }
+  if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+/* Which motions of a rigid body are free. A component is prescribed of all of its nodes where neither it nor a rotation that changes it is free */
+static PetscErrorCode SceneRelease(SceneKeys keys, SceneDisplacement *d)
+{
+  PetscFunctionBegin;
+  if (SceneTurnsFreely(d) && SceneRotates(d)) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; where one rotation is free the others are 0", d->name));
+  for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
+  for (PetscInt i = 0; i < 3; ++i) d->fixed[i] = (PetscBool) !(d->released[i] || d->released[3 + (i + 1) % 3] || d->released[3 + (i + 2) % 3]);
+  PetscFunctionReturn(0);
+}
+
 /* rotation, and the center that it is about */
 PetscErrorCode SceneReadRotation(SceneKeys keys, SceneDisplacement *d)
 {
-  const char *rotation, *center;
-  char        key[SCENE_KEY_LENGTH];
+  const PetscBool whole = SceneIsWholeBody(d->face);
+  const char     *rotation, *center;
+  char            key[SCENE_KEY_LENGTH];
+  PetscBool       turns;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "displacements_%s_rotation", d->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &rotation, "%s", key));
-  if (rotation) PetscCall(SceneParseReals(keys, key, rotation, 3, d->rotation));
+  if (rotation) PetscCall(SceneReadAngles(keys, key, rotation, d));
   PetscCall(PetscSNPrintf(key, sizeof(key), "displacements_%s_center", d->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &center, "%s", key));
   if (center) PetscCall(SceneParseReals(keys, key, center, 3, d->center));
-  if (SceneRotates(d)) d->moves = PETSC_TRUE;
-  if (SceneRotates(d) && !center) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
-  if (center && !SceneRotates(d)) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
-  if (d->moves && !(d->fixed[0] && d->fixed[1] && d->fixed[2])) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
+  turns = (PetscBool)(SceneRotates(d) || SceneTurnsFreely(d));
+  if (turns) d->moves = PETSC_TRUE;
+  if (turns && !center) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
+  if (center && !turns) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
+  if (!whole && SceneTurnsFreely(d)) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation that is free, which a rigid body can have, as {body: <body>, ...}, and a face can not", d->name));
+  else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2])) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
+  if (whole) PetscCall(SceneRelease(keys, d));
+  PetscFunctionReturn(0);
+}
+
+/* A face, or all of a rigid body */
+PetscErrorCode SceneViewTarget(PetscViewer viewer, const char face[])
+{
+  PetscFunctionBegin;
+  if (SceneIsWholeBody(face)) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %.*s", (int)(strlen(face) - strlen(SCENE_WHOLE_BODY)), face));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "face: %s", face));
+  PetscFunctionReturn(0);
+}
+
+/* [numbers], or free */
+PetscErrorCode SceneViewComponents(PetscViewer viewer, const PetscReal value[3], const PetscBool free[3])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3; ++i) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, i ? ", " : "["));
+    if (free[i]) PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
+    else PetscCall(SceneViewReal(viewer, value[i]));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode SceneViewMotion(PetscViewer viewer, const SceneDisplacement *d)
 {
   PetscFunctionBegin;
-  if (!SceneRotates(d)) PetscFunctionReturn(0);
+  if (!SceneRotates(d) && !SceneTurnsFreely(d)) PetscFunctionReturn(0);
   PetscCall(PetscViewerASCIIPrintf(viewer, ", rotation: "));
-  PetscCall(SceneViewList(viewer, 3, d->rotation));
+  PetscCall(SceneViewComponents(viewer, d->rotation, d->released + 3));
   PetscCall(PetscViewerASCIIPrintf(viewer, ", center: "));
   PetscCall(SceneViewList(viewer, 3, d->center));
   PetscFunctionReturn(0);
@@ -80,6 +139,8 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
 {
   PetscFunctionBegin;
   PetscCheck(a->moves && b->moves, comm, PETSC_ERR_USER_INPUT, "%s: displacement \"%s\" is a rigid motion of %s, and \"%s\" displaces the same face", file, a->moves ? a->name : b->name, a->face, a->moves ? b->name : a->name);
+  for (PetscInt i = 0; i < 6; ++i) PetscCheck(a->released[i] == b->released[i], comm, PETSC_ERR_USER_INPUT, "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, and the first one %s it %s %c where the other one does not", file, a->name, b->name, a->released[i] ? "frees" : "holds", i < 3 ? "along" : "about", "xyz"[i % 3]);
+  for (PetscInt i = 0; i < 3; ++i) PetscCheck(!SceneTurnsFreely(a) || a->center[i] == b->center[i], comm, PETSC_ERR_USER_INPUT, "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers", file, a->name, b->name);
   for (PetscInt i = 0; i < 3; ++i) PetscCheck(!SceneRotates(a) || !SceneRotates(b) || a->center[i] == b->center[i], comm, PETSC_ERR_USER_INPUT, "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers", file, a->name, b->name);
   PetscFunctionReturn(0);
 }

@@ -104,9 +104,12 @@ PETSC_INTERN PetscErrorCode SceneViewSpot(Scene, PetscViewer, const SceneDisplac
 
 /* motions.c: rigid motions of faces and of rigid bodies */
 PETSC_INTERN PetscBool      SceneRotates(const SceneDisplacement *);
+PETSC_INTERN PetscBool      SceneTurnsFreely(const SceneDisplacement *);
 PETSC_INTERN PetscBool      SceneIsWholeBody(const char face[]);
 PETSC_INTERN PetscErrorCode SceneReadTarget(SceneKeys, Scene, SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneReadRotation(SceneKeys, SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneViewTarget(PetscViewer, const char face[]);
+PETSC_INTERN PetscErrorCode SceneViewComponents(PetscViewer, const PetscReal value[3], const PetscBool free[3]);
 PETSC_INTERN PetscErrorCode SceneViewMotion(PetscViewer, const SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *, const SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);

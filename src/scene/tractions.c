@@ -2,27 +2,61 @@
 #include "sceneimpl.h"
 #include <petscviewer.h>
 
-/* Three numbers of <list>_<name>_<what>, and the face */
-static PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+/* Three numbers of <list>_<name>_<what>; given, or NULL where they are required: whether they are there */
+static PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
 
   PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s_%s", list, name, what));
+  PetscCall(SceneKeysGet(keys, (PetscBool)!given, &text, "%s", key));
+  if (text) PetscCall(SceneParseReals(keys, key, text, 3, value));
+  if (given) *given = (PetscBool)(text != NULL);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+{
+  const char *text;
+
+  PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_%s_face", list, name));
   PetscCall(PetscStrallocpy(text ? text : "", face));
-  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s_value", list, name));
-  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-  if (text) PetscCall(SceneParseReals(keys, key, text, 3, value));
+  PetscCall(SceneReadTriple(keys, list, name, "value", value, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* A force: on a face or on a rigid body, with its moment and where it acts */
+static PetscErrorCode SceneReadForce(SceneKeys keys, Scene scene, SceneTraction *force)
+{
+  const char *text, *face;
+  char        whole[SCENE_KEY_LENGTH];
+  PetscInt    body;
+  PetscBool   given;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "forces_%s_body", force->name));
+  PetscCall(SceneReadBodyName(keys, scene, "forces", force->name, &body));
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "moment", force->moment, &given));
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "point", force->point, &force->placed));
+  if (!text) {
+    PetscCall(SceneReadOnFace(keys, "forces", force->name, &force->face, force->value));
+    PetscFunctionReturn(0);
+  }
+  if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "forces_%s_body is \"%s\", which is not rigid: on an elastic body forces act on faces", force->name, text));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &face, "forces_%s_face", force->name));
+  if (face) PetscCall(SceneKeysComplain(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
+  PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, text));
+  PetscCall(PetscStrallocpy(whole, &force->face));
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "value", force->value, NULL));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode SceneReadTractionList(SceneKeys keys, Scene scene, const char list[], PetscBool resultant)
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  char      **names;
-  PetscInt    n;
+  char   **names;
+  PetscInt n;
 
   PetscFunctionBegin;
   PetscCall(SceneGetNames(keys, list, PETSC_FALSE, &n, &names));
@@ -31,12 +65,9 @@ static PetscErrorCode SceneReadTractionList(SceneKeys keys, Scene scene, const c
     SceneTraction *traction = &scene->tractions[scene->ntractions++];
 
     *traction = (SceneTraction){.name = names[t], .resultant = resultant};
-    PetscCall(SceneReadOnFace(keys, list, names[t], &traction->face, traction->value));
+    if (resultant) PetscCall(SceneReadForce(keys, scene, traction));
+    else PetscCall(SceneReadOnFace(keys, list, names[t], &traction->face, traction->value));
     PetscCall(SceneReadRampName(keys, scene, list, names[t], &traction->ramp));
-    if (!resultant) continue;
-    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s_moment", list, names[t]));
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-    if (text) PetscCall(SceneParseReals(keys, key, text, 3, traction->moment));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
@@ -101,8 +132,14 @@ static PetscErrorCode SceneViewTractionList(Scene scene, PetscViewer viewer, Pet
     if (traction->resultant != resultant) continue;
     if (first) PetscCall(PetscViewerASCIIPrintf(viewer, "%s:\n", resultant ? "forces" : "tractions"));
     first = PETSC_FALSE;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  - %s: {face: %s, value: ", traction->name, traction->face));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  - %s: {", traction->name));
+    PetscCall(SceneViewTarget(viewer, traction->face));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", value: "));
     PetscCall(SceneViewList(viewer, 3, traction->value));
+    if (traction->placed) {
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", point: "));
+      PetscCall(SceneViewList(viewer, 3, traction->point));
+    }
     if (traction->moment[0] != 0 || traction->moment[1] != 0 || traction->moment[2] != 0) {
       PetscCall(PetscViewerASCIIPrintf(viewer, ", moment: "));
       PetscCall(SceneViewList(viewer, 3, traction->moment));

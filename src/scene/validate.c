@@ -33,7 +33,7 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
     const SceneDisplacement *here = &scene->displacements[d];
 
     if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE) PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
-    SceneRequire(here->inclined || here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
+    SceneRequire(here->inclined || SceneIsWholeBody(here->face) || here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 
@@ -50,7 +50,9 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SceneValidateFace(comm, file, scene, "pressure", scene->pressures[p].name, scene->pressures[p].face));
-  for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    if (!SceneIsWholeBody(scene->tractions[t].face)) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
+  }
   for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SceneValidateFace(comm, file, scene, "spring", scene->springs[s].name, scene->springs[s].face));
   PetscFunctionReturn(0);
 }

@@ -33,20 +33,16 @@ static PetscErrorCode SceneViewRampName(Scene scene, PetscViewer viewer, PetscIn
 static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, PetscInt d)
 {
   const SceneDisplacement *displacement = &scene->displacements[d];
+  PetscBool                free[3];
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", displacement->name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (displacement->at != DISPLACEMENT_FACE) PetscCall(SceneViewSpot(scene, viewer, displacement));
-  else if (SceneIsWholeBody(displacement->face)) PetscCall(PetscViewerASCIIPrintf(viewer, "body: %.*s", (int)(strlen(displacement->face) - strlen(SCENE_WHOLE_BODY)), displacement->face));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "face: %s", displacement->face));
-  PetscCall(PetscViewerASCIIPrintf(viewer, ", value: ["));
-  for (PetscInt i = 0; i < 3; ++i) {
-    if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
-    if (displacement->fixed[i]) PetscCall(SceneViewReal(viewer, displacement->value[i]));
-    else PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
-  }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  else PetscCall(SceneViewTarget(viewer, displacement->face));
+  for (PetscInt i = 0; i < 3; ++i) free[i] = SceneIsWholeBody(displacement->face) ? displacement->released[i] : (PetscBool)!displacement->fixed[i];
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", value: "));
+  PetscCall(SceneViewComponents(viewer, displacement->value, free));
   PetscCall(SceneViewMotion(viewer, displacement));
   PetscCall(SceneViewRampName(scene, viewer, displacement->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));

@@ -27,13 +27,15 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
+  if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
   *f = EnergyIsFinite(*f) ? *f - PetscRealPart(work) : INFINITY;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
 {
-  StepProblem *p = (StepProblem *)ctx;
+  StepProblem *p      = (StepProblem *)ctx;
+  PetscReal    energy = 0.0; /* which the objective has */
   Vec          u;
 
   PetscFunctionBegin;
@@ -48,6 +50,7 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(TiesGather(&p->sim->ties, G));
+  PetscCall(ProximalAdd(p, u, &energy, G));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, G));
   PetscFunctionReturn(0);
 }

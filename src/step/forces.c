@@ -194,8 +194,8 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Of a symmetry plane along no axis: what the ties have at its nodes, which they then have no more */
-static PetscErrorCode ForcesTakePlane(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
+/* Of a symmetry plane along no axis, or of a rigid body that forces drive: the forces at its nodes, which are there no more then */
+static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   ForceField             field;
@@ -221,8 +221,8 @@ static PetscErrorCode ForcesTakePlane(Simulation sim, Vec u, Vec ties, const cha
   PetscFunctionReturn(0);
 }
 
-/* reaction: its prescribed rows are; ties: on the bodies, NULL: none. What is left of those are the joints' */
-PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, StepReport *report)
+/* reaction: its prescribed rows are; ties: on the bodies, rigid: on rigid bodies, NULL: none. What is left of the ties are the joints' */
+PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum  *sums;
   ForceField field;
@@ -242,7 +242,8 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties,
   for (PetscInt i = 0; ties && i < sim->scene->ndisplacements; ++i) {
     const SceneDisplacement *d = &sim->scene->displacements[i];
 
-    if (d->inclined) PetscCall(ForcesTakePlane(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
+    if (d->inclined) PetscCall(ForcesTakeAll(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
+    else if (rigid && d->moves) PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
   }
   PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {

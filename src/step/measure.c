@@ -93,7 +93,7 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
   Simulation sim = p->sim;
-  Vec        force, contact, ties, weighted = NULL;
+  Vec        force, contact, ties, rigid, weighted = NULL;
   PetscReal  size, residual;
 
   PetscFunctionBegin;
@@ -116,12 +116,13 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     PetscCall(VecDestroy(&contact));
   }
-  PetscCall(TiesGetForces(&sim->ties, force, &ties));
-  PetscCall(WorkAdd(p, u, force, report));
+  PetscCall(TiesGetForces(sim, force, &ties, &rigid));
+  PetscCall(WorkAdd(p, u, force, rigid, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
-  PetscCall(ForcesMeasureFaces(sim, u, force, ties, report));
+  PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
   PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, report));
   PetscCall(VecDestroy(&ties));
+  PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = size > 0.0 ? residual / size : residual;

@@ -20,9 +20,11 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path.u, &p->w));
   PetscCall(VecCopy(sim->path.u, p->base));
   PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
+  PetscCall(TiesMove(sim, time));
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
   PetscCall(TemperaturesApply(&sim->temperatures, time));
+  PetscCall(ProximalBegin(p));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path.u, &p->force));
@@ -89,6 +91,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDestroy(&p->g));
   PetscCall(VecDestroy(&p->base));
+  PetscCall(VecDestroy(&p->centre));
   PetscCall(VecDestroy(&p->load));
   PetscCall(VecDestroy(&p->force));
   PetscCall(VecDestroy(&p->lower));

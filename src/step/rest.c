@@ -7,7 +7,7 @@
 /* Whether this time asks for no force and for no displacement, where those before it did */
 PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
 {
-  PetscReal before, displacement, temperature, load = 0.0;
+  PetscReal before, displacement, temperature, load = 0.0, moved = 0.0;
   PetscBool rubs = PETSC_FALSE; /* what has slipped does not go back by itself */
   Vec       u;
 
@@ -20,8 +20,9 @@ PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(PrescribedApply(&p->sim->prescribed, p->time, u));
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
+  if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
-  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0);
+  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);
 }
 

@@ -167,10 +167,31 @@ typedef struct {
   PetscLogDouble begun, reached, said;
 } Progress;
 
+/* Of rigid.c: a rigid body some of whose motions are free */
+typedef struct {
+  PetscInt  leader;        /* displacement of the scene */
+  PetscInt  n, motion[6];  /* those that are free: along, and about, the axes */
+  PetscInt  row[6];        /* global rows whose displacements carry them */
+  PetscReal inverse[6][6]; /* motions by the displacements of these rows; angles times size */
+  PetscReal size;          /* [length] */
+} RigidBody;
+
+typedef struct {
+  PetscInt   n;
+  RigidBody *bodies;
+  Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
+  Vec        elastic; /* 0 in the rows of these bodies, else 1 */
+  Vec        given;   /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows [length] */
+  Vec        held;    /* stiffness of the rows that carry motions, about the centre of proximal.c; else 0 [force/length] */
+} RigidBodies;
+
 /* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
 typedef struct {
-  Mat      C, K;    /* u = C x; stiffness of the bodies, K of the simulation being C^T K C */
+  Mat      C, K;    /* u = C x + o; stiffness of the bodies, K of the simulation being C^T K C */
   Mat      hanging; /* that which hanging vertices have of C; NULL: there are none */
+  Mat      joined;  /* C = joined R, where forces drive rigid bodies; NULL: C = R */
+  Mat      elastic; /* C without the rows of such bodies, which have no stiffness; NULL: there are none */
+  Vec      o;       /* NULL: 0 [length] */
   PetscInt n, *rows;
   Vec      work;
 } Ties;
@@ -199,6 +220,7 @@ struct _n_Simulation {
   DeadLoads            loads;
   Temperatures         temperatures;
   Springs              springs;
+  RigidBodies          rigid;
   Ties                 ties;
   VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
@@ -241,14 +263,22 @@ PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 /* planes.c */
 PETSC_INTERN PetscErrorCode PlanesCreate(Simulation, const PetscBool prescribed[], Mat *C, PetscBool follows[]);
 
+/* rigid.c */
+PETSC_INTERN PetscErrorCode RigidCreate(Simulation, const PetscBool prescribed[], PetscBool follows[]);
+PETSC_INTERN PetscErrorCode RigidMove(Simulation, PetscReal time, Vec o);
+PETSC_INTERN PetscErrorCode RigidAddStiffness(Simulation, Mat C, Vec diagonal, Mat stiffness);
+PETSC_INTERN PetscErrorCode RigidTest(Simulation, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
+
 /* ties.c */
 PETSC_INTERN PetscErrorCode TiesCreate(Simulation);
+PETSC_INTERN PetscErrorCode TiesMove(Simulation, PetscReal time);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(Simulation, Mat *);
 PETSC_INTERN PetscErrorCode TiesTangent(Simulation, Vec u, Mat);
 PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
 PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
 PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
-PETSC_INTERN PetscErrorCode TiesGetForces(const Ties *, Vec force, Vec *ties);
+PETSC_INTERN PetscErrorCode TiesGetForces(Simulation, Vec force, Vec *ties, Vec *rigid);
 PETSC_INTERN PetscErrorCode TiesMeasure(Simulation, Vec forces, PetscReal bodies[]);
 PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 
@@ -297,6 +327,8 @@ typedef struct {
   Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec        g;
   Vec        lower, upper; /* NULL without bounds */
+  Vec        centre;       /* of proximal.c; NULL where forces drive no rigid body */
+  PetscReal  carried;      /* what was left between the last solution and its centre [force] */
   Vec        w, Kw;
 
   StepFriction friction;
@@ -309,6 +341,11 @@ PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* Callbacks of TAO, also in quadratic.c and energy.c; the context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
+
+/* proximal.c */
+PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
 /* friction.c */
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
@@ -376,7 +413,7 @@ PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
@@ -387,7 +424,7 @@ PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, V
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* work.c */
-PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, StepReport *);
+PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, StepReport *);
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);

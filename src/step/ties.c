@@ -1,7 +1,7 @@
 /*
-   Tied faces, symmetry planes along no axis and hanging vertices: displacements there are those that others give them, u = C x, and no unknowns. x is u with other numbers
-   at their rows, which mean nothing: energy, forces and gaps are those of C x, forces C^T f, the stiffness C^T K C with a diagonal in those rows.
-   Prescribed rows are not tied.
+   Tied faces, symmetry planes along no axis, hanging vertices and rigid bodies that forces drive: displacements there are those that others give them, u = C x + o, and no
+   unknowns. x is u with other numbers at their rows, which mean nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in
+   those rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
 */
 #include "stepimpl.h"
 
@@ -220,7 +220,25 @@ static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
   }
   PetscCall(MatDestroy(&joints));
   PetscCall(MatDestroy(&planes));
-  PetscCall(MatSetBlockSizes(*C, 3, 3));
+  PetscFunctionReturn(0);
+}
+
+/* C, of all but rigid bodies, is the second factor to R, if there are any that forces drive */
+static PetscErrorCode TiesJoinRigid(Simulation sim)
+{
+  Ties *ties = &sim->ties;
+  Mat   C    = NULL;
+
+  PetscFunctionBegin;
+  if (!sim->rigid.R) PetscFunctionReturn(0);
+  ties->joined = ties->C;
+  PetscCall(TiesApplyNext(sim->rigid.R, &C));
+  PetscCall(TiesApplyNext(ties->joined, &C));
+  ties->C = C;
+  PetscCall(MatDuplicate(C, MAT_COPY_VALUES, &ties->elastic));
+  PetscCall(MatDiagonalScale(ties->elastic, sim->rigid.elastic, NULL));
+  PetscCall(VecDuplicate(sim->path.u, &ties->o));
+  PetscCall(VecZeroEntries(ties->o));
   PetscFunctionReturn(0);
 }
 
@@ -240,8 +258,11 @@ PetscErrorCode TiesCreate(Simulation sim)
   PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
   PetscCall(TiesCreateJoints(sim, prescribed, &joints, follows));
   PetscCall(TiesCreateHanging(sim, prescribed, &ties->hanging, follows));
-  if (planes || joints || ties->hanging) {
+  PetscCall(RigidCreate(sim, prescribed, follows));
+  if (planes || joints || ties->hanging || sim->rigid.R) {
     PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
+    PetscCall(TiesJoinRigid(sim));
+    PetscCall(MatSetBlockSizes(ties->C, 3, 3));
     PetscCall(PetscMalloc1(n, &ties->rows));
     for (PetscInt i = 0; i < n; ++i) {
       if (follows[i]) ties->rows[ties->n++] = rstart + i;
@@ -253,13 +274,26 @@ PetscErrorCode TiesCreate(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* u = C u: the tied rows follow the others */
+/* To what is prescribed at a time */
+PetscErrorCode TiesMove(Simulation sim, PetscReal time)
+{
+  Ties *ties = &sim->ties;
+
+  PetscFunctionBegin;
+  if (!ties->o) PetscFunctionReturn(0);
+  PetscCall(RigidMove(sim, time, ties->joined ? ties->work : ties->o));
+  if (ties->joined) PetscCall(MatMult(ties->joined, ties->work, ties->o));
+  PetscFunctionReturn(0);
+}
+
+/* u = C u + o: the tied rows follow the others */
 PetscErrorCode TiesFollow(const Ties *ties, Vec u)
 {
   PetscFunctionBegin;
   if (!ties->C) PetscFunctionReturn(0);
   PetscCall(VecCopy(u, ties->work));
   PetscCall(MatMult(ties->C, ties->work, u));
+  if (ties->o) PetscCall(VecAXPY(u, 1.0, ties->o));
   PetscFunctionReturn(0);
 }
 
@@ -273,15 +307,29 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
   PetscFunctionReturn(0);
 }
 
-/* Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those between hanging vertices and the cells that they hang on. NULL where nothing follows */
-PetscErrorCode TiesGetForces(const Ties *t, Vec force, Vec *ties)
+/*
+   Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those between hanging vertices and the cells that they hang on;
+   rigid: on rigid bodies that forces drive, what keeps them rigid and to the motions that are prescribed. NULL where nothing follows
+*/
+PetscErrorCode TiesGetForces(Simulation sim, Vec force, Vec *ties, Vec *rigid)
 {
+  const Ties *t = &sim->ties;
+
   PetscFunctionBegin;
-  *ties = NULL;
+  *ties = *rigid = NULL;
   if (!t->C) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(force, ties));
   if (t->hanging) PetscCall(MatMultTranspose(t->hanging, force, *ties));
   else PetscCall(VecCopy(force, *ties));
+  if (sim->rigid.R) {
+    PetscCall(VecDuplicate(force, rigid));
+    if (t->joined) PetscCall(MatMultTranspose(t->joined, force, *rigid));
+    else PetscCall(VecCopy(force, *rigid));
+    PetscCall(VecAXPY(*ties, -1.0, *rigid));
+    PetscCall(MatMultTranspose(sim->rigid.R, *rigid, force));
+    PetscCall(VecAXPY(*rigid, -1.0, force));
+    PetscFunctionReturn(0);
+  }
   PetscCall(TiesGather(t, force));
   PetscCall(VecAXPY(*ties, -1.0, force));
   PetscFunctionReturn(0);
@@ -335,7 +383,7 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
-  PetscCall(MatPtAP(K, ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
   if (!aij) PetscCall(MatDestroy(&K));
   PetscCall(VecGetOwnershipRange(diagonal, &start, &end));
   PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)diagonal), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &identity));
@@ -364,6 +412,7 @@ PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
   PetscCall(TiesMultiply(ties, diagonal, &tied));
+  if (sim->rigid.R) PetscCall(RigidAddStiffness(sim, ties->C, diagonal, tied));
   PetscCall(TiesClearRows(sim, diagonal, tied));
   PetscCall(MatSetBlockSize(tied, 3));
   PetscCall(MatSetOption(tied, MAT_SYMMETRIC, PETSC_TRUE));
@@ -405,6 +454,9 @@ PetscErrorCode TiesDestroy(Ties *ties)
   PetscCall(MatDestroy(&ties->C));
   PetscCall(MatDestroy(&ties->K));
   PetscCall(MatDestroy(&ties->hanging));
+  PetscCall(MatDestroy(&ties->joined));
+  PetscCall(MatDestroy(&ties->elastic));
+  PetscCall(VecDestroy(&ties->o));
   PetscCall(VecDestroy(&ties->work));
   PetscCall(PetscFree(ties->rows));
   PetscFunctionReturn(0);

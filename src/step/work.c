@@ -1,8 +1,8 @@
 /* The work of the forces from outside: dead loads, and the reactions where displacements are prescribed. */
 #include "stepimpl.h"
 
-/* Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the prescribed rows */
-PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, StepReport *report)
+/* Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none */
+PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, StepReport *report)
 {
   LoadPath   *path = &p->sim->path;
   PetscScalar work[2];
@@ -16,6 +16,7 @@ PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, StepReport *
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
   if (p->load) PetscCall(VecWAXPY(outside, 1.0, p->load, reaction));
   else PetscCall(VecCopy(reaction, outside));
+  if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecWAXPY(way, -1.0, path->u, u));
   PetscCall(VecDot(outside, way, &work[0]));
   work[1] = 0.0;

@@ -1,0 +1,81 @@
+/*
+   Free motions of rigid bodies have no stiffness of their own, and solvers ask for some. They are given a small one about a centre, which follows the solutions until no force is
+   left in it: the proximal point method, with 1/2 (x - centre)^T held (x - centre) added to the energy. Its rate is that stiffness by that of what holds the bodies.
+*/
+#include "stepimpl.h"
+
+/* As many centres there may be; of the force that is left, once it ought to fall, more than this part is none that contact or springs take up */
+static const PetscInt  max_centres = 50, patience = 5;
+static const PetscReal stuck = 0.9;
+
+/* force += held (x - centre), with its energy; force may be NULL */
+PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
+{
+  Vec         way, product;
+  PetscScalar twice;
+
+  PetscFunctionBegin;
+  if (!p->centre) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(x, &way));
+  PetscCall(VecDuplicate(x, &product));
+  PetscCall(VecWAXPY(way, -1.0, p->centre, x));
+  PetscCall(VecPointwiseMult(product, p->sim->rigid.held, way));
+  PetscCall(VecDot(product, way, &twice));
+  *energy += 0.5 * PetscRealPart(twice);
+  if (force) PetscCall(VecAXPY(force, 1.0, product));
+  PetscCall(VecDestroy(&product));
+  PetscCall(VecDestroy(&way));
+  PetscFunctionReturn(0);
+}
+
+/* The centre goes to x; the quadratic model has its energy and force at base */
+static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
+{
+  PetscReal before = 0.0, after = 0.0;
+
+  PetscFunctionBegin;
+  if (p->force) {
+    PetscCall(VecScale(p->force, -1.0));
+    PetscCall(ProximalAdd(p, p->base, &before, p->force));
+    PetscCall(VecScale(p->force, -1.0));
+  }
+  PetscCall(VecCopy(x, p->centre));
+  if (p->force) PetscCall(ProximalAdd(p, p->base, &after, p->force));
+  p->energy += after - before;
+  PetscFunctionReturn(0);
+}
+
+/* Before the first solve: about the base, where the quadratic model has neither energy nor force of it */
+PetscErrorCode ProximalBegin(StepProblem *p)
+{
+  PetscFunctionBegin;
+  if (!p->sim->rigid.n) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->base, &p->centre));
+  PetscCall(VecCopy(p->base, p->centre));
+  PetscFunctionReturn(0);
+}
+
+/* Whether a solve that has converged to u is to be followed by another one, about u */
+PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
+{
+  const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
+  PetscReal       carried, size, energy = 0.0;
+  Vec             force;
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  if (!p->centre || !report->converged) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(ElasticityForce(p->sim->elasticity, u, force));
+  PetscCall(VecNorm(force, NORM_2, &size));
+  PetscCall(VecZeroEntries(force));
+  PetscCall(ProximalAdd(p, u, &energy, force));
+  PetscCall(VecNorm(force, NORM_2, &carried));
+  PetscCall(VecDestroy(&force));
+  if (carried <= tolerance * size) PetscFunctionReturn(0);
+  *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || carried < stuck * p->carried));
+  p->carried = carried;
+  if (*again) PetscCall(ProximalCentre(p, u));
+  else PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that forces drive moves away or turns over: nothing stops it"));
+  PetscFunctionReturn(0);
+}

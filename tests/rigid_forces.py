@@ -1,0 +1,129 @@
+"""Scenes for rigid_forces.sh, and their answers: python rigid_forces.py drive|write|judge."""
+import sys
+
+import numpy as np
+
+from summaries import load, say
+
+PUNCH = """bodies:
+  - block: {lower: [0, 0, 0], upper: [1, 2, 3], cells: [3, 4, 5], young: 10, poisson: 0.3}
+  - punch: {lower: [-1, -1, 3], upper: [2, 3, 4], cells: [2, 2, 1], material: rigid}
+symmetry: [block.xmin, block.ymin, block.zmin]
+displacements:
+  - press: {body: punch, value: [0, 0, -0.03]}
+contact:
+  - touch: {mortar: punch.zmin, nonmortar: block.zmax}
+"""
+RUBBER = PUNCH.replace("young", "material: neohookean, young").replace("symmetry", "load: {steps: 2}\nsymmetry").replace("-0.03", "-0.6")
+ROLLER = """bodies:
+  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [24, 1, 16], grading: [30, 1, 0.03], even: [12, 1, 6], young: 1000, poisson: 0.3}
+  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01], patches: [4, 12, 4], layers: 1, material: rigid}
+faces:
+  - crown: {of: roller.arc, upper: [0.6, inf, 0.5]}
+  - spot: {of: block.zmax, upper: [0.3, inf, inf]}
+symmetry: [block.xmin, block.ymin, block.ymax]
+displacements:
+  - floor: {face: block.zmin, value: [0, 0, 0]}
+  - press: {body: roller, value: [0, 0, -0.002]}
+contact:
+  - touch: {mortar: roller.crown, nonmortar: block.spot, distance: 0.2}
+"""
+# Turned and shifted: these motions stay prescribed while the force presses
+ROLLED = ROLLER.replace("[0, 0, -0.002]", "[0.004, 0, -0.002], rotation: [0, 2, 0], center: [0, 0, 1]")
+DRIVEN = dict(punch=PUNCH, rubber=RUBBER, roller=ROLLER, rolled=ROLLED)
+# A plate glued on a bar carries a force beside its middle and a moment: stretched, and bent both ways
+BEAM = """bodies:
+  - bar: {lower: [-0.5, -1, 0], upper: [0.5, 1, 4], cells: [2, 3, 4], young: 10, poisson: 0, order: 2}
+  - plate: {lower: [-1, -2, 4], upper: [1, 2, 5], cells: [3, 2, 1], material: rigid}
+displacements:
+  - foot: {face: bar.zmin, value: [0, 0, 0]}
+  - guide: {body: plate, value: [free, free, free], rotation: [free, free, free], center: [0, 0, 4]}
+forces:
+  - load: {body: plate, value: [0, 0, 0.02], moment: [0.01, 0, 0], point: [0.3, 0, 7]}
+ties:
+  - glue: {mortar: plate.zmin, nonmortar: bar.zmax}
+"""
+TILT = """bodies:
+  - block: {lower: [-1, -1, 0], upper: [1, 1, 1], cells: [4, 4, 3], young: 10, poisson: 0.3}
+  - plate: {lower: [-1.5, -2, 1], upper: [1.5, 2, 2], cells: [3, 2, 1], material: rigid}
+displacements:
+  - foot: {face: block.zmin, value: [0, 0, 0]}
+  - guide: {body: plate, value: [0, 0, free], rotation: [free, free, 0], center: [0, 0, 1]}
+forces:
+  - load: {body: plate, value: [0.00003, 0, -0.002], moment: [0.0001, 0, 0], point: [0.1, -0.2, 7]}
+contact:
+  - touch: {mortar: plate.zmin, nonmortar: block.zmax}
+"""
+# All six motions are free, and friction holds what the pressure does not
+RUBS = TILT.replace("block.zmax}", "block.zmax, friction: 0.3}").replace("value: [0, 0, free]", "value: [free, free, free]").replace("free, free, 0]", "free, free, free]")
+# On springs at its face of 1 by 2: it sinks by F / k A
+SPRUNG = """bodies:
+  - plate: {lower: [0, 0, 0], upper: [1, 2, 0.5], cells: [2, 2, 1], material: rigid}
+  - cap: {lower: [0, 0, 0.5], upper: [1, 2, 1], cells: [3, 3, 1], young: 10, poisson: 0}
+displacements:
+  - guide: {body: plate, value: [0, 0, free]}
+springs:
+  - soil: {face: plate.zmin, value: [0, 0, 3]}
+forces:
+  - load: {body: plate, value: [0, 0, -0.02]}
+pressures:
+  - top: {face: cap.zmax, value: 0.05}
+ties:
+  - glue: {mortar: plate.zmax, nonmortar: cap.zmin}
+probes:
+  - top: {point: [0, 0, 1], body: cap}
+"""
+
+
+def near(a, b, size, within=1e-8):
+    return bool(np.linalg.norm(np.subtract(a, b)) <= within * size)
+
+
+def body_face(step):
+    return next(face for face in step["faces"] if face["name"].endswith(".*"))
+
+
+def forced(name):
+    """The same scene, where the force that drove it along z drives it now"""
+    last = load("driven_" + name)["steps"][-1]
+    body = body_face(last)["name"][:-2]
+    text = DRIVEN[name].replace("-0.002", "free").replace("-0.03", "free").replace("-0.6", "free")
+    return text + "forces:\n  - load: {body: %s, value: [0, 0, %r]}\n" % (body, body_face(last)["reaction"][2])
+
+
+def write(scenes):
+    for name, text in scenes.items():
+        with open(name + ".yaml", "w") as file:
+            file.write("problem: %s\n%s" % (name, text))
+
+
+def judge(title, end):
+    steps = {name: load(name + end)["steps"] for name in (*DRIVEN, "beam", "tilt", "rubs", "sprung")}
+    for name in DRIVEN:
+        one, other = load("driven_" + name)["steps"][-1], steps[name][-1]
+        pair, same = one["pairs"][0], other["pairs"][0]
+        size = pair["normal_force"]
+        ends = near(one["energy"], other["energy"], one["energy"]) and near(pair["force"], same["force"], size) and (name == "rubber" or near(pair["pressure"], same["pressure"], pair["pressure"]))  # its area is that of the bulge where the gap was linearized
+        say(title + name + ": energy and force of the run that a displacement drives", ends and abs(body_face(other)["reaction"][2]) < 1e-12 * size, (one["energy"], other["energy"], pair, same))
+    say(title + "punch: energy F^2 L / 2 E A", near(steps["punch"][0]["energy"], 0.03**2 / 2 * 10 * 2 / 3, 0.003), steps["punch"][0]["energy"])
+    beam = 0.02**2 * 4 / (2 * 10 * 2) + 0.01**2 * 4 / (2 * 10 * 8 / 12) + 0.006**2 * 4 / (2 * 10 * 2 / 12)
+    say(title + "beam: energy of a bar that is stretched and bent both ways", near(steps["beam"][0]["energy"], beam, beam) and near(steps["beam"][0]["work"], beam, beam), steps["beam"][0]["energy"])
+    tilt = steps["tilt"][0]
+    pair, held = tilt["pairs"][0], body_face(tilt)
+    force, moment = np.add(held["reaction"], [0.00003, 0, -0.002]), np.add(held["moment"], [0.0005, 0.00041, 0.000006])
+    say(title + "tilt: contact and what holds the plate balance the load, force and moment", near(pair["force"], force, 0.002) and near(pair["moment"], moment, 0.002, 1e-4), (pair, held))  # moments of displaced places
+    rubs = steps["rubs"][0]
+    say(title + "rubs: friction carries what pushes", near(rubs["pairs"][0]["force"], [0.00003, 0, -0.002], 0.002) and near(body_face(rubs)["reaction"], 0, 0.002), rubs["pairs"])
+    sprung = steps["sprung"][0]
+    sinks = (0.02 + 0.05 * 2) / (3 * 2)
+    plate = next(body for body in sprung["bodies"] if body["name"] == "plate")
+    say(title + "sprung: sinks by force over stiffness", near(plate["springs"], [0, 0, 0.12], 0.12) and near(sprung["probes"][0]["displacement"], [0, 0, -sinks - 0.05 * 0.5 / 10], sinks), (plate, sprung["probes"]))
+
+
+if sys.argv[1] == "drive":
+    write({"driven_" + name: text for name, text in DRIVEN.items()})
+elif sys.argv[1] == "write":
+    write(dict({name: forced(name) for name in DRIVEN}, beam=BEAM, tilt=TILT, rubs=RUBS, sprung=SPRUNG))
+else:
+    judge("", "")
+    judge("three ranks, ", "_3")
