@@ -36,7 +36,7 @@ PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearizatio
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* Of each node of a nonmortar face the weights of those of the mortar face that it is tied to */
-PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const SceneTie *, Mat *rows);
+PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const char what[], const SceneTie *, Mat *rows);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);
 

@@ -40,8 +40,8 @@ PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, co
 /* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */
 PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);
 PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], const PetscReal point[3], Vec force);
-/* Stiffness of springs to the ground, one a row, in energy, force and tangent; NULL: none [force/length] */
-PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness);
+/* Stiffness of springs to the ground, one a row, in energy, force and tangent, and of springs between unknowns, in energy and force; NULL: none [force/length] */
+PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness, Mat between);
 /* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient; fitted to a function of the
    place, and set, NULL for none */
 PETSC_EXTERN PetscErrorCode ElasticityGetCellCount(Elasticity, PetscInt *ncells);

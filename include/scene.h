@@ -142,11 +142,13 @@ typedef struct {
   PetscInt  ramp;
 } SceneTraction;
 
-/* Springs between a face and the ground */
+/* Springs between a face and the ground, or another face */
 typedef struct {
   char     *name;
   char     *face;
-  PetscReal value[3]; /* stiffness along x, y, z per undeformed area [force/length^3] */
+  char     *to;       /* NULL: the ground; another face, which covers the first one */
+  PetscReal distance; /* facets further apart are not joined [length]; 0: chosen from their size */
+  PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
 typedef struct {

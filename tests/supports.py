@@ -31,6 +31,20 @@ SCENES["edges"] = BAR + (
     "displacements:\n  - left: {body: bar, from: [0, 0, 0], to: [0, 2, 0], value: [0, free, 0]}\n  - right: {body: bar, from: [1, 2, 0], to: [1, 0, 0], value: [free, free, 0]}\n"
     "  - foot: {body: bar, point: [0, 0, 0], value: [free, 0, free]}\nbody_forces:\n  - weight: {value: [0, 0, -1]}\n" + PROBES
 )
+# Two blocks and a pad between their faces, whose meshes do not match, in series
+SCENES["pad"] = """bodies:
+  - low: {lower: [0, 0, 0], upper: [1, 2, 3], cells: [2, 2, 3], young: 10, poisson: 0}
+  - top: {lower: [0, 0, 3.2], upper: [1, 2, 5.2], cells: [3, 5, 2], young: 5, poisson: 0, order: 2}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+springs:
+  - pad: {face: top.zmin, to: low.zmax, value: [4, 4, 20], distance: 0.3}
+forces:
+  - load: {face: top.zmax, value: [0, 0, -0.6]}
+probes:
+  - tip: {point: [1, 2, 5.2]}
+"""
+SCENES["pads"] = SCENES["pad"].replace("value: [4, 4, 20]", "value: [4, 4, 5]").replace("forces:", "  - more: {face: low.zmax, to: top.zmin, value: [0, 0, 15], distance: 0.3}\nforces:")
 SCENES["soft"] = SCENES["stack"].replace("1e5", "100")
 
 
@@ -58,6 +72,11 @@ def judge_bars(title, end):
     pins = step["pins"]
     point = next(p for p in pins["probes"] if p["name"] == "corner")
     say(title + "on three points: displacement, stress, no forces", near(point["displacement"], [-0.02, -0.04, -0.06], 0.06) and near(point["stress_zz"], -0.5, 0.5) and all(near(f["reaction"], 0, 1) for f in pins["faces"]), pins["faces"])
+    for name in ("pad", "pads"):
+        bodies, tip = {body["name"]: body["springs"] for body in step[name]["bodies"]}, step[name]["probes"][0]["displacement"]
+        sinks = 0.3 * (3 / 10 + 1 / 20 + 2 / 5)
+        series = np.linalg.norm(np.subtract(tip, [0, 0, -sinks])) < 1e-10 * sinks and abs(step[name]["energy"] - 0.3 * sinks) < 1e-10 * sinks
+        say(title + name + " between two blocks: in series, and what it carries", series and near(bodies["top"], [0, 0, 0.6], 0.6) and near(bodies["low"], [0, 0, -0.6], 0.6), (tip, bodies))
     reactions = {face["name"]: face["reaction"] for face in step["edges"]["faces"]}
     say(title + "on two edges: half of the weight on each", near(reactions["bar.@left"], [0, 0, 3], 3) and near(reactions["bar.@right"], [0, 0, 3], 3) and step["edges"]["balance"] < 1e-10, reactions)
     forces = {pair["name"]: pair["force"] for pair in step["soft"]["pairs"]}

@@ -1,7 +1,7 @@
 # Tractions and forces on faces, springs and weak springs against closed forms and statics, on one rank and on three.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/supports.py" write
-for scene in pull twist bed float pins edges stack soft; do
+for scene in pull twist bed float pins edges stack soft pad pads; do
   "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
 done
@@ -22,3 +22,17 @@ sed 's/point: \[1, 0, 0\]/point: [0.9, 0.1, 0]/' pins.yaml > beside.yaml
 sed '/  - c: /d' pins.yaml > two.yaml
 "$contact" two.yaml -quiet 2>&1
 "$contact" pull.yaml -quiet -effects_view | grep -E '^(traction|springs|weak springs)' | cut -c1-24 | sed 's/ *$//'
+try() {
+  sed "$1" pad.yaml > tried.yaml
+  "$contact" tried.yaml -quiet 2>&1
+  echo "exit code $?"
+}
+"$contact" pad.yaml -scene_check | grep '  springs'
+try 's/distance: 0.3/distance: 0.1/'
+try 's/distance: 0.3/distance: -1/'
+try 's/to: low.zmax, //'
+try 's/to: low.zmax/to: low.zmx/'
+try 's/to: low.zmax/to: top.zmin/'
+try 's/to: low.zmax/onto: low.zmax/'
+try 's/4, 4, 20/0, 4, 20/'
+try 's/4, 4, 20/4, 4, inf/'

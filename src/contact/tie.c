@@ -154,7 +154,7 @@ static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, 
 }
 
 /* Rows of nodes divided by the covered areas; error where the nonmortar face reaches beyond the mortar one */
-static PetscErrorCode TieFinish(MPI_Comm comm, const SceneTie *tie, TieSums *sums, Mat *rows)
+static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie *tie, PetscReal distance, TieSums *sums, Mat *rows)
 {
   PetscScalar *covered;
   PetscReal    least = 1.0, areas[2] = {0.0, 0.0};
@@ -187,7 +187,8 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const SceneTie *tie, TieSums *sum
   PetscCall(MatDiagonalScale(*rows, sums->covered, NULL));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
-  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm, PETSC_ERR_USER_INPUT, "tie \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange the two, or cut it to size under faces", tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
+  PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT, "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance says how far away they may be", what, tie->name, tie->mortar, (double)distance, tie->nonmortar);
+  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm, PETSC_ERR_USER_INPUT, "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange the two, or cut it to size under faces", what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
   PetscFunctionReturn(0);
 }
 
@@ -212,8 +213,9 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
   Collective
 
   Input Parameters:
-+ dm  - the mesh
-- tie - the two faces
++ dm   - the mesh
+. what - the kind of thing that joins the faces, for an error
+- tie  - the two faces
 
   Output Parameter:
 . rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar face's, and sum to 1; the others are empty
@@ -225,7 +227,7 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 
 .seealso: `ContactCreate()`
 @*/
-PetscErrorCode ContactTieCreate(DM dm, const SceneTie *tie, Mat *rows)
+PetscErrorCode ContactTieCreate(DM dm, const char what[], const SceneTie *tie, Mat *rows)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
   ContactBoundary boundary;
@@ -253,7 +255,7 @@ PetscErrorCode ContactTieCreate(DM dm, const SceneTie *tie, Mat *rows)
   PetscCall(VecCreateMPI(comm, n / 3, PETSC_DETERMINE, &sums.covered));
   PetscCall(VecDuplicate(sums.covered, &sums.whole));
   PetscCall(TieAddFacets(comm, &mortar, &nonmortar, distance, &sums));
-  PetscCall(TieFinish(comm, tie, &sums, rows));
+  PetscCall(TieFinish(comm, what, tie, distance, &sums, rows));
   PetscCall(TieSetTrace(dm, &mortar, &nonmortar, *rows));
   PetscCall(VecDestroy(&sums.covered));
   PetscCall(VecDestroy(&sums.whole));

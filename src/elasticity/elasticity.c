@@ -232,6 +232,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
   PetscCall(VecDestroy(&(*e)->springs));
+  PetscCall(MatDestroy(&(*e)->between));
   PetscCall(PetscFree(*e));
   PetscFunctionReturn(0);
 }

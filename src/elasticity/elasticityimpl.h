@@ -165,7 +165,8 @@ struct _n_Elasticity {
   PetscInt        *cellnodes;      /* nodes of cell c, in tensor order, from cellnodes[cellstart[c]] */
   PetscInt        *cellbody;
   unsigned char   *prescribed;  /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
-  Vec              springs;     /* to the ground, one a row; NULL: none [force/length] */
+  Vec              springs;     /* stiffness of those to the ground, one a row; NULL: none [force/length] */
+  Mat              between;     /* of springs between unknowns; NULL: there are none [force/length] */
   PetscReal       *temperature; /* 4 a cell; NULL: none is set */
   AssembledTangent assembled;
 };

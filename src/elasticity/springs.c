@@ -1,25 +1,29 @@
-/* Springs between the bodies and the ground: a stiffness of each unknown, E = sum k u^2/2 */
+/* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E = u^T S u/2 */
 #include "elasticityimpl.h"
 
 /*@
-  ElasticitySetSprings - Sets the stiffness of springs that hold the unknowns to the ground
+  ElasticitySetSprings - Sets the stiffness of springs that hold the unknowns to the ground and to one another
 
   Collective
 
   Input Parameters:
 + elasticity - the context
-- stiffness  - one a row, not negative, referenced; `NULL`: no springs [force/length]
+. stiffness  - one a row, not negative, referenced; `NULL`: no springs to the ground [force/length]
+- between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none [force/length]
 
   Level: intermediate
 
   Notes:
-  They are part of energy, force and tangent. The next tangent is assembled completely.
+  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the others. The next tangent is assembled completely.
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
 @*/
-PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness)
+PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness, Mat between)
 {
   PetscFunctionBegin;
+  if (between) PetscCall(PetscObjectReference((PetscObject)between));
+  PetscCall(MatDestroy(&e->between));
+  e->between = between;
   if (stiffness) PetscCall(PetscObjectReference((PetscObject)stiffness));
   PetscCall(VecDestroy(&e->springs));
   e->springs      = stiffness;
@@ -27,20 +31,34 @@ PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness)
   PetscFunctionReturn(0);
 }
 
+/* k u + S u */
+static PetscErrorCode SpringsMultiply(Elasticity e, Vec u, Vec product)
+{
+  PetscFunctionBegin;
+  if (e->springs) PetscCall(VecPointwiseMult(product, e->springs, u));
+  else PetscCall(VecZeroEntries(product));
+  if (e->between) PetscCall(MatMultAdd(e->between, u, product, product));
+  PetscFunctionReturn(0);
+}
+
 /* Part of this rank, added to a sum over the ranks to come */
 PetscErrorCode SpringsAddEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
-  const PetscScalar *k, *v;
+  const PetscScalar *f, *v;
   PetscInt           n;
+  Vec                product;
 
   PetscFunctionBegin;
-  if (!e->springs || !u) PetscFunctionReturn(0);
+  if (!(e->springs || e->between) || !u) PetscFunctionReturn(0);
+  PetscCall(DMGetGlobalVector(e->dm, &product));
+  PetscCall(SpringsMultiply(e, u, product));
   PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(e->springs, &k));
+  PetscCall(VecGetArrayRead(product, &f));
   PetscCall(VecGetArrayRead(u, &v));
-  for (PetscInt i = 0; i < n; ++i) *energy += 0.5 * PetscRealPart(k[i] * v[i] * v[i]);
+  for (PetscInt i = 0; i < n; ++i) *energy += 0.5 * PetscRealPart(f[i] * v[i]);
   PetscCall(VecRestoreArrayRead(u, &v));
-  PetscCall(VecRestoreArrayRead(e->springs, &k));
+  PetscCall(VecRestoreArrayRead(product, &f));
+  PetscCall(DMRestoreGlobalVector(e->dm, &product));
   PetscFunctionReturn(0);
 }
 
@@ -49,9 +67,9 @@ PetscErrorCode SpringsAddForce(Elasticity e, Vec u, Vec force)
   Vec product;
 
   PetscFunctionBegin;
-  if (!e->springs || !u) PetscFunctionReturn(0);
+  if (!(e->springs || e->between) || !u) PetscFunctionReturn(0);
   PetscCall(DMGetGlobalVector(e->dm, &product));
-  PetscCall(VecPointwiseMult(product, e->springs, u));
+  PetscCall(SpringsMultiply(e, u, product));
   PetscCall(VecAXPY(force, 1.0, product));
   PetscCall(DMRestoreGlobalVector(e->dm, &product));
   PetscFunctionReturn(0);

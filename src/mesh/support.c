@@ -212,8 +212,8 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
-/* All of the relative motion, at the vertices of the nonmortar face: of a tie, and of a contact pair with friction */
-static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[])
+/* The relative motion along these axes, at the vertices of the nonmortar face: all of a tie, and of a contact pair with friction */
+static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[], const PetscBool along[3])
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   IS                     facets;
@@ -233,6 +233,7 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
     PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
     for (PetscInt k = 0; k < 12; ++k) {
+      if (!along[k % 3]) continue;
       SupportAddMotion(support, nonmortar, axes[k % 3], x[k / 3], 1);
       SupportAddMotion(support, mortar, axes[k % 3], x[k / 3], -1);
       PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
@@ -332,21 +333,27 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 /* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to false before */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
-  Support    support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
-  PetscReal *outside;
+  static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  Support                support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
+  PetscReal             *outside;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
   PetscCall(SupportMeasureBodies(&support));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = scene->springs[s].face, .fixed = {scene->springs[s].value[0] > 0, scene->springs[s].value[1] > 0, scene->springs[s].value[2] > 0}}));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    const SceneSpring *spring = &scene->springs[s];
+
+    if (spring->to) PetscCall(SupportAddJoint(&support, spring->to, spring->face, (PetscBool[3]){spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}));
+    else PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = spring->face, .fixed = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}}));
+  }
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
-    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar));
+    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
     else PetscCall(SupportAddPair(&support, pair));
   }
-  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar));
+  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
@@ -403,7 +410,10 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   }
   for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
   for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
+    if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].to));
+  }
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
     PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));

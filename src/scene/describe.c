@@ -193,7 +193,11 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
     if (here->resultant) PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0], (double)here->moment[1], (double)here->moment[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s, stiffness (%.6g, %.6g, %.6g) per area\n", scene->springs[s].name, scene->springs[s].face, (double)scene->springs[s].value[0], (double)scene->springs[s].value[1], (double)scene->springs[s].value[2]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    const SceneSpring *here = &scene->springs[s];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s%s%s, stiffness (%.6g, %.6g, %.6g) per area\n", here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0], (double)here->value[1], (double)here->value[2]));
+  }
   for (PetscInt f = 0; f < scene->nforces; ++f) {
     const SceneBodyForce *here = &scene->forces[f];
 

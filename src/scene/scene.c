@@ -173,6 +173,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->forces));
   PetscCall(PetscFree(s->pairs));
   PetscCall(SceneDestroyTractions(s));
+  PetscCall(SceneDestroySprings(s));
   PetscCall(SceneDestroyTemperatures(s));
   PetscCall(SceneDestroyTies(s));
   PetscCall(SceneDestroyRefinements(s));

@@ -130,12 +130,19 @@ PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, const char file[
 PETSC_INTERN PetscErrorCode SceneViewTemperatures(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyTemperatures(Scene);
 
-/* tractions.c: dead loads on faces, springs */
-#define SCENE_WEAK_SPRINGS 1e-7 /* weak_springs: true */
+/* tractions.c: dead loads on faces; what an entry of a list has of three numbers, and a face with a value */
+PETSC_INTERN PetscErrorCode SceneReadTriple(SceneKeys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given);
+PETSC_INTERN PetscErrorCode SceneReadOnFace(SceneKeys, const char list[], const char name[], char **face, PetscReal value[3]);
 PETSC_INTERN PetscErrorCode SceneReadTractions(SceneKeys, Scene);
-PETSC_INTERN PetscErrorCode SceneReadSprings(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewTractions(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyTractions(Scene);
+
+/* springs.c */
+#define SCENE_WEAK_SPRINGS 1e-7 /* weak_springs: true */
+PETSC_INTERN PetscErrorCode SceneReadSprings(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneViewSprings(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDestroySprings(Scene);
 
 /* contact.c */
 PETSC_INTERN PetscErrorCode SceneReadContact(SceneKeys, Scene);

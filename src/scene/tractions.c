@@ -1,9 +1,9 @@
-/* tractions and forces: lists of named dead loads on faces; springs that hold faces to the ground */
+/* tractions and forces: lists of named dead loads on faces */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 
 /* Three numbers of <list>_<name>_<what>; given, or NULL where they are required: whether they are there */
-static PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given)
+PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -16,7 +16,7 @@ static PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
 {
   const char *text;
 
@@ -81,46 +81,6 @@ PetscErrorCode SceneReadTractions(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* true, false, or how stiff; a body that is held by more than a hundredth of its own stiffness is not held weakly */
-static PetscErrorCode SceneParseWeakSprings(SceneKeys keys, const char text[], PetscReal *stiffness)
-{
-  PetscBool yes, no;
-
-  PetscFunctionBegin;
-  PetscCall(PetscStrcasecmp(text, "true", &yes));
-  PetscCall(PetscStrcasecmp(text, "false", &no));
-  if (yes) *stiffness = SCENE_WEAK_SPRINGS;
-  else if (!no) {
-    PetscCall(SceneParseReal(keys, "weak_springs", text, stiffness));
-    if (!(*stiffness > 0 && *stiffness <= 0.01)) PetscCall(SceneKeysComplain(keys, "weak_springs is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01", text));
-  }
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SceneReadSprings(SceneKeys keys, Scene scene)
-{
-  char      **names;
-  const char *text;
-
-  PetscFunctionBegin;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "weak_springs"));
-  if (text) PetscCall(SceneParseWeakSprings(keys, text, &scene->weak_springs));
-  PetscCall(SceneGetNames(keys, "springs", PETSC_FALSE, &scene->nsprings, &names));
-  PetscCall(PetscCalloc1(scene->nsprings, &scene->springs));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    SceneSpring *spring = &scene->springs[s];
-
-    spring->name = names[s];
-    PetscCall(SceneReadOnFace(keys, "springs", spring->name, &spring->face, spring->value));
-    for (PetscInt d = 0; d < 3; ++d) {
-      if (spring->value[d] < 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value has a stiffness of %g along %c, which must not be negative", spring->name, (double)spring->value[d], "xyz"[d]));
-    }
-    if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value is zero along each axis: such springs hold nothing", spring->name));
-  }
-  PetscCall(PetscFree(names));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode SceneViewTractionList(Scene scene, PetscViewer viewer, PetscBool resultant)
 {
   PetscBool first = PETSC_TRUE;
@@ -155,18 +115,6 @@ PetscErrorCode SceneViewTractions(Scene scene, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(SceneViewTractionList(scene, viewer, PETSC_FALSE));
   PetscCall(SceneViewTractionList(scene, viewer, PETSC_TRUE));
-  if (scene->nsprings) PetscCall(PetscViewerASCIIPrintf(viewer, "springs:\n"));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  - %s: {face: %s, value: ", scene->springs[s].name, scene->springs[s].face));
-    PetscCall(SceneViewList(viewer, 3, scene->springs[s].value));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
-  }
-  if (scene->weak_springs == SCENE_WEAK_SPRINGS) PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: true\n"));
-  else if (scene->weak_springs > 0) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "weak_springs: "));
-    PetscCall(SceneViewReal(viewer, scene->weak_springs));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -178,10 +126,5 @@ PetscErrorCode SceneDestroyTractions(Scene scene)
     PetscCall(PetscFree(scene->tractions[t].face));
   }
   PetscCall(PetscFree(scene->tractions));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    PetscCall(PetscFree(scene->springs[s].name));
-    PetscCall(PetscFree(scene->springs[s].face));
-  }
-  PetscCall(PetscFree(scene->springs));
   PetscFunctionReturn(0);
 }

@@ -53,7 +53,6 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     if (!SceneIsWholeBody(scene->tractions[t].face)) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
   }
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SceneValidateFace(comm, file, scene, "spring", scene->springs[s].name, scene->springs[s].face));
   PetscFunctionReturn(0);
 }
 
@@ -93,6 +92,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateDisplacements(comm, file, scene));
   PetscCall(SceneValidateRigid(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
+  PetscCall(SceneValidateSprings(comm, file, scene));
   PetscCall(SceneValidateTemperatures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
   PetscCall(SceneValidateTies(comm, file, scene));

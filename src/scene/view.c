@@ -203,6 +203,7 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(SceneViewDisplacements(scene, viewer, "symmetry", PETSC_TRUE, SceneViewPlane));
   PetscCall(SceneViewEntries(scene, viewer, "pressures", scene->npressures, SceneViewPressure));
   PetscCall(SceneViewTractions(scene, viewer));
+  PetscCall(SceneViewSprings(scene, viewer));
   PetscCall(SceneViewTemperatures(scene, viewer));
   PetscCall(SceneViewEntries(scene, viewer, "body_forces", scene->nforces, SceneViewBodyForce));
   PetscCall(SceneViewEntries(scene, viewer, "contact", scene->npairs, SceneViewPair));

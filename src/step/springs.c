@@ -1,4 +1,4 @@
-/* Springs to the ground: those of the scene on faces, and weak ones for bodies that move freely. */
+/* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely. */
 #include "stepimpl.h"
 
 /*
@@ -46,24 +46,32 @@ PetscErrorCode SpringsCreate(Simulation sim)
   if (!sim->scene->nsprings && !sim->scene->weak_springs) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(sim->mass, &springs->stiffness));
   PetscCall(VecZeroEntries(springs->stiffness));
-  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value, springs->stiffness));
+  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) {
+    if (!sim->scene->springs[s].to) PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value, springs->stiffness));
+  }
+  PetscCall(CouplingsCreate(sim, &springs->between));
   if (sim->scene->weak_springs) {
     PetscCall(SpringsCreateWeak(sim));
     PetscCall(VecAXPY(springs->stiffness, 1.0, springs->weak));
   }
-  PetscCall(ElasticitySetSprings(sim->elasticity, springs->stiffness));
+  PetscCall(ElasticitySetSprings(sim->elasticity, springs->stiffness, springs->between));
   PetscFunctionReturn(0);
 }
 
 /* Adds the springs' forces on the bodies, 3 each, and the sum of the sizes of the weak ones' */
 PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscReal *weak)
 {
-  const PetscScalar *k, *w = NULL, *v;
+  const PetscScalar *k, *w = NULL, *v, *f;
   PetscInt           n;
   PetscReal          sum = 0.0;
+  Vec                joint;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecDuplicate(u, &joint));
+  PetscCall(VecZeroEntries(joint));
+  if (sim->springs.between) PetscCall(MatMult(sim->springs.between, u, joint));
+  PetscCall(VecGetArrayRead(joint, &f));
   PetscCall(VecGetArrayRead(u, &v));
   PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
   if (sim->springs.weak) PetscCall(VecGetArrayRead(sim->springs.weak, &w));
@@ -71,7 +79,7 @@ PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscRe
     PetscReal square = 0.0;
 
     for (PetscInt d = 0; d < 3; ++d) {
-      bodies[3 * sim->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d]);
+      bodies[3 * sim->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d] + f[i + d]);
       if (w) square += PetscSqr(PetscRealPart(w[i + d] * v[i + d]));
     }
     sum += PetscSqrtReal(square);
@@ -79,6 +87,8 @@ PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscRe
   if (w) PetscCall(VecRestoreArrayRead(sim->springs.weak, &w));
   PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
   PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCall(VecRestoreArrayRead(joint, &f));
+  PetscCall(VecDestroy(&joint));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
@@ -89,5 +99,6 @@ PetscErrorCode SpringsDestroy(Springs *springs)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&springs->stiffness));
   PetscCall(VecDestroy(&springs->weak));
+  PetscCall(MatDestroy(&springs->between));
   PetscFunctionReturn(0);
 }

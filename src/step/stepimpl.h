@@ -155,7 +155,8 @@ typedef struct {
 
 /* springs.c: stiffness a row; NULL where the scene has none */
 typedef struct {
-  Vec      stiffness, weak; /* of all springs; of the weak ones among them [force/length] */
+  Vec      stiffness, weak; /* of all springs to the ground; of the weak ones among them [force/length] */
+  Mat      between;         /* of those between two faces; NULL: there are none */
   PetscInt nweak;           /* bodies that they hold */
 } Springs;
 
@@ -255,6 +256,10 @@ struct _n_Simulation {
   RunTimes             start; /* what the clock and PETSc's events said when it began */
 };
 
+/* couplings.c */
+PETSC_INTERN PetscErrorCode CouplingsCreate(Simulation, Mat *stiffness);
+PETSC_INTERN PetscErrorCode CouplingsAddStiffness(Simulation, Mat C, Mat stiffness);
+
 /* springs.c */
 PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
@@ -269,6 +274,10 @@ PETSC_INTERN PetscErrorCode RigidMove(Simulation, PetscReal time, Vec o);
 PETSC_INTERN PetscErrorCode RigidAddStiffness(Simulation, Mat C, Vec diagonal, Mat stiffness);
 PETSC_INTERN PetscErrorCode RigidTest(Simulation, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
+
+/* joints.c */
+PETSC_INTERN PetscErrorCode JointsExpand(Simulation, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C, PetscBool follows[]);
+PETSC_INTERN PetscErrorCode JointsCreate(Simulation, const PetscBool prescribed[], Mat *C, PetscBool follows[]);
 
 /* ties.c */
 PETSC_INTERN PetscErrorCode TiesCreate(Simulation);

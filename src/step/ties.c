@@ -13,157 +13,6 @@ static PetscErrorCode TiesMarkPrescribed(Simulation sim, PetscInt rstart, PetscB
   PetscFunctionReturn(0);
 }
 
-/* Adds up the ties; tied: which one owns a node, -1 none */
-static PetscErrorCode TiesCollect(Simulation sim, Mat *all, PetscInt tied[])
-{
-  MPI_Comm comm = sim->comm;
-
-  PetscFunctionBegin;
-  *all = NULL;
-  for (PetscInt t = 0; t < sim->scene->nties; ++t) {
-    const SceneTie *tie = &sim->scene->ties[t];
-    PetscInt        start, end, twice = -1;
-    Mat             rows;
-
-    PetscCall(ContactTieCreate(sim->dm, tie, &rows));
-    PetscCall(MatGetOwnershipRange(rows, &start, &end));
-    for (PetscInt i = start; i < end; ++i) {
-      PetscInt n;
-
-      PetscCall(MatGetRow(rows, i, &n, NULL, NULL));
-      if (n && tied[i - start] >= 0) twice = tied[i - start];
-      if (n) tied[i - start] = t;
-      PetscCall(MatRestoreRow(rows, i, &n, NULL, NULL));
-    }
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
-    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT, "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them", sim->scene->ties[twice].name, tie->name);
-    if (*all) {
-      PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
-      PetscCall(MatDestroy(&rows));
-    } else *all = rows;
-  }
-  PetscFunctionReturn(0);
-}
-
-/* A node that others are tied to must not be tied itself */
-static PetscErrorCode TiesCheckChains(Simulation sim, Mat all, const PetscInt tied[])
-{
-  Vec                is_tied, held;
-  PetscScalar       *a;
-  const PetscScalar *h;
-  PetscInt           n, chained = -1;
-
-  PetscFunctionBegin;
-  PetscCall(MatCreateVecs(all, &is_tied, &held));
-  PetscCall(VecGetLocalSize(is_tied, &n));
-  PetscCall(VecGetArray(is_tied, &a));
-  for (PetscInt i = 0; i < n; ++i) a[i] = tied[i] >= 0 ? 1.0 : 0.0;
-  PetscCall(VecRestoreArray(is_tied, &a));
-  PetscCall(MatMult(all, is_tied, held));
-  PetscCall(VecGetArrayRead(held, &h));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (PetscAbsScalar(h[i]) > 1e-12) chained = tied[i];
-  }
-  PetscCall(VecRestoreArrayRead(held, &h));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties", sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
-  PetscCall(VecDestroy(&is_tied));
-  PetscCall(VecDestroy(&held));
-  PetscFunctionReturn(0);
-}
-
-/* Nor hang: the forces that it ties would not be those of a uniform stress */
-static PetscErrorCode TiesCheckHanging(Simulation sim, const PetscInt tied[])
-{
-  PetscInt start, end, hangs = -1;
-  Mat      means;
-
-  PetscFunctionBegin;
-  PetscCall(MeshGetHanging(sim->dm, &means));
-  if (!means) PetscFunctionReturn(0);
-  PetscCall(MatGetOwnershipRange(means, &start, &end));
-  for (PetscInt i = start; i < end; ++i) {
-    PetscInt n;
-
-    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
-    if (n && tied[i - start] >= 0) hangs = tied[i - start];
-    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange the two faces", sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
-  PetscFunctionReturn(0);
-}
-
-/* Longest row of this rank */
-static PetscErrorCode TiesLongestRow(Mat all, PetscInt *longest)
-{
-  PetscInt start, end, n;
-
-  PetscFunctionBegin;
-  *longest = 1;
-  PetscCall(MatGetOwnershipRange(all, &start, &end));
-  for (PetscInt i = start; i < end; ++i) {
-    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
-    *longest = PetscMax(*longest, n);
-    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* The matrix of the ties alone, and its rows that follow others; all: of nodes */
-static PetscErrorCode TiesExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C, PetscBool follows[])
-{
-  PetscInt nlocal, rstart, start, longest;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
-  PetscCall(MatGetOwnershipRange(all, &start, NULL));
-  PetscCall(TiesLongestRow(all, &longest));
-  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
-  for (PetscInt i = 0; i < nlocal; ++i) {
-    const PetscInt     row = rstart + i, node = i / 3;
-    PetscInt           n;
-    const PetscInt    *columns;
-    const PetscScalar *values;
-
-    if (tied[node] < 0 || prescribed[i]) {
-      PetscCall(MatSetValue(*C, row, row, 1.0, INSERT_VALUES));
-      continue;
-    }
-    follows[i] = PETSC_TRUE;
-    PetscCall(MatGetRow(all, start + node, &n, &columns, &values));
-    for (PetscInt k = 0; k < n; ++k) {
-      if (PetscAbsScalar(values[k]) > 1e-14) PetscCall(MatSetValue(*C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
-    }
-    PetscCall(MatRestoreRow(all, start + node, &n, &columns, &values));
-  }
-  PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-/* NULL where no faces are tied */
-static PetscErrorCode TiesCreateJoints(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
-{
-  PetscInt n, *tied;
-  Mat      all;
-
-  PetscFunctionBegin;
-  *C = NULL;
-  if (!sim->scene->nties) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(PetscMalloc1(n / 3, &tied));
-  for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
-  PetscCall(TiesCollect(sim, &all, tied));
-  PetscCall(TiesCheckChains(sim, all, tied));
-  PetscCall(TiesCheckHanging(sim, tied));
-  PetscCall(TiesExpand(sim, all, tied, prescribed, C, follows));
-  PetscCall(MatDestroy(&all));
-  PetscCall(PetscFree(tied));
-  PetscFunctionReturn(0);
-}
-
 /* NULL where no vertex hangs; those of faces with prescribed displacements have theirs */
 static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
@@ -183,7 +32,7 @@ static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescrib
     hangs[i - start] = n ? 0 : -1;
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
-  PetscCall(TiesExpand(sim, means, hangs, prescribed, C, follows));
+  PetscCall(JointsExpand(sim, means, hangs, prescribed, C, follows));
   PetscCall(PetscFree(hangs));
   PetscFunctionReturn(0);
 }
@@ -223,6 +72,19 @@ static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TiesCreateIdentity(Vec layout, Mat *identity)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(layout, &start, &end));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)layout), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, identity));
+  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(*identity, i, i, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(*identity, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*identity, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
 /* C, of all but rigid bodies, is the second factor to R, if there are any that forces drive */
 static PetscErrorCode TiesJoinRigid(Simulation sim)
 {
@@ -256,12 +118,13 @@ PetscErrorCode TiesCreate(Simulation sim)
   PetscCall(PetscCalloc2(n, &prescribed, n, &follows));
   PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
   PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
-  PetscCall(TiesCreateJoints(sim, prescribed, &joints, follows));
+  PetscCall(JointsCreate(sim, prescribed, &joints, follows));
   PetscCall(TiesCreateHanging(sim, prescribed, &ties->hanging, follows));
   PetscCall(RigidCreate(sim, prescribed, follows));
-  if (planes || joints || ties->hanging || sim->rigid.R) {
+  if (planes || joints || ties->hanging || sim->rigid.R || sim->springs.between) {
     PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
     PetscCall(TiesJoinRigid(sim));
+    if (!ties->C) PetscCall(TiesCreateIdentity(sim->path.u, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));
     PetscCall(PetscMalloc1(n, &ties->rows));
     for (PetscInt i = 0; i < n; ++i) {
@@ -376,7 +239,6 @@ static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
 /* C^T K C, with a place for every diagonal entry: that of the tied rows is not among the products */
 static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
 {
-  PetscInt  start, end;
   PetscBool aij;
   Mat       identity, K = ties->K;
 
@@ -385,11 +247,7 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
   PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
   if (!aij) PetscCall(MatDestroy(&K));
-  PetscCall(VecGetOwnershipRange(diagonal, &start, &end));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)diagonal), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &identity));
-  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(identity, i, i, 1.0, INSERT_VALUES));
-  PetscCall(MatAssemblyBegin(identity, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(identity, MAT_FINAL_ASSEMBLY));
+  PetscCall(TiesCreateIdentity(diagonal, &identity));
   PetscCall(MatAXPY(*tied, 1.0, identity, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatAXPY(*tied, -1.0, identity, SUBSET_NONZERO_PATTERN));
   PetscCall(MatDestroy(&identity));
@@ -412,6 +270,7 @@ PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
   PetscCall(TiesMultiply(ties, diagonal, &tied));
+  PetscCall(CouplingsAddStiffness(sim, ties->C, tied));
   if (sim->rigid.R) PetscCall(RigidAddStiffness(sim, ties->C, diagonal, tied));
   PetscCall(TiesClearRows(sim, diagonal, tied));
   PetscCall(MatSetBlockSize(tied, 3));
