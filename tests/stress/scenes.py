@@ -41,6 +41,38 @@ def lost():
     return two_block(slab_lower=(-4.5, -2, -136.5), height=100, push=-32)
 
 
+def rubbing(law, force=(0.0,), moves=None, pressure=300.0, height=0.5, lift=0.0, wedge=False):
+    """A block on a plate, under a pressure, pushed by forces or moved by its top, a load step an entry; `wedge`: squeezed by a second plate in place of the pressure."""
+    factors = {"factors": [1] * len(moves or force)}
+    scene = {
+        "bodies": [
+            box("ground", (-0.5, -0.5, -0.5), (2.5, 1.5, 0), (6, 4, 2), 1e5, 0.3),
+            box("block", (0, 0, lift), (2, 1, lift + height), (5, 3, 2), 1e5, 0.3),
+        ],
+        "displacements": [{"fix": {"face": "ground.zmin", "value": [0, 0, 0]}}],
+        "contact": [{"joint": {"mortar": "ground.zmax", "nonmortar": "block.zmin", **law}}],
+        "load": factors,
+        "ramps": [],
+    }
+    if moves:
+        for c, axis in enumerate("xyz"):
+            value = ["free"] * 3
+            value[c] = 1
+            scene["displacements"].append({f"move{axis}": {"face": "block.zmax", "value": value, "ramp": axis}})
+            scene["ramps"].append({axis: {"factors": [move[c] for move in moves]}})
+    else:
+        scene["pressures"] = [{"press": {"face": "block.zmax", "value": pressure}}]
+        scene["forces"] = [{"push": {"face": "block.zmin" if height < 1 else "block.zmax", "value": [1, 0, 0], "ramp": "across"}}]
+        scene["ramps"].append({"across": {"factors": list(force)}})
+    if wedge:
+        scene["bodies"].append(box("lid", (-0.5, -0.5, lift + height), (2.5, 1.5, lift + height + 0.5), (7, 4, 2), 1e5, 0.3))
+        scene["displacements"].append({"down": {"face": "lid.zmax", "value": [0, 0, -0.005]}})
+        scene["contact"].append({"lid": {"mortar": "lid.zmin", "nonmortar": "block.zmax", **law}})
+        del scene["pressures"]
+        scene["forces"][0]["push"]["face"] = "block.xmin"
+    return scene
+
+
 def stack(cells, gap=0.0, held=True, young=(100.0, 1000.0, 100.0), weight=1.0, **top):
     """Blocks of unit height on each other, on a fixed one, under gravity alone. `held`: their sides cannot slide away."""
     bodies, contact, symmetry = [], [], []

@@ -79,6 +79,32 @@ def loads():
         yield Row("load, neo-Hookean", f"{factor:g}", scene, quick=factor in (1e-8, 10), end="converges" if factor < 2 else "says so" if factor >= 4.2 else "converges or says so")
 
 
+def shear(run):
+    return run.last["pairs"][0]["shear_force"] / run.last["pairs"][0]["normal_force"]
+
+
+def friction():
+    """What friction can do to a solver; laws that are none are refused"""
+    path = [(0, 0, -0.002), (0.02, 0, -0.002)]
+    for mu in (1e-6, 1e-3, 0.3, 1, 10):
+        law = [("friction over normal force", shear, mu, 2e-3)] if mu <= 0.3 else []
+        yield Row("friction", f"coefficient {mu:g}, block moved by its top", scenes.rubbing({"friction": mu}, moves=path), checks=law, quick=mu in (1e-6, 10))
+    yield Row("friction", "pushed by 0.99 of what holds", scenes.rubbing({"friction": 0.3}, force=(0, 178.2)), checks=[("friction over normal force", shear, 0.297, 2e-2)], quick=True)
+    yield Row("friction", "pushed by 1.01 of what holds: slides away", scenes.rubbing({"friction": 0.3}, force=(0, 181.8)), end="says so", reference=False, quick=True)
+    yield Row("friction", "pulled off", scenes.rubbing({"friction": 0.3}, pressure=-300), end="says so", reference=False, quick=True)
+    yield Row("friction", "turned back twice", scenes.rubbing({"friction": 0.3}, moves=[*path, (-0.02, 0, -0.002), (0.02, 0, -0.002)]), checks=[("friction over normal force", shear, 0.3, 2e-3)])
+    yield Row("friction", "opens and closes again", scenes.rubbing({"friction": 0.3}, moves=[*path, (0.02, 0, 0.01), (0.04, 0, -0.002)]), quick=True)
+    yield Row("friction", "closes while it slides", scenes.rubbing({"friction": 0.3}, moves=[(0.02, 0, -0.007)], lift=0.005), checks=[("friction over normal force", shear, 0.3, 2e-3)])
+    yield Row("friction", "opens while it slides", scenes.rubbing({"friction": 0.3}, moves=[*path, (0.04, 0, 0.01)]), checks=[("force", untouched, 0, 1e-7)])
+    yield Row("friction", "no pair in contact", scenes.rubbing({"friction": 0.3}, moves=[(0.02, 0, -0.002)], lift=0.1), checks=[("force", untouched, 0, 1e-7)], quick=True)
+    for mu in (1, 3, 100):
+        yield Row("friction", f"coefficient {mu}, half of the base lifts off", scenes.rubbing({"friction": mu}, force=(0, 125, 250), height=2), quick=mu == 100)
+    for mu in (0.3, 3):
+        yield Row("friction", f"coefficient {mu:g}, squeezed between plates and pushed", scenes.rubbing({"friction": mu}, force=(0, 300), wedge=True), quick=mu == 3)
+    for key, value in (("friction", -0.3), ("friction", "nan"), ("fricton", 0.3), ("shear_limit", -1)):
+        yield Row("friction", f"{key}: {value}", scenes.rubbing({key: value}), end="is refused", reference=False)
+
+
 def structures():
     two, three = [(3, 3, 3), (4, 4, 3)], [(3, 3, 3), (4, 4, 3), (5, 5, 2)]
     weight = ("weight", nonmortar_force)
@@ -134,6 +160,7 @@ def rows(folder, refine):
                 row.options = ["-refine", refine, *row.options]
         yield once(row)
     yield from map(once, structures())
+    yield from friction()
     yield from map(once, points(folder))
 
 
