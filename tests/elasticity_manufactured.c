@@ -339,6 +339,9 @@ int main(int argc, char **argv)
       test:
          suffix: estimate_distorted
          args: -distance 0.15 -order 2
+      test:
+         suffix: estimate_tetrahedra
+         args: -tetrahedra -order {{1 2}separate output} -below 0.4 -curved
 
    testset:
       args: -order 2 -pc_type pbjacobi
