@@ -35,6 +35,8 @@ PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
 /* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body
    (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
+/* A pressure on the deformed normal and area at u, and the symmetric part of its derivative, in a matrix from ElasticityCreateTangent(), or NULL */
+PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[], PetscReal pressure, Vec u, Vec force, Mat slope);
 PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[], Vec areas);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
 /* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */

@@ -122,11 +122,12 @@ typedef struct {
   PetscInt          ramp;
 } SceneDisplacement;
 
-/* Dead load: -value x normal of the reference face */
+/* -value x normal of the reference face, a dead load, or of the deformed one */
 typedef struct {
   char     *name;
   char     *face;
-  PetscReal value; /* at factor 1, positive pushes on the body [force/length^2] */
+  PetscBool follows; /* the deformed normal and area */
+  PetscReal value;   /* at factor 1, positive pushes on the body [force/length^2] */
   PetscInt  ramp;
 } ScenePressure;
 

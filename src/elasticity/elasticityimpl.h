@@ -217,12 +217,13 @@ typedef struct {
   PetscReal X[FACET_MAX_NODES][3];
 } Facet;
 
+PETSC_INTERN void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3]);
 PETSC_INTERN void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[]);
 /* Quadrature of a facet of n nodes, with so many Gauss points per direction, 2 or 3: place and weight of point q */
 PETSC_INTERN PetscReal      FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscReal *s, PetscReal *t);
 PETSC_INTERN PetscErrorCode FacetGet(Elasticity, PetscInt point, const PetscScalar x[], Facet *);
 
-/* force.c, stress.c, loads.c, faces.c: loops over the cells and facets, all of them public */
+/* force.c, stress.c, loads.c, faces.c, follower.c: loops over the cells and facets, all of them public */
 
 /* constant.c: the bodies whose tangent is constant, and which of them are kept when a tangent is assembled again */
 PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);

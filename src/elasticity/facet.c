@@ -61,6 +61,30 @@ void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal N
   }
 }
 
+/* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
+   are exact, or 3 x 3; as on triangles with 3 or 6, where the degree is 1, or 4 */
+void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
+{
+  const PetscInt npoints = n <= 4 ? 2 : 3;
+
+  for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
+  for (PetscInt q = 0; q < npoints * npoints; ++q) {
+    PetscReal       N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
+    const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
+
+    FacetShape(n, s, t, N, Ns, Nt);
+    for (PetscInt a = 0; a < n; ++a) {
+      for (int d = 0; d < 3; ++d) {
+        xs[d] += Ns[a] * X[a][d];
+        xt[d] += Nt[a] * X[a][d];
+      }
+    }
+    for (PetscInt a = 0; a < n; ++a) {
+      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+    }
+  }
+}
+
 /* A facet of this rank; x: coordinates of the nodes */
 PetscErrorCode FacetGet(Elasticity e, PetscInt point, const PetscScalar x[], Facet *facet)
 {

@@ -120,30 +120,6 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
-   are exact, or 3 x 3; as on triangles with 3 or 6, where the degree is 1, or 4 */
-static void ElasticityFacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
-{
-  const PetscInt npoints = n <= 4 ? 2 : 3;
-
-  for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
-  for (PetscInt q = 0; q < npoints * npoints; ++q) {
-    PetscReal       N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
-    const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
-
-    FacetShape(n, s, t, N, Ns, Nt);
-    for (PetscInt a = 0; a < n; ++a) {
-      for (int d = 0; d < 3; ++d) {
-        xs[d] += Ns[a] * X[a][d];
-        xt[d] += Nt[a] * X[a][d];
-      }
-    }
-    for (PetscInt a = 0; a < n; ++a) {
-      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
-    }
-  }
-}
-
 /* The vectors of a facet's nodes are those of the bilinear facets, or triangles, that they cut it into */
 static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
 {
@@ -154,7 +130,7 @@ static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
     PetscReal      X[4][3], f[4][3];
 
     for (PetscInt i = 0; i < 3 * n; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
-    ElasticityFacetNormals(n, X, f);
+    FacetNormals(n, X, f);
     for (PetscInt i = 0; i < 3 * n; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
   }
 }
@@ -184,7 +160,7 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
 
     PetscCall(FacetGet(e, f[i], x, &facet));
     if (cut && facet.n > 4) ElasticityPieceNormals(&facet, F);
-    else ElasticityFacetNormals(facet.n, facet.X, F);
+    else FacetNormals(facet.n, facet.X, F);
     for (PetscInt a = 0; a < facet.n; ++a) {
       for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += factor * F[a][d];
     }

@@ -183,7 +183,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
   for (PetscInt p = 0; p < scene->npressures; ++p) {
     const ScenePressure *here = &scene->pressures[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g, follows %s\n", here->name, here->face, (double)here->value, scene->ramps[here->ramp].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g%s, follows %s\n", here->name, here->face, (double)here->value, here->follows ? " on the deformed face" : "", scene->ramps[here->ramp].name));
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     const SceneTraction *here = &scene->tractions[t];

@@ -1,4 +1,4 @@
-/* pressures and body_forces: lists of named dead loads */
+/* pressures and body_forces: lists of named loads */
 #include "sceneimpl.h"
 
 PetscErrorCode SceneReadPressures(SceneKeys keys, Scene scene)
@@ -19,6 +19,9 @@ PetscErrorCode SceneReadPressures(SceneKeys keys, Scene scene)
     PetscCall(PetscSNPrintf(key, sizeof(key), "pressures_%s_value", pressure->name));
     PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
     if (text) PetscCall(SceneParseReal(keys, key, text, &pressure->value));
+    PetscCall(PetscSNPrintf(key, sizeof(key), "pressures_%s_follows", pressure->name));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+    if (text) PetscCall(SceneParseAnswer(keys, key, text, &pressure->follows));
     PetscCall(SceneReadRampName(keys, scene, "pressures", pressure->name, &pressure->ramp));
   }
   PetscCall(PetscFree(names));

@@ -49,7 +49,14 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
 static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SceneValidateFace(comm, file, scene, "pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt p = 0; p < scene->npressures; ++p) {
+    const ScenePressure *pressure = &scene->pressures[p];
+    const char          *face     = NULL;
+
+    PetscCall(SceneValidateFace(comm, file, scene, "pressure", pressure->name, pressure->face));
+    SceneRequire(!pressure->follows || MaterialIsFinite(&scene->bodies[SceneFindBody(scene, pressure->face, &face)].material), "%s: pressure \"%s\" follows the face \"%s\" of a body of small strain, whose normals do not turn: take a law of finite strain, as neohookean, or a dead pressure", file, pressure->name, pressure->face);
+    SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY, "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file, pressure->name);
+  }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     if (!SceneIsWholeBody(scene->tractions[t].face)) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
   }

@@ -57,6 +57,7 @@ static PetscErrorCode SceneViewPressure(Scene scene, PetscViewer viewer, PetscIn
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, value: ", pressure->name, pressure->face));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   PetscCall(SceneViewReal(viewer, pressure->value));
+  if (pressure->follows) PetscCall(PetscViewerASCIIPrintf(viewer, ", follows: true"));
   PetscCall(SceneViewRampName(scene, viewer, pressure->ramp));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);

@@ -23,18 +23,19 @@ static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u,
 
 static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
-  PetscInt  ncentres = 0;
+  PetscInt  nsolves = 0;
   PetscBool again;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   do {
     if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
-    else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, (PetscBool)(resume || ncentres), u, report));
-    else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, (PetscBool)(resume || ncentres), u, report, sol));
-    else PetscCall(OptimizerSolve(p, (PetscBool)(resume || ncentres), u, report, sol));
+    else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
+    else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
+    else PetscCall(OptimizerSolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
-    PetscCall(ProximalAdvance(p, u, ++ncentres, report, &again));
+    PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
+    PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
   } while (again);
   PetscCall(LooseTest(p, u, report));
   PetscCall(RigidTest(p->sim, u, report));

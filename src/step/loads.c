@@ -24,6 +24,7 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   for (PetscInt i = 0; i < scene->npressures; ++i) {
     const ScenePressure *pressure = &scene->pressures[i];
 
+    if (pressure->follows) continue;
     PetscCall(DeadLoadsGetRamp(dm, loads, pressure->ramp, &force));
     PetscCall(ElasticityAddPressure(elasticity, pressure->face, pressure->value, force));
   }

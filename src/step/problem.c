@@ -24,6 +24,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
   PetscCall(TemperaturesApply(&sim->temperatures, time));
+  PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
@@ -92,6 +93,8 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->g));
   PetscCall(VecDestroy(&p->base));
   PetscCall(VecDestroy(&p->centre));
+  PetscCall(VecDestroy(&p->followed));
+  PetscCall(GapSecantsDestroy(&p->secants));
   PetscCall(VecDestroy(&p->load));
   PetscCall(VecDestroy(&p->force));
   PetscCall(VecDestroy(&p->lower));

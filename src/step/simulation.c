@@ -247,6 +247,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
   PetscCall(TiesDestroy(&s->ties));
+  PetscCall(MatDestroy(&s->follows));
   PetscCall(RigidDestroy(&s->rigid));
   PetscCall(VertexPlacesDestroy(&s->places));
   PetscCall(KSPDestroy(&s->ksp));

@@ -223,6 +223,7 @@ struct _n_Simulation {
   Springs              springs;
   RigidBodies          rigid;
   Ties                 ties;
+  Mat                  follows; /* slope of the pressures that follow their faces, of followers.c; NULL before there is one [force/length] */
   VertexPlaces         places;
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
@@ -313,6 +314,19 @@ PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 
+/* secants.c: where the gap, or a load, is linearized next, within one solve; begins as all zeros */
+#define GAP_SECANTS 2
+typedef struct {
+  PetscInt  n, stalls;              /* solutions; the last ones without progress */
+  PetscReal least;                  /* change of the gap so far [length] */
+  Vec       u, way;                 /* the last solution, and the way to it from where the gap was linearized [length] */
+  Vec       solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
+  Vec       ways[GAP_SECANTS];      /* the same of the ways [length] */
+} GapSecants;
+
+PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
+
 /*
    problem.c: min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
 
@@ -330,12 +344,14 @@ typedef struct {
   PetscReal  time;
   Mat        K;
   Vec        base;
-  Vec        load;   /* dead load [force]; NULL if there is none */
+  Vec        load;   /* dead load, and that which follows faces at p->followed [force]; NULL if there is none */
   Vec        force;  /* gradient at base, zero on prescribed rows [force] */
   PetscReal  energy; /* objective at base; of the quadratic model only */
   Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec        g;
   Vec        lower, upper; /* NULL without bounds */
+  GapSecants secants;      /* where the load is taken next */
+  Vec        followed;     /* displacement at which the load is taken; NULL where no pressure follows its face */
   Vec        centre;       /* of proximal.c; NULL where forces drive no rigid body */
   PetscReal  carried;      /* what was left between the last solution and its centre [force] */
   Vec        w, Kw;
@@ -350,6 +366,11 @@ PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* Callbacks of TAO, also in quadratic.c and energy.c; the context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
+
+/* followers.c */
+PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
 /* proximal.c */
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
@@ -405,19 +426,6 @@ PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
 /* rest.c: a load step back to where nothing is asked for */
 PETSC_INTERN PetscErrorCode RestIsDue(const StepProblem *, PetscBool *);
 PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *, ContactSolution *, PetscBool *rests);
-
-/* secants.c: where the gap is linearized next, within one solve; begins as all zeros */
-#define GAP_SECANTS 2
-typedef struct {
-  PetscInt  n, stalls;              /* solutions; the last ones without progress */
-  PetscReal least;                  /* change of the gap so far [length] */
-  Vec       u, way;                 /* the last solution, and the way to it from where the gap was linearized [length] */
-  Vec       solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
-  Vec       ways[GAP_SECANTS];      /* the same of the ways [length] */
-} GapSecants;
-
-PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
-PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);

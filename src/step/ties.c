@@ -254,7 +254,7 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   PetscFunctionReturn(0);
 }
 
-/* The bodies' stiffness at u, of the tied displacements where faces are tied */
+/* The bodies' stiffness at u less the slope of loads that follow, of the tied displacements where faces are tied */
 PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
 {
   Ties *ties = &sim->ties;
@@ -264,9 +264,11 @@ PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
   PetscFunctionBegin;
   if (!ties->C) {
     PetscCall(ElasticityTangent(sim->elasticity, u, K));
+    if (sim->follows) PetscCall(MatAXPY(K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
     PetscFunctionReturn(0);
   }
   PetscCall(ElasticityTangent(sim->elasticity, u, ties->K));
+  if (sim->follows) PetscCall(MatAXPY(ties->K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
   PetscCall(TiesMultiply(ties, diagonal, &tied));

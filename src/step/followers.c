@@ -1,0 +1,113 @@
+/*
+   Pressures that follow the faces they push on. Within a solve their load is linear in the displacement: that about a centre and its slope there, the symmetric part, which has
+   an energy. The centre goes to the solution until the load there is the one it was found with: Newton's method, where the slope is symmetric as a whole.
+*/
+#include "stepimpl.h"
+
+static const PetscInt max_followed = 50;
+
+static PetscBool FollowersAny(Scene scene)
+{
+  PetscBool any = PETSC_FALSE;
+
+  for (PetscInt p = 0; p < scene->npressures; ++p) any = (PetscBool)(any || scene->pressures[p].follows);
+  return any;
+}
+
+/* load: dead loads and those that follow, at u; slope: NULL, or of the latter */
+static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
+{
+  Simulation sim = p->sim;
+
+  PetscFunctionBegin;
+  PetscCall(DeadLoadsGet(&sim->loads, p->time, load));
+  if (!*load) {
+    PetscCall(VecDuplicate(u, load));
+    PetscCall(VecZeroEntries(*load));
+  }
+  if (slope) PetscCall(MatZeroEntries(slope));
+  for (PetscInt i = 0; i < sim->scene->npressures; ++i) {
+    const ScenePressure *pressure = &sim->scene->pressures[i];
+    PetscReal            factor;
+
+    if (!pressure->follows) continue;
+    PetscCall(SceneGetFactor(sim->scene, pressure->ramp, p->time, &factor));
+    PetscCall(ElasticityAddFollower(sim->elasticity, pressure->face, factor * pressure->value, u, *load, slope));
+  }
+  if (!slope) PetscFunctionReturn(0);
+  PetscCall(MatAssemblyBegin(slope, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(slope, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Loads about the centre that there is */
+static PetscErrorCode FollowersLinearize(StepProblem *p)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->load));
+  PetscCall(FollowersGet(p, p->followed, &p->load, p->sim->follows));
+  PetscFunctionReturn(0);
+}
+
+/* In place of the dead loads, about the base */
+PetscErrorCode FollowersBegin(StepProblem *p)
+{
+  Simulation sim = p->sim;
+
+  PetscFunctionBegin;
+  if (!FollowersAny(sim->scene)) PetscFunctionReturn(0);
+  if (!sim->follows) PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->follows));
+  PetscCall(VecDuplicate(p->base, &p->followed));
+  PetscCall(VecCopy(p->base, p->followed));
+  PetscCall(FollowersLinearize(p));
+  PetscFunctionReturn(0);
+}
+
+/* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they are in p->load */
+PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
+{
+  Vec         way, product;
+  PetscScalar twice;
+
+  PetscFunctionBegin;
+  if (!p->followed) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecDuplicate(u, &product));
+  PetscCall(VecWAXPY(way, -1.0, p->followed, u));
+  PetscCall(MatMult(p->sim->follows, way, product));
+  PetscCall(VecDot(product, way, &twice));
+  *energy -= 0.5 * PetscRealPart(twice);
+  if (force) PetscCall(VecAXPY(force, -1.0, product));
+  PetscCall(VecDestroy(&product));
+  PetscCall(VecDestroy(&way));
+  PetscFunctionReturn(0);
+}
+
+/* Whether a solve that has converged to u is to be followed by another one, about u; p->load is that at u then or at the end */
+PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
+{
+  const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
+  PetscReal       off, size, energy = 0.0;
+  PetscBool       damped;
+  Vec             linear, load;
+
+  PetscFunctionBegin;
+  if (!p->followed || !report->converged) PetscFunctionReturn(0);
+  PetscCall(FollowersGet(p, u, &load, NULL));
+  PetscCall(VecDuplicate(load, &linear));
+  PetscCall(VecCopy(load, linear));
+  PetscCall(VecAXPY(linear, -1.0, p->load));
+  PetscCall(FollowersSubtract(p, u, &energy, linear));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, linear));
+  PetscCall(VecNorm(linear, NORM_2, &off));
+  PetscCall(VecNorm(load, NORM_2, &size));
+  PetscCall(VecDestroy(&linear));
+  PetscCall(VecDestroy(&load));
+  if (off <= tolerance * size) PetscCall(VecCopy(u, p->followed));
+  else if (nsolves < max_followed) {
+    PetscCall(GapSecantsAdvance(&p->secants, off, u, p->followed, &damped));
+    *again = PETSC_TRUE;
+  } else PetscCall(ReportReason(report, PETSC_FALSE, "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
+  PetscCall(FollowersLinearize(p));
+  PetscFunctionReturn(0);
+}
