@@ -77,6 +77,24 @@ def rigid(scene):
     scene.add("contact", "side: {mortar: wall.xmax, nonmortar: low.xmin}")
 
 
+def driven(scene):
+    """By a force, along x"""
+    rigid(scene)
+    scene.lists["displacements"][-1] = "shove: {body: wall, value: [free, 0, 0]}"
+    scene.add("forces", "push: {body: wall, value: [0.02, 0, 0]}")
+
+
+def pad(scene):
+    scene.bodies += BODY % ("lid", [0.5, 0.5, 2.1], [2.5, 1.5, 2.5], LAW)
+    scene.add("pressures", "lid: {face: lid.zmax, value: 0.02}")
+    scene.add("springs", "pad: {face: lid.zmin, to: top.zmax, value: [1, 1, 4], distance: 0.2}")
+
+
+def follows(scene):
+    scene.law = {name: "material: neohookean, " + old for name, old in scene.law.items()}
+    scene.add("pressures", "blow: {face: low.ymax, value: 0.05, follows: true}")
+
+
 def rotation(scene):
     scene.lists["displacements"][0] = "floor: {face: low.zmin, value: [0, 0, 0], rotation: [0, 0, 0.2], center: [1.5, 1, 0]}"
 
@@ -129,6 +147,9 @@ EFFECTS = {
     "order 2 below": order_low,
     "tie": tie,
     "rigid body": rigid,
+    "driven by force": driven,
+    "pad": pad,
+    "follower": follows,
     "rotation": rotation,
     "inclined plane": entry("symmetry", "cut: {face: low.xmin, normal: [1, 1, 0]}"),
     "point": entry("displacements", "pin: {body: low, point: [3, 2, 1], value: [free, 0, free]}"),
@@ -191,7 +212,7 @@ def judge(names):
 
 
 # By themselves only: they change nothing of what is solved, or little
-ALONE = {"Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "body force", "expression"}
+ALONE = {"pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "body force", "expression"}
 TABLE = {}
 for pair in itertools.chain(((name,) for name in EFFECTS), itertools.combinations([name for name in EFFECTS if name not in ALONE or len(sys.argv) > 1], 2)):
     first = [line.split(":")[0] for name in pair for scene in [Scene()] for _ in [EFFECTS[name](scene)] for text in scene.top for line in text.split("\n")]

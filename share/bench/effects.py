@@ -31,6 +31,10 @@ EFFECTS = {
     "pressure": ("", "ramps:\n  - blow: {factors: [1]}\nload: {steps: 1}\n"),
     "body force": ("", "ramps:\n  - weight: {factors: [1]}\nload: {steps: 1}\n"),
     "displacement bounds": ("", "displacement_bounds: 0\n"),
+    "weak springs": ("", "weak_springs: false\n"),
+    "thermal strain": (", expansion: 1e-5", ""),
+    "ramps, tables": ("", "ramps:\n  - later: {times: [0, 1], values: [0, 1]}\n"),
+    "library": ("", "materials:\n  - other: {law: mooney_rivlin, c10: 1, c01: 1, bulk: 1}\n"),
     "AMG filter": ("", "solver: {tao_ipfilter_filter_switch: 10}\n"),
 }
 

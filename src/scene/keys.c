@@ -117,6 +117,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   char      **names, **values;
   const char *nearest, *unknown = NULL;
   size_t      shortest = 0, length;
+  PetscBool   cyclic;
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
@@ -129,6 +130,8 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
     }
   }
   if (unknown) {
+    PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
+    PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT, "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list symmetry names", keys->file);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file, unknown, nearest);
   }
