@@ -120,6 +120,28 @@ def mesh_studies(size):
     yield Study("element", "Element: full integration against mean dilatation (bbar)", "mesh", panels, costs=("time", "applications", "memory"))
 
 
+# name: keys of every body, and options; a target in place of a mesh refines by itself
+ELEMENTS = {"full": (), "bbar": (("element", "bbar"),), "incompatible": (("element", "incompatible"),), "order 2": (("order", "2"),), "order 2, bbar": (("order", "2"), ("element", "bbar"))}
+REFINED_BY = {"uniform": (), "adaptive": ("-accuracy_adaptive",), "order 2": ("-accuracy_order", "2")}
+ELEMENT_MESHES = {
+    "tiny": {},
+    "quick": {"hertz_cylinder": ("coarse",), "cantilever": ("0",)},
+    "full": {"hertz_cylinder": ("coarse", "medium", "0"), "cantilever": ("0", "1")},
+}
+
+
+def element_studies(size):
+    """Every element on the same meshes; one mesh refined everywhere, where the error is, or raised to order 2"""
+    panels = [Panel(p, "", [Series(name, [(level, Case(p, level, body=body)) for level in levels]) for name, body in ELEMENTS.items()]) for p, levels in ELEMENT_MESHES[size].items()]
+    yield Study("elements", "Every element", "mesh", panels, costs=("time", "memory"))
+    targets = ("1e-2", "3e-3", "1e-3") if size == "full" else ("1e-2",)
+    panels = []
+    for problem, levels in ELEMENT_MESHES[size].items():
+        lines = [Series(name, [(target, Case(problem, levels[0], ("-accuracy", target, *options), work=8)) for target in targets]) for name, options in REFINED_BY.items()]
+        panels.append(Panel(problem, levels[0], lines))
+    yield Study("refined", "Refinement: everywhere, where the error is, by order", "target", panels, costs=("time", "memory"), needs="-accuracy_order")
+
+
 def algebraic_studies(size):
     tight = (IP + "tol", "1e-11")
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
@@ -261,7 +283,7 @@ def roofline_study(size):
     yield Study("roofline", "Share of the memory bandwidth", "mesh", [Panel("two_block", "", lines)], kind="roofline")
 
 
-MAKERS = (mesh_studies, algebraic_studies, path_studies, formulation_studies, preconditioner_studies, subspace_studies, rank_study, accuracy_study, baseline_study, growth_study, roofline_study)
+MAKERS = (mesh_studies, element_studies, algebraic_studies, path_studies, formulation_studies, preconditioner_studies, subspace_studies, rank_study, accuracy_study, baseline_study, growth_study, roofline_study)
 
 
 def studies(size):
