@@ -90,6 +90,7 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
     PetscCheck(body->element != ELEMENT_INCOMPATIBLE, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has element incompatible, which is of order 1: take full or bbar", body->name);
     PetscCheck(body->order || body->shape != SHAPE_GMSH, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has the order of its mesh file's cells: say order: 1, from which it is raised", body->name);
   }
+  PetscCheck(!acc->order || !scene->nrefinements, acc->comm, PETSC_ERR_SUP, "-accuracy_order 2 does not go with refinements, which the scene has: only hexahedra of order 1 are refined locally");
   for (PetscInt i = 0; i < scene->nprobes; ++i) npoints += !scene->probes[i].line;
   PetscCheck(acc->of != ACCURACY_DISPLACEMENT || npoints, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_of displacement is that of the scene's probes, and it has none at a point");
   PetscFunctionReturn(0);
