@@ -407,8 +407,8 @@ static PetscErrorCode EndSolve(Tao tao)
 
 PetscErrorCode TaoSolve_IPFilter(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscBool     finite, other_operator;
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscBool     finite = PETSC_TRUE, other_operator;
 
   PetscFunctionBegin;
   PetscCall(IPSetUpSizes(tao));
