@@ -66,20 +66,8 @@ PetscErrorCode FollowersBegin(StepProblem *p)
 /* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they are in p->load */
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {
-  Vec         way, product;
-  PetscScalar twice;
-
   PetscFunctionBegin;
-  if (!p->followed) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &way));
-  PetscCall(VecDuplicate(u, &product));
-  PetscCall(VecWAXPY(way, -1.0, p->followed, u));
-  PetscCall(MatMult(p->sim->follows, way, product));
-  PetscCall(VecDot(product, way, &twice));
-  *energy -= 0.5 * PetscRealPart(twice);
-  if (force) PetscCall(VecAXPY(force, -1.0, product));
-  PetscCall(VecDestroy(&product));
-  PetscCall(VecDestroy(&way));
+  if (p->followed) PetscCall(CentredAdd(-1.0, p->sim->follows, NULL, p->followed, u, energy, force));
   PetscFunctionReturn(0);
 }
 

@@ -11,20 +11,8 @@ static const PetscReal stuck = 0.9;
 /* force += held (x - centre), with its energy; force may be NULL */
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
 {
-  Vec         way, product;
-  PetscScalar twice;
-
   PetscFunctionBegin;
-  if (!p->centre) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(x, &way));
-  PetscCall(VecDuplicate(x, &product));
-  PetscCall(VecWAXPY(way, -1.0, p->centre, x));
-  PetscCall(VecPointwiseMult(product, p->sim->rigid.held, way));
-  PetscCall(VecDot(product, way, &twice));
-  *energy += 0.5 * PetscRealPart(twice);
-  if (force) PetscCall(VecAXPY(force, 1.0, product));
-  PetscCall(VecDestroy(&product));
-  PetscCall(VecDestroy(&way));
+  if (p->centre) PetscCall(CentredAdd(1.0, NULL, p->sim->rigid.held, p->centre, x, energy, force));
   PetscFunctionReturn(0);
 }
 

@@ -367,6 +367,9 @@ PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
+/* centred.c */
+PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force);
+
 /* followers.c */
 PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
