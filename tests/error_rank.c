@@ -80,7 +80,8 @@ static PetscErrorCode TestScene(void)
 }
 
 static PetscErrorCode (*given)(size_t, PetscBool, int, const char[], const char[], void **);
-static const char *starved; /* the function that gets no memory on the first rank */
+static const char *starved; /* the function that gets no memory */
+static PetscMPIInt hungry;  /* on this rank */
 static PetscInt    denied;
 
 static PetscErrorCode DenyMemory(size_t n, PetscBool clear, int line, const char function[], const char file[], void **result)
@@ -88,24 +89,28 @@ static PetscErrorCode DenyMemory(size_t n, PetscBool clear, int line, const char
   PetscMPIInt rank;
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank || !function || strcmp(function, starved)) return (*given)(n, clear, line, function, file, result);
+  if (rank != hungry || !function || strcmp(function, starved)) return (*given)(n, clear, line, function, file, result);
   ++denied;
   return PetscError(PETSC_COMM_SELF, line, function, file, PETSC_ERR_MEM, PETSC_ERROR_INITIAL, "no memory in %s()", function);
 }
 
-static PetscErrorCode CreateStarved(const SceneBody *body, const char function[])
+/* On the first rank, or on the last */
+static PetscErrorCode CreateStarved(const SceneBody *body, const char function[], PetscBool last)
 {
   DM             dm;
   PetscErrorCode ierr;
+  PetscMPIInt    size;
 
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  hungry        = last ? size - 1 : 0;
   denied        = 0;
   starved       = function;
   given         = PetscTrMalloc;
   PetscTrMalloc = DenyMemory;
   ierr          = MeshCreate(PETSC_COMM_WORLD, 1, body, 0, &dm);
   PetscTrMalloc = given;
-  PetscCallMPI(MPI_Bcast(&denied, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(&denied, 1, MPIU_INT, hungry, PETSC_COMM_WORLD));
   PetscCheck(denied, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%s() asked for no memory", function);
   PetscCall(ierr);
   PetscFunctionReturn(0);
@@ -138,7 +143,47 @@ static PetscErrorCode TestMemory(void)
   PetscCall(WriteText(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bar\"\n$EndPhysicalNames\n"
                             "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
                             "$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n"));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(work); ++i) ATTEMPT(work[i].what, CreateStarved(&bodies[work[i].body], work[i].function));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(work); ++i) ATTEMPT(work[i].what, CreateStarved(&bodies[work[i].body], work[i].function, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* As many cubes as it takes for a file to be dealt out to three ranks */
+static PetscErrorCode WriteBricks(const char file[])
+{
+  enum {
+    N = 5
+  };
+  char  *text, *at;
+  size_t room = 64 * (N + 1) * (N + 1) * (N + 1) + 64 * N * N * N + 256;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(room, &text));
+  at = text + sprintf(text, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bricks\"\n$EndPhysicalNames\n$Nodes\n%d\n", (N + 1) * (N + 1) * (N + 1));
+  for (int v = 0; v < (N + 1) * (N + 1) * (N + 1); ++v) at += sprintf(at, "%d %d %d %d\n", v + 1, v % (N + 1), v / (N + 1) % (N + 1), v / ((N + 1) * (N + 1)));
+  at += sprintf(at, "$EndNodes\n$Elements\n%d\n", N * N * N);
+  for (int c = 0; c < N * N * N; ++c) {
+    const int v = 1 + c % N + (N + 1) * (c / N % N) + (N + 1) * (N + 1) * (c / (N * N)), up = (N + 1) * (N + 1);
+
+    at += sprintf(at, "%d 5 2 1 1 %d %d %d %d %d %d %d %d\n", c + 1, v, v + 1, v + N + 2, v + N + 1, v + up, v + up + 1, v + up + N + 2, v + up + N + 1);
+  }
+  (void)sprintf(at, "$EndElements\n");
+  PetscCall(WriteText(file, text));
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(0);
+}
+
+/* The parts of a file's mesh go out one after another: who sends and who takes may want memory */
+static PetscErrorCode TestDeal(void)
+{
+  static char     bricks[] = "bricks", file[] = "error_rank_bricks.msh";
+  const SceneBody body = {.name = bricks, .shape = SHAPE_GMSH, .gmsh = {.file = file, .volume = bricks}};
+
+  PetscFunctionBeginUser;
+  PetscCall(WriteBricks(file));
+  ATTEMPT("the parts of a mesh", CreateStarved(&body, "DealPartition", PETSC_FALSE));
+  ATTEMPT("a part on the first rank", CreateStarved(&body, "DealPartCreate", PETSC_FALSE));
+  ATTEMPT("a part on the last rank", CreateStarved(&body, "DealReceive", PETSC_TRUE));
+  ATTEMPT("the grid of a part on the last rank", CreateStarved(&body, "DealUnpack", PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -225,6 +270,7 @@ int main(int argc, char **argv)
   PetscCall(TestRanks());
   PetscCall(TestScene());
   PetscCall(TestMemory());
+  PetscCall(TestDeal());
   PetscCall(TestPrism());
   PetscCall(TestRow());
   PetscCall(PetscFinalize());

@@ -130,29 +130,26 @@ static PetscErrorCode DealFacets(Deal *deal, const ShapeGrid *grid, PetscInt fir
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DealPrepare(MPI_Comm comm, PetscInt nbodies, MeshBody meshes[], Deal *deal)
+static PetscErrorCode DealPrepare(Deal *deal)
 {
   PetscInt nfacets = 0, cell = 0, facet = 0;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &deal->nparts));
-  deal->comm    = comm;
-  deal->nbodies = nbodies;
-  deal->meshes  = meshes;
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    deal->ncells += meshes[b].grid.ncells;
-    deal->nvertices += meshes[b].grid.nvertices;
-    nfacets += meshes[b].grid.nfacets;
+  PetscCallMPI(MPI_Comm_size(deal->comm, &deal->nparts));
+  for (PetscInt b = 0; b < deal->nbodies; ++b) {
+    deal->ncells += deal->meshes[b].grid.ncells;
+    deal->nvertices += deal->meshes[b].grid.nvertices;
+    nfacets += deal->meshes[b].grid.nfacets;
   }
   PetscCall(PetscMalloc3(deal->ncells, &deal->part, deal->nparts, &deal->count, nfacets, &deal->facetpart));
   PetscCall(PetscMalloc3(deal->nvertices, &deal->owner, deal->nvertices, &deal->place, deal->nvertices, &deal->here));
   for (PetscInt v = 0; v < deal->nvertices; ++v) deal->here[v] = PETSC_DECIDE;
   PetscCall(DealPartition(deal));
   PetscCall(DealOwners(deal));
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscCall(DealFacets(deal, &meshes[b].grid, cell, facet));
-    cell += meshes[b].grid.ncells;
-    facet += meshes[b].grid.nfacets;
+  for (PetscInt b = 0; b < deal->nbodies; ++b) {
+    PetscCall(DealFacets(deal, &deal->meshes[b].grid, cell, facet));
+    cell += deal->meshes[b].grid.ncells;
+    facet += deal->meshes[b].grid.nfacets;
   }
   for (PetscInt p = 0; p < deal->nparts; ++p) {
     PetscCheck(deal->count[p] <= PETSC_MPI_INT_MAX / 128, PETSC_COMM_SELF, PETSC_ERR_SUP, "A rank's part of %" PetscInt_FMT " cells is more than a message takes; use more ranks", deal->count[p]);
@@ -299,13 +296,17 @@ static PetscErrorCode DealTake(PetscInt nbodies, const DealPart *part, MeshBody 
   PetscFunctionReturn(0);
 }
 
-/* From the first rank to another */
+/* From the first rank to another, which says first whether it has room; a part of no size at all is none, and the end of it */
 static PetscErrorCode DealSend(MPI_Comm comm, PetscInt nbodies, const DealPart *part, PetscMPIInt to)
 {
-  PetscInt counts[2] = {part->nints, part->nreals};
+  PetscInt    counts[2] = {part->sizes ? part->nints : PETSC_DECIDE, part->nreals};
+  PetscMPIInt room;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Send(counts, 2, MPIU_INT, to, 0, comm));
+  if (!part->sizes) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Recv(&room, 1, MPI_INT, to, 0, comm, MPI_STATUS_IGNORE));
+  if (!room) PetscFunctionReturn(0);
   PetscCallMPI(MPI_Send(part->sizes, (PetscMPIInt)(DEAL_SIZES * nbodies), MPIU_INT, to, 0, comm));
   PetscCallMPI(MPI_Send(part->ints, (PetscMPIInt)counts[0], MPIU_INT, to, 0, comm));
   PetscCallMPI(MPI_Send(part->reals, (PetscMPIInt)counts[1], MPIU_REAL, to, 0, comm));
@@ -314,38 +315,62 @@ static PetscErrorCode DealSend(MPI_Comm comm, PetscInt nbodies, const DealPart *
 
 static PetscErrorCode DealReceive(MPI_Comm comm, PetscInt nbodies, DealPart *part)
 {
-  PetscInt counts[2];
+  PetscErrorCode ierr;
+  PetscInt       counts[2];
+  PetscMPIInt    room;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Recv(counts, 2, MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
+  if (counts[0] < 0) PetscFunctionReturn(0);
   part->nints  = counts[0];
   part->nreals = counts[1];
-  PetscCall(PetscMalloc3(DEAL_SIZES * nbodies, &part->sizes, counts[0], &part->ints, counts[1], &part->reals));
+  ierr         = PetscMalloc3(DEAL_SIZES * nbodies, &part->sizes, counts[0], &part->ints, counts[1], &part->reals);
+  room         = !ierr;
+  PetscCallMPI(MPI_Send(&room, 1, MPI_INT, 0, 0, comm));
+  PetscCall(ierr);
   PetscCallMPI(MPI_Recv(part->sizes, (PetscMPIInt)(DEAL_SIZES * nbodies), MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
   PetscCallMPI(MPI_Recv(part->ints, (PetscMPIInt)counts[0], MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
   PetscCallMPI(MPI_Recv(part->reals, (PetscMPIInt)counts[1], MPIU_REAL, 0, 0, comm, MPI_STATUS_IGNORE));
   PetscFunctionReturn(0);
 }
 
-/* One part after another leaves the first rank, which keeps the first */
+/* One part after another leaves the first rank, which keeps the first. Where one cannot be filled the other ranks get none, for they wait for something */
 static PetscErrorCode DealSendAll(Deal *deal, DealPart *own)
 {
-  PetscFunctionBegin;
-  PetscCall(DealFill(deal, 0, own));
-  for (PetscMPIInt p = 1; p < deal->nparts; ++p) {
-    DealPart part;
+  PetscErrorCode ierr;
 
-    PetscCall(DealFill(deal, p, &part));
+  PetscFunctionBegin;
+  ierr = DealFill(deal, 0, own);
+  for (PetscMPIInt p = 1; p < deal->nparts; ++p) {
+    DealPart part = {.sizes = NULL};
+
+    if (!ierr) ierr = DealFill(deal, p, &part);
+    if (ierr) PetscCall(DealPartDestroy(&part));
     PetscCall(DealSend(deal->comm, deal->nbodies, &part, p));
     PetscCall(DealPartDestroy(&part));
   }
+  PetscCall(ierr);
+  PetscFunctionReturn(0);
+}
+
+/* On every rank, and not collective but for its messages: what fails is told to all afterwards */
+static PetscErrorCode DealExchange(Deal *deal, MeshOwners *owners)
+{
+  DealPart    part = {.sizes = NULL};
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(deal->comm, &rank));
+  if (rank) PetscCall(DealReceive(deal->comm, deal->nbodies, &part));
+  else PetscCall(DealSendAll(deal, &part));
+  if (part.sizes) PetscCall(DealTake(deal->nbodies, &part, deal->meshes, owners));
+  PetscCall(DealPartDestroy(&part));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode MeshDealGrids(MPI_Comm comm, PetscInt nbodies, MeshBody meshes[], MeshOwners *owners)
 {
-  Deal           deal = {.ncells = 0};
-  DealPart       part;
+  Deal           deal = {.comm = comm, .nbodies = nbodies, .meshes = meshes};
   RankError      error;
   PetscErrorCode ierr = 0;
   PetscMPIInt    rank;
@@ -353,15 +378,15 @@ PetscErrorCode MeshDealGrids(MPI_Comm comm, PetscInt nbodies, MeshBody meshes[],
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = DealPrepare(comm, nbodies, meshes, &deal);
+  if (!rank) ierr = DealPrepare(&deal);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "The first rank cannot part the mesh of all bodies: %s", error.message);
-  if (rank) PetscCall(DealReceive(comm, nbodies, &part));
-  else PetscCall(DealSendAll(&deal, &part));
+  PetscCall(RankErrorBegin(&error));
+  ierr = DealExchange(&deal, owners);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be dealt out to the ranks: %s", error.message);
   PetscCall(PetscFree3(deal.part, deal.count, deal.facetpart));
   PetscCall(PetscFree3(deal.owner, deal.place, deal.here));
-  PetscCall(DealTake(nbodies, &part, meshes, owners));
-  PetscCall(DealPartDestroy(&part));
   PetscFunctionReturn(0);
 }
 
