@@ -2,7 +2,7 @@
 #ifndef AMGFIMPL_H
 #define AMGFIMPL_H
 
-#include "petsccompat.h"
+#include <petsccompat.h>
 #include <petsc/private/pcimpl.h>
 #include <petscamgf.h>
 

@@ -26,7 +26,7 @@
 #define IPFILTERIMPL_H
 
 #include <petsc/private/taoimpl.h>
-#include "../pc_amgf/petsccompat.h"
+#include <petsccompat.h>
 #include <petscamgf.h>
 
 #if defined(PETSC_USE_COMPLEX)

@@ -13,11 +13,13 @@ PetscErrorCode IPKeptReset(IPKept *kept)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode KeptDestroy(void *data)
+static PetscErrorCode KeptDestroy(void *argument)
 {
+  IPKept *kept = (IPKept *)AMGFDestroyed(argument);
+
   PetscFunctionBegin;
-  PetscCall(IPKeptReset((IPKept *)data));
-  PetscCall(PetscFree(data));
+  PetscCall(IPKeptReset(kept));
+  PetscCall(PetscFree(kept));
   PetscFunctionReturn(0);
 }
 
@@ -31,7 +33,7 @@ PetscErrorCode IPKeptGet(Tao tao, IPKept **kept)
     PetscCall(PetscNew(kept));
     PetscCall(PetscContainerCreate(PetscObjectComm((PetscObject)tao), &f->kept));
     PetscCall(PetscContainerSetPointer(f->kept, *kept));
-    PetscCall(PetscContainerSetUserDestroy(f->kept, KeptDestroy));
+    PetscCall(PetscContainerSetCtxDestroy(f->kept, (PetscCtxDestroyFn *)KeptDestroy));
   }
   PetscCall(PetscContainerGetPointer(f->kept, (void **)kept));
   PetscFunctionReturn(0);

@@ -2,6 +2,7 @@ static char help[] = "TAO's own calls on a TAOIPFILTER: convergence tests, toler
 
 #include "ipfilter_problem.h"
 #include "attempt.h"
+#include <petsccompat.h>
 
 /* min sum (x_i - x_{i-1})^2 / 2 + x_i^2 / 2 - b_i x_i of n unknowns, subject to rows x_i + x_{i+1} within [l_i, u_i], to the sum of all
    x_i = total, and to bounds */
@@ -360,7 +361,7 @@ static PetscErrorCode FindInView(Tao tao, const char what[], PetscBool *found)
   PetscCall(PetscFOpen(PETSC_COMM_WORLD, "ipfilter_calls.view", "r", &file));
   while (file && fgets(line, sizeof(line), file)) *found = (PetscBool)(*found || strstr(line, what));
   PetscCall(PetscFClose(PETSC_COMM_WORLD, file));
-  PetscCallMPI(MPI_Bcast(found, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(found, 1, MPI_PETSCBOOL, 0, PETSC_COMM_WORLD));
   PetscFunctionReturn(0);
 }
 

@@ -5,6 +5,7 @@
 #define CONTACTIMPL_H
 
 #include <contact.h>
+#include <petsccompat.h>
 
 /* events.c: PETSc's log events of this folder */
 PETSC_INTERN PetscLogEvent  CONTACT_Search, CONTACT_Integrate;

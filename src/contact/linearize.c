@@ -44,7 +44,7 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   PetscBool         wanted;
 
   PetscFunctionBegin;
-  PetscCall(PetscOptionsGetViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
+  PetscCall(PetscOptionsCreateViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
   if (!wanted) PetscFunctionReturn(0);
   PetscCall(PetscViewerPushFormat(viewer, format));
   PetscCall(ContactView(contact, viewer));

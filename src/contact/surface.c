@@ -66,7 +66,7 @@ static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], Cont
     PetscCall(PetscArraycpy(&s->vertex[4 * k], pieces[0], 4 * npieces));
   }
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) PetscCall(SurfaceVertexNode(global, s->vertex[i], &s->node[i]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->cut, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->cut, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 

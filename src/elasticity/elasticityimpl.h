@@ -5,6 +5,7 @@
 #define ELASTICITYIMPL_H
 
 #include <elasticity.h>
+#include <petsccompat.h>
 #include <mesh.h>
 #include <petscsf.h>
 

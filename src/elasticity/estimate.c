@@ -99,7 +99,7 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   PetscBool second = (PetscBool)(e->basis[1] || e->basis[3]);
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
   PetscCall(ElasticitySelectApart(e, sf, remaining, selected, more));
   PetscCall(PetscArrayzero(recovered, e->nnodes));
   PetscCall(ElasticityRecover(e, sf, selected, x, u, recovered));

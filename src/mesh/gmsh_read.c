@@ -66,8 +66,8 @@ static PetscBool GmshCheckNames(GmshReader *reader)
 /* label: where they are among the mesh's tags */
 static PetscErrorCode GmshKeepTags(GmshReader *reader, PetscInt64 n, const PetscInt64 tags[], PetscInt *label)
 {
-  size_t    at;
-  PetscInt *slot;
+  PetscSegBufferCount at;
+  PetscInt           *slot;
 
   PetscFunctionBegin;
   PetscCall(PetscSegBufferGetSize(reader->tags, &at));
@@ -244,9 +244,9 @@ static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscI
 /* label: of its tags */
 static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number, const PetscInt64 nodes[])
 {
-  GmshElement *element;
-  size_t       first;
-  PetscInt    *slot;
+  GmshElement        *element;
+  PetscSegBufferCount first;
+  PetscInt           *slot;
 
   PetscFunctionBegin;
   PetscCall(PetscSegBufferGetSize(reader->corners, &first));

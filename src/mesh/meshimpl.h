@@ -5,6 +5,7 @@
 #define MESHIMPL_H
 
 #include <mesh.h>
+#include <petsccompat.h>
 #include <rankerror.h>
 #include <stdio.h>
 

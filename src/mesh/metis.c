@@ -108,14 +108,7 @@ static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, 
   PetscFunctionReturn(0);
 }
 
-/* PETSc 3.21 added the edges' weights, which no mesh of ours has */
-#if PETSC_VERSION_LT(3, 21, 0)
-  #define EDGE_SECTION
-#else
-  #define EDGE_SECTION PETSC_UNUSED PetscSection edgesection,
-#endif
-
-static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, PetscInt nparts, PetscInt nv, PetscInt start[], PetscInt adjacency[], PetscSection vertexsection, EDGE_SECTION PetscSection targetsection, PetscSection partsection, IS *partition)
+static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, PetscInt nparts, PetscInt nv, PetscInt start[], PetscInt adjacency[], PetscSection vertexsection, AMGF_EDGE_SECTION PetscSection targetsection, PetscSection partsection, IS *partition)
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)part);
   PetscInt *assignment, *weights = NULL, *points, *next;

@@ -38,7 +38,7 @@ PetscErrorCode OutputCountPieces(Output output)
     total += pieces.n * (1 + pieces.nnodes);
     if (pieces.nnodes != 8) output->mixed = PETSC_TRUE;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->mixed, 1, MPIU_BOOL, MPI_LOR, output->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->mixed, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   output->nindiceslocal = output->mixed ? total : 8 * output->ncellslocal;
   PetscCallMPI(MPI_Allreduce(&output->nindiceslocal, &output->nindices, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);

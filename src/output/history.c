@@ -188,7 +188,7 @@ static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBoo
   *goes_on = output->begun;
   if (output->begun || !output->continued) PetscFunctionReturn(0);
   PetscCall(PetscTestFile(file, 'r', goes_on));
-  PetscCallMPI(MPI_Bcast(goes_on, 1, MPIU_BOOL, 0, output->comm));
+  PetscCallMPI(MPI_Bcast(goes_on, 1, MPI_PETSCBOOL, 0, output->comm));
   if (*goes_on) PetscCall(FileWriteText(output->comm, file, HistoryCopyOlder, &older));
   PetscFunctionReturn(0);
 }

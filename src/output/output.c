@@ -57,7 +57,7 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 
   PetscFunctionBegin;
   output->nodes = (PetscBool)(state->nodal != NULL);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPIU_BOOL, MPI_LOR, output->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   for (PetscInt p = 0; p < report->npairs; ++p) output->friction = (PetscBool)(output->friction || report->pairs[p].rubs);
   if (report->npairs < 2) PetscFunctionReturn(0);
@@ -105,7 +105,7 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
   for (PetscInt s = 1; same && s <= step; ++s) {
     PetscCall(OutputGetStepFile(output, s, file, sizeof(file)));
     PetscCall(PetscTestFile(file, 'r', &exists));
-    PetscCallMPI(MPI_Bcast(&exists, 1, MPIU_BOOL, 0, output->comm));
+    PetscCallMPI(MPI_Bcast(&exists, 1, MPI_PETSCBOOL, 0, output->comm));
     if (exists) PetscCall(OutputAddStep(output, s, (PetscReal)s));
   }
   PetscFunctionReturn(0);

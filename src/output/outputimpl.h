@@ -6,6 +6,7 @@
 #define OUTPUTIMPL_H
 
 #include <output.h>
+#include <petsccompat.h>
 #include <checkpoint.h>
 #include <rankerror.h>
 #include <petscviewerhdf5.h>

@@ -149,7 +149,7 @@ static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
   for (PetscInt i = 0; i < 3 * n; ++i) *same = (PetscBool)(*same && s[i] == r->x[i]);
   PetscCall(VecRestoreArrayRead(stored, &s));
   PetscCall(VecDestroy(&stored));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPIU_BOOL, MPI_LAND, r->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, r->comm));
   PetscFunctionReturn(0);
 }
 

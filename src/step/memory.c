@@ -70,7 +70,7 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   }
   PetscCall(VecRestoreArrayWrite(slack, &s));
   PetscCall(VecRestoreArrayWrite(pressure, &z));
-  PetscCallMPI(MPI_Allreduce(&found, any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)pressure)));
+  PetscCallMPI(MPI_Allreduce(&found, any, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pressure)));
   PetscFunctionReturn(0);
 }
 

@@ -53,8 +53,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP, "friction is for -tao_type ipfilter, and not for another optimizer");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
-  PetscCall(TaoSetMonitor(*tao, InterruptMonitor, sim, NULL));
-  PetscCall(TaoSetMonitor(*tao, ProgressMonitorOptimizer, sim, NULL));
+  PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
+  PetscCall(TaoMonitorSet(*tao, ProgressMonitorOptimizer, sim, NULL));
   PetscFunctionReturn(0);
 }
 

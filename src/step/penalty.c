@@ -125,7 +125,7 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
   if (it > 0 && it <= PENALTY_MAX_NEWTON) PetscCall(KSPGetIterationNumber(ksp, &penalty->iterations[penalty->niterations++]));
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
-  if (stop && !*reason) *reason = SNES_DIVERGED_FNORM_NAN; /* SNES has no reason for it; InterruptReport() says what it was */
+  if (stop && !*reason) *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for it; InterruptReport() says what it was */
   PetscFunctionReturn(0);
 }
 
@@ -178,7 +178,7 @@ static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
   PetscCall(SNESSetTolerances(*snes, 0.0, 1e-8, 0.0, PENALTY_MAX_NEWTON, PETSC_DEFAULT));
   PetscCall(SNESSetConvergenceTest(*snes, PenaltyConverged, penalty, NULL));
   PetscCall(SNESGetLineSearch(*snes, &search));
-  PetscCall(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  PetscCall(SNESLineSearchSetType(search, AMGF_LINESEARCH_NONE));
   PetscCall(SNESGetKSP(*snes, &ksp));
   PetscCall(KSPSetType(ksp, KSPCG));
   PetscCall(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));

@@ -183,7 +183,7 @@ PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
   }
   PetscCall(VecRestoreArrayRead(v, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, driven, 6, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)v)));
   PetscCall(PetscArraycpy(sum, any ? driven : driven + 3, 3));
   PetscFunctionReturn(0);
 }

@@ -12,6 +12,7 @@
 #include <elasticity.h>
 #include <contact.h>
 #include <petscamgf.h>
+#include <petsccompat.h>
 
 /* events.c */
 PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;

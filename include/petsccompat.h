@@ -1,0 +1,82 @@
+/* What differs between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of August 2026 (3.25). */
+#ifndef PETSCCOMPAT_H
+#define PETSCCOMPAT_H
+
+#include <petscsys.h>
+
+#if PETSC_VERSION_LT(3, 20, 0)
+  #define PetscAssertPointer(pointer, argument) PetscValidPointer(pointer, argument)
+#endif
+
+/* PetscOptionItems became a pointer */
+#if PETSC_VERSION_LT(3, 23, 0)
+typedef PetscOptionItems *AMGFOptionItems;
+#else
+typedef PetscOptionItems AMGFOptionItems;
+#endif
+
+/* PetscBool became C's bool */
+#if PETSC_VERSION_LT(3, 24, 0)
+  #define MPI_PETSCBOOL MPIU_BOOL
+#else
+  #define MPI_PETSCBOOL MPI_C_BOOL
+#endif
+
+/* What a destructor is passed: the context, or where the pointer to it stands */
+#if PETSC_VERSION_LT(3, 23, 0)
+typedef PetscErrorCode PetscCtxDestroyFn(void *);
+  #define PetscContainerSetCtxDestroy(container, destroy) PetscContainerSetUserDestroy(container, destroy)
+  #define AMGFDestroyed(argument)                         (argument)
+#else
+  #define AMGFDestroyed(argument) (*(void **)(argument))
+#endif
+
+/* A vector that tells the solver which asked for it of a failure */
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define VecFlag(vector, failed) ((failed) ? VecSetInf(vector) : (PetscErrorCode)0)
+#endif
+
+/* What a shell matrix's operation is passed as */
+#if PETSC_VERSION_LT(3, 24, 0)
+typedef void AMGFOperation(void);
+#else
+typedef PetscErrorCodeFn AMGFOperation;
+#endif
+
+/* Defaults of a type that do not overrule the user's values */
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define PetscObjectParameterSetDefault(object, name, value) \
+    do { \
+      if (!(object)->name##_changed) (object)->name = (value); \
+    } while (0)
+#endif
+
+/* Names that took the place of others, each by its first release; in front of that it stands for the old one */
+#if PETSC_VERSION_LT(3, 21, 0)
+  #define TaoMonitorSet(tao, monitor, context, destroy) TaoSetMonitor(tao, monitor, context, destroy)
+#endif
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define PetscOptionsCreateViewer(comm, options, prefix, name, viewer, format, set) PetscOptionsGetViewer(comm, options, prefix, name, viewer, format, set)
+#endif
+#if PETSC_VERSION_LT(3, 23, 0)
+typedef size_t PetscSegBufferCount;
+#else
+typedef PetscCount       PetscSegBufferCount;
+#endif
+#if PETSC_VERSION_LT(3, 25, 0)
+  #define SNES_DIVERGED_FUNCTION_NANORINF SNES_DIVERGED_FNORM_NAN
+#endif
+#if PETSC_VERSION_LT(3, 26, 0)
+  #define AMGF_LINESEARCH_NONE SNESLINESEARCHBASIC
+#else
+  #define AMGF_LINESEARCH_NONE SNESLINESEARCHNONE
+#endif
+
+/* The edges' weights, which no mesh of ours has, came to what a partitioner is passed */
+#if PETSC_VERSION_LT(3, 21, 0)
+  #define AMGF_EDGE_SECTION
+#else
+  #define AMGF_EDGE_SECTION PETSC_UNUSED PetscSection edgesection,
+#endif
+
+#endif
