@@ -100,12 +100,15 @@ static PetscErrorCode SetUpWhole(PC pc)
 
 PetscErrorCode PCSetUp_AMGF(PC pc)
 {
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
-  PetscInt M, N;
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PetscInt  M, N;
+  PetscBool has;
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &M, &N));
   PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
+  PetscCall(MatHasOperation(pc->pmat, MATOP_GET_DIAGONAL, &has));
+  PetscCheck(has, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "PCAMGF needs the operator's entries, and one of type %s has none: give KSPSetOperators() a matrix that has them as the second", ((PetscObject)pc->pmat)->type_name);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   PetscCall(PCAMGFConfigureInner_Private(pc));
   PetscCall(SetUpFilter(pc));
