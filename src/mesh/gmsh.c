@@ -1,5 +1,6 @@
 /* Bodies from Gmsh files: read on rank 0, cut out of its mesh volume by volume */
 #include "meshimpl.h"
+#include <petscbt.h>
 
 /* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k; a tetrahedron's are in order */
 static const PetscInt corner_at[9][8] = {
@@ -65,8 +66,8 @@ static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type,
 }
 
 /* The cells of the body's volume with their vertices numbered anew; number: new number by the place of each node, PETSC_DECIDE
-   without one; facets: of all cells, sorted */
-static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[], GmshFacets *facets, ShapeGrid *grid)
+   without one */
+static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[], ShapeGrid *grid)
 {
   const GmshType *type = NULL;
 
@@ -75,7 +76,6 @@ static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body,
   for (PetscInt v = 0; v < mesh->nnodes; ++v) number[v] = PETSC_DECIDE;
   for (PetscInt e = 0; e < mesh->nelements; ++e) {
     const GmshElement *element = &mesh->elements[e];
-    PetscInt64         corners[8];
 
     if (!GmshIsWithin(mesh, element, volume)) continue;
     PetscCall(GmshCheckType(body, element->type, type));
@@ -84,15 +84,12 @@ static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body,
     for (PetscInt a = 0; a < grid->ncorners; ++a) {
       PetscInt place;
 
-      corners[a] = mesh->nodes[element->first + a];
       PetscCall(GmshMeshFindNode(mesh, mesh->nodes[element->first + corner_at[grid->ncorners][a]], &place));
       if (number[place] < 0) number[place] = grid->nvertices++;
       grid->cells[grid->ncorners * grid->ncells + a] = number[place];
     }
-    PetscCall(GmshFacetsAdd(element->type, e, corners, facets));
     ++grid->ncells;
   }
-  GmshFacetsSort(facets);
   PetscFunctionReturn(0);
 }
 
@@ -140,13 +137,52 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
   PetscFunctionReturn(0);
 }
 
+/* The corners of an element of a surface, of a triangle the last one twice */
+static void GmshGetCorners(const GmshMesh *mesh, const GmshElement *element, PetscInt64 corners[4])
+{
+  for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + PetscMin(a, element->type->ncorners - 1)];
+}
+
+/* Those elements of surfaces that are a side of one cell of the volume, and of no other of its cells */
+static PetscErrorCode GmshFindBoundary(const GmshMesh *mesh, PetscInt volume, PetscInt ncorners, PetscBT boundary)
+{
+  GmshFacets facets;
+
+  PetscFunctionBegin;
+  GmshFacetsBegin(&facets, mesh->nelements);
+  do {
+    PetscInt64 corners[8];
+
+    for (PetscInt e = 0; e < mesh->nelements; ++e) {
+      const GmshElement *element = &mesh->elements[e];
+
+      if (!GmshIsWithin(mesh, element, volume)) continue;
+      for (PetscInt a = 0; a < element->type->ncorners; ++a) corners[a] = mesh->nodes[element->first + a];
+      PetscCall(GmshFacetsAdd(element->type, element->number, corners, &facets));
+    }
+    GmshFacetsSort(&facets);
+    for (PetscInt e = 0; e < mesh->nelements; ++e) {
+      const GmshElement *element = &mesh->elements[e];
+
+      if (element->type->dim != 2 || element->type->ncorners != ncorners) continue;
+      GmshGetCorners(mesh, element, corners);
+      if (GmshFacetsBound(&facets, ncorners, corners)) PetscCall(PetscBTSet(boundary, e));
+    }
+  } while (GmshFacetsNext(&facets));
+  PetscCall(GmshFacetsDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
 /* A facet may be on several surfaces and is listed once for each */
-static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *facets, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
+static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
   const PetscInt ncorners = grid->ncorners == 4 ? 3 : 4;
   PetscSegBuffer vertices, facetface;
+  PetscBT        boundary;
 
   PetscFunctionBegin;
+  PetscCall(PetscBTCreate(mesh->nelements, &boundary));
+  PetscCall(GmshFindBoundary(mesh, volume, ncorners, boundary));
   PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 1024, &vertices));
   PetscCall(PetscSegBufferCreate(sizeof(PetscInt), 256, &facetface));
   for (PetscInt face = 0; face < nsurfaces; ++face) {
@@ -155,9 +191,8 @@ static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *fa
       PetscInt64         corners[4];
       PetscInt          *slot;
 
-      if (element->type->dim != 2 || element->type->ncorners != ncorners || !GmshMeshHasTag(mesh, element, surfaces[face])) continue;
-      for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + PetscMin(a, ncorners - 1)];
-      if (!GmshFacetsBound(facets, ncorners, corners)) continue;
+      if (!PetscBTLookup(boundary, e) || !GmshMeshHasTag(mesh, element, surfaces[face])) continue;
+      GmshGetCorners(mesh, element, corners);
       PetscCall(PetscSegBufferGetInts(vertices, 4, &slot));
       for (PetscInt a = 0; a < 4; ++a) {
         PetscInt place;
@@ -170,6 +205,7 @@ static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, const GmshFacets *fa
       ++grid->nfacets;
     }
   }
+  PetscCall(PetscBTDestroy(&boundary));
   PetscCall(PetscSegBufferExtractAlloc(vertices, &grid->facets));
   PetscCall(PetscSegBufferExtractAlloc(facetface, &grid->facetface));
   PetscCall(PetscSegBufferDestroy(&vertices));
@@ -212,22 +248,20 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
 /* On rank 0; volume: its tag */
 static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid)
 {
-  GmshFacets facets = {0, 0, NULL};
-  PetscInt  *number;
-  PetscBool  quadratic;
+  PetscInt *number;
+  PetscBool quadratic;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(mesh->nnodes, &number));
-  PetscCall(GmshCutVolume(mesh, body, volume, number, &facets, grid));
+  PetscCall(GmshCutVolume(mesh, body, volume, number, grid));
   PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells", body->gmsh.volume, body->gmsh.file);
   PetscCall(GmshCutCoordinates(mesh, number, grid));
   if (body->curved) {
     PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));
     if (!quadratic && grid->ncorners == 8) PetscCall(ShapeGridBend(grid));
   }
-  PetscCall(GmshCutSurfaces(mesh, &facets, nsurfaces, surfaces, number, grid));
+  PetscCall(GmshCutSurfaces(mesh, volume, nsurfaces, surfaces, number, grid));
   PetscCall(GmshCheckVertices(body, grid));
-  PetscCall(GmshFacetsDestroy(&facets));
   PetscCall(PetscFree(number));
   PetscFunctionReturn(0);
 }

@@ -11,7 +11,6 @@ typedef struct {
   PetscInt       nentities[4], *entities[4], *labels[4]; /* numbers of the entities of each dimension, sorted, and where their tags are */
   PetscInt64     first, nnodes;                          /* numbers of the nodes lie in [first, first + nnodes) */
   PetscBT        nodes;                                  /* those that exist */
-  GmshFacets     facets;                                 /* quadrilaterals of all cells */
   PetscSegBuffer tags, elements, corners;                /* of the mesh */
   GmshMesh      *mesh;
 } GmshReader;
@@ -251,12 +250,11 @@ static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, 
   PetscFunctionBegin;
   PetscCall(PetscSegBufferGetSize(reader->corners, &first));
   PetscCall(PetscSegBufferGet(reader->elements, 1, &element));
-  *element = (GmshElement){.type = type, .label = label, .first = (PetscInt)first};
+  *element = (GmshElement){.type = type, .label = label, .first = (PetscInt)first, .number = number};
   PetscCall(PetscSegBufferGetInts(reader->corners, (PetscInt)type->nnodes, &slot));
   for (PetscInt64 i = 0; i < type->nnodes; ++i) slot[i] = (PetscInt)nodes[i];
   reader->mesh->dim = PetscMax(reader->mesh->dim, (PetscInt)type->dim);
   ++reader->mesh->nelements;
-  PetscCall(GmshFacetsAdd(type, number, nodes, &reader->facets));
   PetscFunctionReturn(0);
 }
 
@@ -321,8 +319,6 @@ static PetscErrorCode GmshReadElements(GmshReader *reader, PetscBool *sound)
   PetscCall(GmshGetBlocks(reader, "elements", &nblocks, &total, range, sound));
   if (*sound && reader->in.version < 40) PetscCall(GmshReadElements2(reader, total, sound));
   else if (*sound) PetscCall(GmshReadElements4(reader, nblocks, total, sound));
-  GmshFacetsSort(&reader->facets);
-  if (*sound) *sound = GmshFacetsAgree(&reader->facets, &reader->in);
   if (*sound) *sound = GmshExpectNext(&reader->in, "$EndElements");
   PetscFunctionReturn(0);
 }
@@ -344,6 +340,29 @@ static PetscErrorCode GmshReadSections(GmshReader *reader)
   if (sound) PetscCall(GmshCheckNodes(reader, &sound));
   if (sound) sound = GmshGetSection(&reader->in, word) && GmshExpect(&reader->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound) PetscCall(GmshReadElements(reader, &sound));
+  PetscFunctionReturn(0);
+}
+
+/* The facets of all cells, slice by slice */
+static PetscErrorCode GmshCheckFacets(const GmshMesh *mesh, GmshStream *in)
+{
+  GmshFacets facets;
+  PetscBool  agree;
+
+  PetscFunctionBegin;
+  GmshFacetsBegin(&facets, mesh->nelements);
+  do {
+    for (PetscInt e = 0; e < mesh->nelements; ++e) {
+      const GmshElement *element = &mesh->elements[e];
+      PetscInt64         corners[8];
+
+      for (PetscInt a = 0; a < PetscMin(8, element->type->ncorners); ++a) corners[a] = mesh->nodes[element->first + a];
+      PetscCall(GmshFacetsAdd(element->type, element->number, corners, &facets));
+    }
+    GmshFacetsSort(&facets);
+    agree = GmshFacetsAgree(&facets, in);
+  } while (agree && GmshFacetsNext(&facets));
+  PetscCall(GmshFacetsDestroy(&facets));
   PetscFunctionReturn(0);
 }
 
@@ -372,7 +391,7 @@ PetscErrorCode GmshMeshRead(const char file[], GmshMesh *mesh, size_t length, ch
   PetscCall(PetscSegBufferDestroy(&reader.elements));
   for (int dim = 0; dim < 4; ++dim) PetscCall(PetscFree2(reader.entities[dim], reader.labels[dim]));
   PetscCall(PetscBTDestroy(&reader.nodes));
-  PetscCall(GmshFacetsDestroy(&reader.facets));
+  if (!sentence[0]) PetscCall(GmshCheckFacets(mesh, &reader.in));
   PetscFunctionReturn(0);
 }
 

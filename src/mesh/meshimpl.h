@@ -133,13 +133,20 @@ PETSC_INTERN const GmshType *GmshGetType(PetscInt64 type);
 
 /* gmsh_facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first; triangles of tetrahedra: first -1, and none across */
 typedef struct {
-  PetscInt64 nodes[4], across, element;
+  PetscInt   nodes[4], across;
+  PetscInt64 element;
 } GmshFacet;
 
+/* Those whose least node falls to one slice of several: all at once they would take more memory than the mesh they are of */
 typedef struct {
+  PetscInt   slice, nslices;
   PetscInt64 n, max;
   GmshFacet *list;
 } GmshFacets;
+
+/* None yet, of the first slice, of a mesh of so many elements; of the next slice, if there is one */
+PETSC_INTERN void      GmshFacetsBegin(GmshFacets *, PetscInt nelements);
+PETSC_INTERN PetscBool GmshFacetsNext(GmshFacets *);
 
 PETSC_INTERN PetscErrorCode GmshFacetsAdd(const GmshType *, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *);
 PETSC_INTERN void           GmshFacetsSort(GmshFacets *);
@@ -151,6 +158,7 @@ PETSC_INTERN PetscErrorCode GmshFacetsDestroy(GmshFacets *);
 typedef struct {
   const GmshType *type;
   PetscInt        label, first; /* its number of physical tags and they follow one another from tags[label] on; its nodes from nodes[first] */
+  PetscInt64      number;       /* in the file */
 } GmshElement;
 
 typedef struct {
