@@ -15,7 +15,7 @@ static void PlaceTurned(const PetscReal x[3], PetscInt body, const void *ctx, Pe
 /* The upper body starts at this height over the lower one's bottom; both unit cubes unless the lower one is thinner */
 static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal height, char mortar[], char nonmortar[], GapType gap, const char depth[])
 {
-  const SceneContactPair pair   = {"pair", mortar, nonmortar, gap, 0.0};
+  const SceneContactPair pair   = {.name = "pair", .mortar = mortar, .nonmortar = nonmortar, .gap = gap};
   Box                    box[2] = {
                        {"lower", {0, 0, 0}, {1, 1, thickness}, {3, 2, 2}},
                        {"upper", {0.125, 0.25, height}, {0.875, 1, 1.0 + height}, {2, 3, 2}},

@@ -37,12 +37,12 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pai
 int main(int argc, char **argv)
 {
   static char            name[2][8] = {"lower", "upper"};
-  const SceneContactPair good       = {"pair", "lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
-  const SceneContactPair mortar     = {"pair", "lower.top", "upper.zmin", GAP_MORTAR, 0.0};
-  const SceneContactPair nonmortar  = {"pair", "lower.zmax", "middle.zmin", GAP_MORTAR, 0.0};
-  const SceneContactPair twice      = {"pair", "lower.zmax", "lower.zmax", GAP_MORTAR, 0.0};
-  const SceneContactPair near       = {"pair", "lower.zmax", "upper.zmin", GAP_NODE, -0.5};
-  const SceneContactPair unknown    = {"pair", "lower.zmax", "upper.zmin", (GapType)7, 0.0};
+  const SceneContactPair good       = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+  const SceneContactPair mortar     = {.name = "pair", .mortar = "lower.top", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+  const SceneContactPair nonmortar  = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "middle.zmin", .gap = GAP_MORTAR};
+  const SceneContactPair twice      = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "lower.zmax", .gap = GAP_MORTAR};
+  const SceneContactPair near       = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_NODE, .distance = -0.5};
+  const SceneContactPair unknown    = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = (GapType)7};
   const SceneContactPair same[2]    = {good, good};
   SceneBody              body[2];
   DM                     dm;

@@ -64,8 +64,8 @@ static void WavyField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 }
 
 static const SceneContactPair pairs[2] = {
-  {"on slab", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0},
-  {"on block", "block.zmax", "plate.zmin", GAP_MORTAR, 0.0},
+  {.name = "on slab", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR},
+  {.name = "on block", .mortar = "block.zmax", .nonmortar = "plate.zmin", .gap = GAP_MORTAR},
 };
 
 /* Parallel planes, turned in space: constant gap, rows that add up to the normal, no row for what looks through a body */
@@ -122,7 +122,7 @@ static PetscErrorCode TestPlanes(DM dm, PetscReal length, PetscReal gap, const c
 /* Rows of a pair of faces, none where they look away from each other or through a body */
 static PetscErrorCode CountRows(DM dm, char mortar[], char nonmortar[])
 {
-  const SceneContactPair pair = {"pair", mortar, nonmortar, GAP_MORTAR, 0.0};
+  const SceneContactPair pair = {.name = "pair", .mortar = mortar, .nonmortar = nonmortar, .gap = GAP_MORTAR};
   Contact                contact;
   ContactLinearization   lin;
   Vec                    u;

@@ -4,8 +4,8 @@ static char help[] = "Patch tests of contact: bodies pressed together by their f
 #include <elasticity.h>
 #include <petscksp.h>
 
-static const SceneContactPair mortar = {"pair", "lower.zmax", "upper.zmin", GAP_MORTAR, 0.0};
-static const SceneContactPair node   = {"pair", "lower.zmax", "upper.zmin", GAP_NODE, 0.0};
+static const SceneContactPair mortar = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+static const SceneContactPair node   = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_NODE};
 
 static const PetscInt different[2][3] = {{3, 4, 2}, {4, 3, 2}};
 static const PetscInt matching[2][3]  = {{4, 3, 2}, {4, 3, 2}};

@@ -65,7 +65,7 @@ static PetscErrorCode GetCover(DM dm, ContactLinearization lin, const Motion *ou
 /* The block slides along the slab over many facets, wherever it is the gap is the same and every vertex has its row */
 static PetscErrorCode TestSliding(DM dm)
 {
-  const SceneContactPair pair   = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair pair   = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
   const Motion           down   = {.shift = {{0}, {0, 0, -1}, {0}}};
   Motion                 motion = {.shift = {{0}, {0, 0, 0.1}, {0}}};
   ContactLinearization   lin;
@@ -94,7 +94,7 @@ static PetscErrorCode TestSliding(DM dm)
 /* The block hangs over the slab's end by so much: rows and gaps stay in proportion to what is covered */
 static PetscErrorCode TestEdge(DM dm, PetscReal hang)
 {
-  const SceneContactPair pair = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair pair = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
   const Motion           down = {.shift = {{0}, {0, 0, -1}, {0}}}, motion = {.shift = {{0}, {3.7 + hang, 0, -0.05}, {0}}};
   ContactLinearization   lin;
   Vec                    cover;
@@ -136,10 +136,10 @@ static PetscErrorCode PrintPair(ContactLinearization lin, PetscInt pair, PetscRe
 static PetscErrorCode TestSeveral(DM dm)
 {
   const SceneContactPair pairs[4] = {
-    {"block in slab", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0},
-    {"plate on slab", "slab.zmax", "plate.zmin", GAP_NODE, 0.0},
-    {"beside", "block.xmax", "plate.xmin", GAP_MORTAR, 2.0},
-    {"plate on slab", "plate.zmin", "slab.zmax", GAP_MORTAR, 0.0},
+    {.name = "block in slab", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR},
+    {.name = "plate on slab", .mortar = "slab.zmax", .nonmortar = "plate.zmin", .gap = GAP_NODE},
+    {.name = "beside", .mortar = "block.xmax", .nonmortar = "plate.xmin", .gap = GAP_MORTAR, .distance = 2.0},
+    {.name = "plate on slab", .mortar = "plate.zmin", .nonmortar = "slab.zmax", .gap = GAP_MORTAR},
   };
   const Motion         motion = {.shift = {{0}, {0, 0, -0.03}, {0, 0, -0.02}}};
   ContactLinearization all, one;
@@ -201,7 +201,7 @@ static PetscErrorCode CountRows(DM dm, const SceneContactPair *pair, const Motio
 /* Faces that do not look at one another, or are too far, never pair; neither do those that see one another through a body */
 static PetscErrorCode TestAway(DM dm)
 {
-  const SceneContactPair opposite = {"pair", "plate.zmin", "plate.zmax", GAP_MORTAR, 1.0}, same = {"pair", "slab.zmax", "plate.zmax", GAP_MORTAR, 0.0}, through = {"pair", "slab.zmin", "block.zmax", GAP_MORTAR, 3.0}, on = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair opposite = {.name = "pair", .mortar = "plate.zmin", .nonmortar = "plate.zmax", .gap = GAP_MORTAR, .distance = 1.0}, same = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmax", .gap = GAP_MORTAR}, through = {.name = "pair", .mortar = "slab.zmin", .nonmortar = "block.zmax", .gap = GAP_MORTAR, .distance = 3.0}, on = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
   SceneContactPair       near   = on;
   Motion                 motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
 
@@ -234,7 +234,7 @@ static PetscErrorCode TestAway(DM dm)
 static PetscErrorCode TestOverlap(DM dm)
 {
   static const PetscReal gaps[] = {-0.45, -0.25, -0.05, -1e-14, 0.0, 1e-14};
-  SceneContactPair       pair   = {"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0};
+  SceneContactPair       pair   = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
   Motion                 motion = {.angle = {0}};
   ContactLinearization   lin;
 
@@ -278,7 +278,7 @@ static void BendField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 /* Largest error of the gap, away from the outline of the nonmortar face if there is one */
 static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, PetscInt *m)
 {
-  const SceneContactPair pair   = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair pair   = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
   const Motion           rest   = {.angle = {0}};
   Box                    box[2] = {
                        {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {6, 5, 1}},
@@ -376,7 +376,7 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair 
 /* On planes, and on curved faces of the same vertices */
 static PetscErrorCode TestTaylorAll(DM dm)
 {
-  const SceneContactPair pairs[2] = {{"pair", "slab.zmax", "block.zmin", GAP_MORTAR, 0.0}, {"pair", "slab.zmax", "plate.zmin", GAP_MORTAR, 0.0}}, bent = {"pair", "inner.zmax", "outer.zmin", GAP_MORTAR, 0.0};
+  const SceneContactPair pairs[2] = {{.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR}, {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmin", .gap = GAP_MORTAR}}, bent = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
   Bend                   bend   = {.radius = 2.0};
   Box                    box[2] = {
                        {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},

@@ -8,7 +8,7 @@ static PetscErrorCode Test(PetscInt n, const char Htype[], const char Jtype[], c
   Program            p;
   Mat                H, J = NULL, E = NULL;
   Vec                x, exact;
-  PetscErrorCode     error;
+  PetscErrorCode     error = 0;
   TaoConvergedReason reason;
   PetscReal          difference;
   PetscBool          sbaij;
@@ -48,7 +48,7 @@ static PetscErrorCode TestNestedVector(void)
   Program            p;
   Mat                H;
   Vec                x, parts[2];
-  PetscErrorCode     error;
+  PetscErrorCode     error = 0;
   TaoConvergedReason reason;
   IS                 rows[2];
 
