@@ -128,7 +128,7 @@ static PetscErrorCode CreateConstraints(Block *b)
 static PetscErrorCode CreateBlock(PetscInt n, PetscReal most, PetscBool constrained, Block *b)
 {
   PetscFunctionBeginUser;
-  *b = (Block){NULL};
+  *b = (Block){.da = NULL};
   PetscCall(DMDACreate3d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX, n, n, n, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 3, 1, NULL, NULL, NULL, &b->da));
   PetscCall(DMDASetElementType(b->da, DMDA_ELEMENT_Q1));
   PetscCall(DMSetFromOptions(b->da));

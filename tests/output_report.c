@@ -17,7 +17,7 @@ int main(int argc, char **argv)
     {.name = "block", .contact = {0, -0.25, 1e300}},
   };
   StepReport steps[] = {
-    {.step = 1, .load = 0.5, .constraints = 81, .filter_dofs = 111, .ip_iterations = 3, .ksp_iterations = iterations, .nksp = 3, .amg_applications = 35, .amg_setups = 2, .energy = -1.0 / 3, .kkt_error = 1e-7, .kkt_error_unscaled = 2e-7, .gap_min = -1e-9, .complementarity = 1e-8, .action_reaction = 1e-15, .linear = {3, 1, 0, 2, 0, 1e-11}, .algebraic_error = 2e-6, .error_estimate = 0.05, .body_errors = errors, .contact_force = {0, 0.25, -1e300}, .reaction = {1, 2, 3}, .npairs = 2, .pairs = pairs, .nfaces = 1, .faces = faces, .nbodies = 2, .bodies = body_forces, .balance = 1, .converged = PETSC_TRUE, .reason = "converged"},
+    {.step = 1, .load = 0.5, .constraints = 81, .filter_dofs = 111, .ip_iterations = 3, .ksp_iterations = iterations, .nksp = 3, .amg_applications = 35, .amg_setups = 2, .energy = -1.0 / 3, .kkt_error = 1e-7, .kkt_error_unscaled = 2e-7, .gap_min = -1e-9, .complementarity = 1e-8, .action_reaction = 1e-15, .linear = {.refinements = 3, .amg_rebuilds = 1, .direct = 2, .backward_error = 1e-11}, .algebraic_error = 2e-6, .error_estimate = 0.05, .body_errors = errors, .contact_force = {0, 0.25, -1e300}, .reaction = {1, 2, 3}, .npairs = 2, .pairs = pairs, .nfaces = 1, .faces = faces, .nbodies = 2, .bodies = body_forces, .balance = 1, .converged = PETSC_TRUE, .reason = "converged"},
     {.step = 2, .load = 1, .npairs = 2, .pairs = pairs, .nfaces = 1, .faces = faces, .energy = NAN, .kkt_error = INFINITY, .gap_min = -INFINITY, .error_estimate = NAN, .reason = "line \"search\" failed\\\n\tat once"},
   };
   const char *bodies[]     = {"slab", "block"};

@@ -47,7 +47,7 @@ static inline PetscErrorCode FuzzMeshScene(const char file[])
 static inline PetscErrorCode FuzzMeshGmsh(const char file[])
 {
   char      name[] = "bar", *path;
-  SceneBody body   = {.name = name, .shape = SHAPE_GMSH, .material = {MATERIAL_LINEAR, 1, 0.3}, .gmsh = {.volume = name}};
+  SceneBody body   = {.name = name, .shape = SHAPE_GMSH, .material = {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3}, .gmsh = {.volume = name}};
   DM        dm;
 
   PetscFunctionBeginUser;
