@@ -54,7 +54,7 @@ $(LIBRARY): $(library_objects) $(source_list)
 bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) -lmetis -lyaml -lm -o $@
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
 .PRECIOUS: build/%.o
 -include $(wildcard build/apps/*.d build/pc_amgf/*.d build/tao_ipfilter/*.d build/src/*/*.d)

@@ -266,17 +266,27 @@ static PetscErrorCode AppGetCheckpointFile(const AppOptions *app, Scene scene, c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Simulation sim)
+static PetscErrorCode AppCreateWriter(const AppOptions *app, Scene scene, Simulation sim, CheckpointWriter *writer)
 {
-  Checkpoint checkpoint;
-  DM         dm;
-  char       file[PETSC_MAX_PATH_LEN];
+  DM   dm;
+  char file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBeginUser;
   PetscCall(AppGetCheckpointFile(app, scene, file));
   PetscCall(SimulationGetDM(sim, &dm));
+  PetscCall(CheckpointWriterCreate(scene, dm, file, writer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Simulation sim, CheckpointWriter writer)
+{
+  Checkpoint checkpoint;
+  char       file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBeginUser;
+  PetscCall(AppGetCheckpointFile(app, scene, file));
   PetscCall(SimulationGetCheckpoint(sim, &checkpoint));
-  PetscCall(CheckpointWrite(checkpoint, scene, dm, file));
+  PetscCall(CheckpointWriterWrite(writer, checkpoint));
   if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Checkpoint %s: time %g\n", file, (double)checkpoint->time));
   PetscCall(CheckpointDestroy(&checkpoint));
   PetscFunctionReturn(0);
@@ -302,7 +312,7 @@ static PetscErrorCode AppBegin(const AppOptions *app, Scene scene, Simulation si
 }
 
 /* Load steps until one fails; true: none did */
-static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output, PetscBool *converged)
+static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output, CheckpointWriter writer, PetscBool *converged)
 {
   StepState state;
   PetscInt  first;
@@ -315,7 +325,7 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
     PetscCall(SimulationStep(sim, step, &state));
     *converged = state.report->converged;
     if (output && *converged) PetscCall(OutputWrite(output, &state));
-    if (*converged && app->checkpoint_every && (step + 1) % app->checkpoint_every == 0) PetscCall(AppWriteCheckpoint(app, scene, sim));
+    if (*converged && app->checkpoint_every && (step + 1) % app->checkpoint_every == 0) PetscCall(AppWriteCheckpoint(app, scene, sim, writer));
   }
   PetscFunctionReturn(0);
 }
@@ -323,19 +333,21 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, StepForecast *forecast, RunEnd *end, PetscBool *again)
 {
-  Simulation     sim;
-  Output         output;
-  StepTolerances tolerances;
-  RunReport      report;
-  PetscBool      converged;
-  const PetscInt mesh = accuracy->mesh;
+  Simulation       sim;
+  Output           output;
+  CheckpointWriter writer;
+  StepTolerances   tolerances;
+  RunReport        report;
+  PetscBool        converged;
+  const PetscInt   mesh = accuracy->mesh;
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
   PetscCall(AppCreateSimulation(app, scene, accuracy, marks, forecast, &sim));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
-  PetscCall(AppSimulateSteps(app, scene, sim, output, &converged));
+  PetscCall(AppCreateWriter(app, scene, sim, &writer));
+  PetscCall(AppSimulateSteps(app, scene, sim, output, writer, &converged));
   PetscCall(SimulationGetReport(sim, &report));
   PetscCall(SimulationGetTolerances(sim, &tolerances));
   if (converged && accuracy->adaptive) PetscCall(SimulationPropose(sim, &accuracy->growth));
@@ -343,7 +355,8 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   if (accuracy->adaptive && accuracy->mesh > mesh) PetscCall(SimulationMark(sim, marks));
   if (accuracy->nlevels) report.accuracy = accuracy;
   if (converged && report.accuracy && !accuracy->reached) report.exit_code = RUN_ACCURACY_MISSED;
-  if (report.exit_code == RUN_INTERRUPTED) PetscCall(AppWriteCheckpoint(app, scene, sim));
+  if (report.exit_code == RUN_INTERRUPTED) PetscCall(AppWriteCheckpoint(app, scene, sim, writer));
+  PetscCall(CheckpointWriterDestroy(&writer));
   *end = (RunEnd)report.exit_code;
   if (!*again) PetscCall(AppReport(app, &report));
   PetscCall(OutputDestroy(&output));

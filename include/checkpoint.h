@@ -48,8 +48,12 @@ PETSC_EXTERN PetscErrorCode CheckpointAddField(Checkpoint, const char name[], Pe
 PETSC_EXTERN PetscErrorCode CheckpointGetField(Checkpoint, const char name[], const PetscReal **values);
 PETSC_EXTERN PetscErrorCode CheckpointDestroy(Checkpoint *);
 
-/* Atomically: a file that was there stays until the new one is safe on the disk */
-PETSC_EXTERN PetscErrorCode CheckpointWrite(Checkpoint, Scene, DM, const char file[]);
+/* Writes states of one simulation to one file. Atomically: that which was there stays until the next is safe on the disk */
+typedef struct _n_CheckpointWriter *CheckpointWriter;
+
+PETSC_EXTERN PetscErrorCode CheckpointWriterCreate(Scene, DM, const char file[], CheckpointWriter *);
+PETSC_EXTERN PetscErrorCode CheckpointWriterWrite(CheckpointWriter, Checkpoint);
+PETSC_EXTERN PetscErrorCode CheckpointWriterDestroy(CheckpointWriter *);
 /* On any mesh of the same bodies. same: its vertices are those of the file in the same order; an error where the file is of another scene */
 PETSC_EXTERN PetscErrorCode CheckpointRead(Scene, DM, const char file[], Checkpoint *, PetscBool *same);
 

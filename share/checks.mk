@@ -59,7 +59,7 @@ fuzz:
 	@for target in gmsh scene; do \
 	  mkdir -p build/fuzz/corpus-$$target && \
 	  OMPI_CC=clang $(CC) $(FUZZ_FLAGS) -fsanitize=fuzzer -std=c11 -Iinclude $(PETSC_CFLAGS) tests/fuzz/$$target.c build/fuzz/lib/libcontact.a \
-	    -Lbuild/fuzz/lib -lpetscamgf -Wl,-rpath,$(CURDIR)/build/fuzz/lib $(PETSC_LIBS) -lmetis -lyaml -lm -o build/fuzz/$$target && \
+	    -Lbuild/fuzz/lib -lpetscamgf -Wl,-rpath,$(CURDIR)/build/fuzz/lib $(PETSC_LIBS) $(CONTACT_LIBS) -o build/fuzz/$$target && \
 	  PETSC_OPTIONS=-no_signal_handler ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 build/fuzz/$$target build/fuzz/corpus-$$target tests/fuzz/corpus/$$target \
 	    -artifact_prefix=build/fuzz/found-$$target- -max_len=4096 -timeout=20 -rss_limit_mb=2000 -malloc_limit_mb=1000 -fork=1 -max_total_time=$(FUZZ_TIME) || exit 1; \
 	done

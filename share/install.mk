@@ -13,7 +13,7 @@ package_files := petscamgf.pc $(if $(PETSC_COMPLEX),,contact.pc)
 # What a pkg-config file says of this PREFIX and this PETSc
 fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@PETSC_VERSION@|$(petsc_version)|' -e 's|@PETSC_PREFIX@|$(PETSC_PREFIX)|' \
   -e 's|@PETSC_RELEASE@|$(word 1,$(petsc_release)).$(petsc_minor)|' -e 's|@PETSC_NEXT@|$(word 1,$(petsc_release)).$(shell expr 0$(petsc_minor) + 1)|' \
-  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@PETSC_INDICES@|$(petsc_indices)|'
+  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@CONTACT_LIBS@|$(strip $(CONTACT_LIBS))|' -e 's|@PETSC_INDICES@|$(petsc_indices)|'
 
 # $(call put,MODE,FILES,FOLDER): lines of install.sh
 put = $(foreach file,$(2),'$(1) $(file) $(3)/$(notdir $(file))')

@@ -3,6 +3,14 @@
 #include <checkpoint.h>
 #include <string.h>
 
+struct _n_CheckpointWriter {
+  Scene      scene;
+  DM         dm;
+  char      *file;
+  Output     mesh; /* NULL before the first state */
+  FileCommit commit;
+};
+
 /* What is written: a state, of which scene, on which mesh */
 typedef struct {
   Checkpoint checkpoint;
@@ -26,7 +34,7 @@ static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], cons
   for (PetscInt i = 0; i < n; ++i) letters[i] = (unsigned char)text[i];
   PetscCall(ISCreateGeneral(comm, n, letters, PETSC_OWN_POINTER, &is));
   PetscCall(PetscObjectSetName((PetscObject)is, name));
-  PetscCall(ISView(is, viewer));
+  PetscCall(DatasetWriteIndices(is, viewer));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
@@ -86,32 +94,87 @@ static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
 }
 
 /*@C
-   CheckpointWrite - Writes a state from which a run can go on
+   CheckpointWriterCreate - Prepares to write states from which a run can go on
 
    Collective
 
    Input Parameters:
-+  checkpoint - the state
-.  scene      - the scene that is simulated
-.  dm         - its mesh
--  file       - the HDF5 file
++  scene - the scene that is simulated; must outlive the writer
+.  dm    - its mesh
+-  file  - the HDF5 file; it is not touched before there is a state
+
+   Output Parameter:
+.  writer - the writer
+
+   Level: intermediate
+
+.seealso: `CheckpointWriterWrite()`, `CheckpointWriterDestroy()`, `CheckpointRead()`
+@*/
+PetscErrorCode CheckpointWriterCreate(Scene scene, DM dm, const char file[], CheckpointWriter *writer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(writer));
+  PetscCall(PetscObjectReference((PetscObject)dm));
+  (*writer)->scene = scene;
+  (*writer)->dm    = dm;
+  PetscCall(PetscStrallocpy(file, &(*writer)->file));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointWriterWrite - Writes a state, in the place of the one before
+
+   Collective
+
+   Input Parameters:
++  writer     - the writer
+-  checkpoint - the state, which is needed no longer afterwards
 
    Level: intermediate
 
    Notes:
-   The file is written under another name, brought to the disk, and renamed: one that was there before stays until then, whatever happens.
+   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name then, while the caller goes on: the one
+   before stays until then, whatever happens. The next call, or CheckpointWriterDestroy(), waits for it.
 
-   Errors: PETSC_ERR_FILE_WRITE where there is no room.
+   Errors: PETSC_ERR_FILE_WRITE where there is no room, for this state or the one before.
 
-.seealso: `CheckpointRead()`, `SimulationGetCheckpoint()`
+.seealso: `CheckpointWriterCreate()`, `CheckpointWriterDestroy()`, `SimulationGetCheckpoint()`
 @*/
-PetscErrorCode CheckpointWrite(Checkpoint checkpoint, Scene scene, DM dm, const char file[])
+PetscErrorCode CheckpointWriterWrite(CheckpointWriter writer, Checkpoint checkpoint)
 {
-  CheckpointContents contents = {.checkpoint = checkpoint, .scene = scene};
+  CheckpointContents contents = {.checkpoint = checkpoint, .scene = writer->scene};
 
   PetscFunctionBegin;
-  PetscCall(OutputCreateMesh(dm, &contents.mesh));
-  PetscCall(FileWriteHDF5(contents.mesh->comm, file, PETSC_TRUE, CheckpointWriteContents, &contents));
-  PetscCall(OutputDestroy(&contents.mesh));
+  PetscCall(FileCommitEnd(&writer->commit));
+  if (!writer->mesh) PetscCall(OutputCreateMesh(writer->dm, &writer->mesh));
+  contents.mesh = writer->mesh;
+  PetscCall(FileWriteHDF5(writer->mesh->comm, writer->file, CheckpointWriteContents, &contents, &writer->commit));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointWriterDestroy - Waits until the last state is on the disk, and frees the writer
+
+   Collective
+
+   Input Parameter:
+.  writer - the writer, set to NULL; may point to NULL
+
+   Level: intermediate
+
+   Note:
+   Errors: PETSC_ERR_FILE_WRITE where the disk did not take it.
+
+.seealso: `CheckpointWriterCreate()`, `CheckpointWriterWrite()`
+@*/
+PetscErrorCode CheckpointWriterDestroy(CheckpointWriter *writer)
+{
+  PetscFunctionBegin;
+  if (!*writer) PetscFunctionReturn(0);
+  PetscCall(FileCommitEnd(&(*writer)->commit));
+  PetscCall(OutputDestroy(&(*writer)->mesh));
+  PetscCall(DMDestroy(&(*writer)->dm));
+  PetscCall(PetscFree((*writer)->file));
+  PetscCall(PetscFree(*writer));
   PetscFunctionReturn(0);
 }

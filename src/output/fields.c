@@ -53,12 +53,18 @@ PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
   PetscFunctionReturn(0);
 }
 
+/* The mesh keeps them for the next file */
 static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
 {
   Vec field;
 
   PetscFunctionBegin;
-  PetscCall(FieldsGetVertices(output, &field, NULL));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, "vertices", (PetscObject *)&field));
+  if (field) PetscCall(PetscObjectReference((PetscObject)field));
+  else {
+    PetscCall(FieldsGetVertices(output, &field, NULL));
+    PetscCall(PetscObjectCompose((PetscObject)output->dm, "vertices", (PetscObject)field));
+  }
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
@@ -114,8 +120,8 @@ static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
   if (!cells) PetscCall(FieldsNumberCells(output));
   PetscCall(PetscObjectQuery((PetscObject)output->dm, OutputCellsName(output), (PetscObject *)&cells));
   PetscCall(PetscObjectQuery((PetscObject)output->dm, "body", (PetscObject *)&body));
-  PetscCall(ISView(cells, viewer));
-  PetscCall(ISView(body, viewer));
+  PetscCall(DatasetWriteIndices(cells, viewer));
+  PetscCall(DatasetWriteIndices(body, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -134,7 +140,7 @@ PetscErrorCode OutputWriteMesh(Output output)
 
   PetscFunctionBegin;
   PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, PETSC_FALSE, FieldsWriteMesh, output));
+  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteMesh, output, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -298,6 +304,6 @@ PetscErrorCode OutputWriteFields(Output output, const StepState *state)
 
   PetscFunctionBegin;
   PetscCall(OutputGetStepFile(output, state->report->step, file, sizeof(file)));
-  PetscCall(FileWriteHDF5(output->comm, file, PETSC_FALSE, FieldsWriteState, &what));
+  PetscCall(FileWriteHDF5(output->comm, file, FieldsWriteState, &what, NULL));
   PetscFunctionReturn(0);
 }

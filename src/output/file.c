@@ -1,8 +1,7 @@
 /* Files that appear whole or not at all */
-#define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), fsync() */
+#define _POSIX_C_SOURCE 200809L /* lstat(), truncate() */
 #include "outputimpl.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,15 +14,6 @@ static PetscErrorCode FileGetPartName(const char file[], char part[], size_t len
   PetscFunctionBegin;
   *renamed = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscSNPrintf(part, length, "%s%s", file, *renamed ? ".part" : ""));
-  PetscFunctionReturn(0);
-}
-
-/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then PETSC_ERR_FILE_WRITE */
-static PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
-{
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
-  PetscCheck(!error, comm, code, "cannot write \"%s\": %s", file, strerror(error));
   PetscFunctionReturn(0);
 }
 
@@ -69,32 +59,7 @@ PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
   PetscFunctionReturn(0);
 }
 
-/* What was written of a file, or the names in its folder, is on the disk */
-static int FileSync(const char file[])
-{
-  const int descriptor = open(file, O_RDONLY);
-  int       error      = 0;
-
-  if (descriptor < 0) return errno;
-  if (fsync(descriptor)) error = errno;
-  (void)close(descriptor);
-  return error;
-}
-
-static PetscErrorCode FileSyncFolder(const char file[], int *error)
-{
-  char  folder[PETSC_MAX_PATH_LEN];
-  char *slash;
-
-  PetscFunctionBegin;
-  PetscCall(PetscStrncpy(folder, file, sizeof(folder)));
-  slash = strrchr(folder, '/');
-  if (slash) slash[slash == folder] = 0;
-  *error = FileSync(slash ? folder : ".");
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FileCommit(MPI_Comm comm, const char file[], PetscBool safe)
+static PetscErrorCode FileRename(MPI_Comm comm, const char file[])
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
@@ -104,11 +69,7 @@ static PetscErrorCode FileCommit(MPI_Comm comm, const char file[], PetscBool saf
   PetscFunctionBegin;
   PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && renamed) {
-    if (safe) error = FileSync(part);
-    if (!error && rename(part, file)) error = errno;
-    if (!error && safe) PetscCall(FileSyncFolder(file, &error));
-  }
+  if (rank == 0 && renamed && rename(part, file)) error = errno;
   PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
   PetscFunctionReturn(0);
 }
@@ -122,7 +83,7 @@ static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *fun
   return n;
 }
 
-PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscBool safe, PetscErrorCode (*write)(PetscViewer, void *), void *ctx)
+PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx, FileCommit *commit)
 {
   char           part[PETSC_MAX_PATH_LEN], complaint[FILE_COMPLAINT_LENGTH] = "";
   PetscViewer    viewer;
@@ -143,7 +104,8 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscBool safe, P
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
   if (ierr && renamed) (void)remove(part);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
-  PetscCall(FileCommit(comm, file, safe));
+  if (commit && renamed) PetscCall(FileCommitBegin(comm, part, file, commit));
+  else PetscCall(FileRename(comm, file));
   PetscFunctionReturn(0);
 }
 
@@ -199,6 +161,6 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
     }
   }
   PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
-  PetscCall(FileCommit(comm, file, PETSC_FALSE));
+  PetscCall(FileRename(comm, file));
   PetscFunctionReturn(0);
 }

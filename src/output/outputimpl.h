@@ -19,12 +19,19 @@ typedef struct {
 PETSC_INTERN void MuteBegin(Mute *);
 PETSC_INTERN void MuteEnd(Mute *);
 
+/* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and names the file */
+typedef struct _n_FileCommit *FileCommit;
+
+PETSC_INTERN PetscErrorCode FileRaise(MPI_Comm, const char file[], PetscErrorCode code, int error);
+PETSC_INTERN PetscErrorCode FileCommitBegin(MPI_Comm, const char part[], const char file[], FileCommit *);
+PETSC_INTERN PetscErrorCode FileCommitEnd(FileCommit *);
+
 /*
    file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
    names the file.
 */
-/* Every rank writes into the open viewer; safe: it is on the disk before it takes its name */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscBool safe, PetscErrorCode (*write)(PetscViewer, void *), void *ctx);
+/* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes its name */
+PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx, FileCommit *commit);
 /* On the first rank fill() writes the stream; the others wait for the outcome */
 PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 /* The same behind what the file holds; it stays as it was where there is no room for all of it */
@@ -74,6 +81,7 @@ PETSC_INTERN PetscInt       OutputKindNodes(PetscInt kind);
 /* dataset.c: n records of this rank; written and destroyed */
 PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);
 PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
+PETSC_INTERN PetscErrorCode DatasetWriteIndices(IS, PetscViewer);
 
 /* stress.c: of what a state does not have nothing is written */
 PETSC_INTERN PetscErrorCode StressWriteCells(Output, const StepState *, PetscViewer);

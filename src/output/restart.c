@@ -373,7 +373,7 @@ static PetscErrorCode RestartDestroy(Restart *r)
 
    Errors: PETSC_ERR_FILE_OPEN for no file; PETSC_ERR_USER_INPUT for one of another scene, or no checkpoint at all.
 
-.seealso: `CheckpointWrite()`, `SimulationSetCheckpoint()`
+.seealso: `CheckpointWriterWrite()`, `SimulationSetCheckpoint()`
 @*/
 PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint *checkpoint, PetscBool *same)
 {

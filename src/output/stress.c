@@ -74,7 +74,7 @@ static PetscErrorCode StressWritePointCells(Output output, PetscInt n, PetscView
   for (PetscInt i = 0; i < n; ++i) cells[i] = first + i;
   PetscCall(ISCreateGeneral(output->comm, n, cells, PETSC_OWN_POINTER, &is));
   PetscCall(PetscObjectSetName((PetscObject)is, "gauss_cells"));
-  PetscCall(ISView(is, viewer));
+  PetscCall(DatasetWriteIndices(is, viewer));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }

@@ -77,7 +77,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
    Note:
    What the optimizer keeps of its Krylov spaces is not in it: the first load step that goes on from it finds it again.
 
-.seealso: `SimulationSetCheckpoint()`, `CheckpointWrite()`
+.seealso: `SimulationSetCheckpoint()`, `CheckpointWriterWrite()`
 @*/
 PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 {
