@@ -71,7 +71,7 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve that has converged to u is to be followed by another one, about u; p->load is that at u then or at the end */
+/* Whether a solve that has converged to u is to be followed by another one, about u. At the end p->load is that at u, where no slope is needed */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
@@ -90,12 +90,17 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   PetscCall(VecNorm(linear, NORM_2, &off));
   PetscCall(VecNorm(load, NORM_2, &size));
   PetscCall(VecDestroy(&linear));
+  if (off <= tolerance * size) {
+    PetscCall(VecCopy(u, p->followed));
+    PetscCall(VecDestroy(&p->load));
+    p->load = load;
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecDestroy(&load));
-  if (off <= tolerance * size) PetscCall(VecCopy(u, p->followed));
-  else if (nsolves < max_followed) {
+  if (nsolves < max_followed) {
     PetscCall(GapSecantsAdvance(&p->secants, off, u, p->followed, &damped));
     *again = PETSC_TRUE;
+    PetscCall(FollowersLinearize(p));
   } else PetscCall(ReportReason(report, PETSC_FALSE, "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
-  PetscCall(FollowersLinearize(p));
   PetscFunctionReturn(0);
 }
