@@ -292,6 +292,22 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
+/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a translation; none: PETSC_DECIDE */
+static PetscInt SupportFindFreest(const PetscReal outside[6])
+{
+  PetscReal freest = 0;
+  PetscInt  mode   = PETSC_DECIDE;
+
+  for (PetscInt k = 0; k < 6; ++k) {
+    const PetscReal rank = outside[k] > 1 - 1e-6 ? 2 : outside[k] + (k < 3 ? 0 : 1);
+
+    if (outside[k] <= 2e-6 || rank <= freest + 1e-6) continue;
+    freest = rank;
+    mode   = k;
+  }
+  return mode;
+}
+
 static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
 {
   static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z", "a rotation about x", "a rotation about y", "a rotation about z"};
@@ -299,16 +315,10 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    PetscReal freest = 1e-6;
-    PetscInt  mode = PETSC_DECIDE, nfree = 0;
+    const PetscInt mode  = SupportFindFreest(outside + 6 * b);
+    PetscInt       nfree = 0;
 
-    for (PetscInt k = 0; k < 6; ++k) {
-      if (outside[6 * b + k] > 1 - 1e-6) ++nfree;
-      if (outside[6 * b + k] > freest + 1e-6) {
-        freest = outside[6 * b + k];
-        mode   = k;
-      }
-    }
+    for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
     PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT, "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name, scene->bodies[b].name);
     PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name, scene->bodies[b].name, modes[mode]);
   }

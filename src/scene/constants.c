@@ -68,6 +68,12 @@ static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, const P
   return constant->required;
 }
 
+/* A direction, which cannot be zero; zero stands for one that is not given */
+static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
+{
+  return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
+}
+
 /* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
@@ -84,6 +90,7 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
     PetscCall(SceneKeysGet(keys, (PetscBool)(constants[i].required && !listed), &text, "%s", key));
     if (text && constants[i].n == 1) PetscCall(SceneParseReal(keys, key, text, value));
     else if (text) PetscCall(SceneParseReals(keys, key, text, constants[i].n, value));
+    if (text && MaterialConstantIsAxis(&constants[i]) && !MaterialConstantIsSet(&constants[i], value)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
   PetscCall(MaterialSetScale(material));
   PetscFunctionReturn(0);

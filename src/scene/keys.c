@@ -132,6 +132,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   if (unknown) {
     PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
     PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT, "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list symmetry names", keys->file);
+    PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT, "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -", keys->file, unknown);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file, unknown, nearest);
   }
