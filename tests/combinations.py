@@ -1,7 +1,8 @@
-"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python combinations.py [table]"""
+"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python combinations.py [table | triples N | with EFFECT]"""
 import itertools
 import json
 import os
+import random
 import subprocess
 import sys
 
@@ -165,6 +166,7 @@ EFFECTS = {
     "quadratic": line("model: quadratic"),
     "one gap": line("contact_updates: 1"),
     "library": library,
+    "local refinement": entry("refinements", "spot: {lower: [0, 0, 0.5], upper: [1.6, 2, 1.4]}"),
     "refined": option("-refine", "1"),
     "penalty": option("-contact_penalty", "100"),
     "interior point": option("-tao_ipfilter_subspace", "false"),
@@ -212,9 +214,20 @@ def judge(names):
 
 
 # By themselves only: they change nothing of what is solved, or little
-ALONE = {"pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "body force", "expression"}
+ALONE = {"pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "local refinement", "body force", "expression"}
 TABLE = {}
-for pair in itertools.chain(((name,) for name in EFFECTS), itertools.combinations([name for name in EFFECTS if name not in ALONE or len(sys.argv) > 1], 2)):
+
+
+def chosen(words):
+    """Each alone and each two; of all effects for the table; or so many of three, always the same ones; or one with each other"""
+    if words[:1] == ["triples"]:
+        return random.Random(1).sample(list(itertools.combinations(EFFECTS, 3)), int(words[1]))
+    if words[:1] == ["with"]:
+        return [(words[1], name) for name in EFFECTS if name != words[1]]
+    return itertools.chain(((name,) for name in EFFECTS), itertools.combinations([name for name in EFFECTS if name not in ALONE or words], 2))
+
+
+for pair in chosen(sys.argv[1:]):
     first = [line.split(":")[0] for name in pair for scene in [Scene()] for _ in [EFFECTS[name](scene)] for text in scene.top for line in text.split("\n")]
     if len(set(first)) < len(first):
         continue  # the two say one key

@@ -7,8 +7,10 @@ import resource
 
 import barrier
 import clip
+import kill
 import steps
 import sweeps
+import together
 import units
 from runner import AMGF_DIR
 
@@ -140,12 +142,18 @@ def clip_cells(r):
     return [r["name"], str(r["checks"]), f"{r['seconds']:.0f}"]
 
 
+def kill_cells(r):
+    return [r["name"], *(str(r[key]) for key in ("ranks", "times", "went_on", "before", "done")), f"{r['worst']:.1e}"]
+
+
 COUNTS = ["status", "Newton", "PCG mean", "PCG max"]
 PARTS = {
     "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "drift"], sweep_cells),
     "barrier": Part(barrier.cases, ["case", "status", "Newton", "PCG of each Newton system", "bound", "D_max/D_min", "KKT error", "unscaled"], barrier_cells),
     "units": Part(units.cases, ["scene", "units", *COUNTS, "largest difference", "of"], unit_cells),
     "steps": Part(steps.cases, ["scene", "load steps", "gap updates allowed", *COUNTS, "true gap", "displacement off by", "energy off by"], step_cells),
+    "kill": Part(kill.cases, ["after", "ranks that go on", "times", "went on", "before a checkpoint", "had ended", "off by"], kill_cells),
+    "together": Part(together.cases, ["effects", "known", "run", "refused"], lambda r: [r["name"], *r["counts"]]),
     "clip": Part(clip.cases, ["case", "checks", "time [s]"], clip_cells),
 }
 
