@@ -7,16 +7,23 @@ frictional contact problems and applications, J. Theor. Appl. Mech. 7, 1988, and
 Torque: a shaft shrunk into a hub and turned, both held by their other faces: Lame's pressure for plane strain, and friction x pressure x 2 pi r^2 L.
 Capstan: a belt laid around a quarter and a half of a rigid pulley, tightened by both ends, then the pulley turns; tensions T2 / T1 = exp(friction x angle), of a belt of a thickness by the radius
 that friction acts at over that of the tension. Another belt is pulled over a pulley by one end, against a dead load at the other.
+Cattaneo and Mindlin: two equal cylinders pressed together and shifted; far from each other's size, as the theory has it: strains of the size of the half-width over the radius change it.
+Roller: NAFEMS contact benchmark 1 with friction (A. Konter, Advanced finite element contact benchmarks, 2006), a cylinder on a block in plane strain, displacement and pressure at the
+middle; its codes have large displacements, and so have these scenes.
 Lift: a block that is pushed until half of its base lifts off, on a base that sticks, or has a coefficient so large that it does.
 """
 import json
 import math
 import sys
 
+import h5py
+import numpy as np
+
 PUBLISHED = {0: 28.6, 1.25: 27.2, 5: 22.8, 7.5: 19.8, 11.25: 15.0}  # place along the base [mm]: displacement [1e-3 mm]
 YOUNG, POISSON, INTERFERENCE, FRICTION, LENGTH = 200000, 0.3, 0.02, 0.12, 2
 BORE, FIT, RIM = 15.0, 25.0, 40.0
 PULLEY = 50
+HALF_WIDTH, WIDTH, GROWTH = 0.0025, 0.000245, 1.2
 
 
 def greco(cells):
@@ -104,6 +111,83 @@ contact:
 """
 
 
+def steps_past(even, cell, length):
+    """Cells that make up the length, those past so many equal ones each longer than the one before, and the longest over the shortest"""
+    n = 1
+    while cell * (even + sum(GROWTH**i for i in range(1, n + 1))) < length:
+        n += 1
+    return even + n, GROWTH**n
+
+
+def cylinder(name, depth, center, across, deep, half="", material=""):
+    (cells, longest), (ring, deepest), even = across[:2], deep[:2], across[2]
+    return f"""  - {name}:
+      shape: half_ellipse
+      axis: y
+      depth: {depth}{half}
+      center: [0, 0, {center}]
+      semi_axes: [{abs(center)}, {abs(center)}]
+      extent: [0, {1 if half else WIDTH}]
+      patches: [8, {cells}, {ring}]
+      grading: [1, {longest:.6g}, {1 / deepest:.6g}]
+      even: [1, {even}, 4]
+      layers: 1
+      {material or "young: 1000"}
+      poisson: 0.3
+"""
+
+
+def cattaneo(cells):
+    even, cell = 5 * cells // 4, HALF_WIDTH / cells
+    across, deep = (*steps_past(even, cell, math.pi / 4), even), steps_past(4, cell, 0.6)
+    return f"""problem: cattaneo
+bodies:
+{cylinder("upper", "-z", 1, across, deep)}{cylinder("lower", "z", -1, across, deep)}faces:
+  - top: {{of: upper.arc, lower: [{-2 * HALF_WIDTH}, -inf, -inf], upper: [{2 * HALF_WIDTH}, inf, 0.15]}}
+  - bottom: {{of: lower.arc, lower: [{-2.5 * HALF_WIDTH}, -inf, -0.15], upper: [{2.5 * HALF_WIDTH}, inf, inf]}}
+displacements:
+  - fix: {{face: lower.flat, value: [0, 0, 0]}}
+  - down: {{face: upper.flat, value: [free, free, -4.15e-5], ramp: down}}
+  - across: {{face: upper.flat, value: [1.25e-5, free, free], ramp: across}}
+symmetry: [upper.lmin, upper.lmax, lower.lmin, lower.lmax]
+contact:
+  - touch: {{mortar: lower.bottom, nonmortar: upper.top, friction: 0.3}}
+load: {{steps: 2}}
+ramps:
+  - down: {{factors: [1, 1]}}
+  - across: {{factors: [0, 0.8]}}
+"""
+
+
+def roller(cells, friction=0.1):
+    even, cell = 13 * cells // 10, 6.215 / cells
+    material = "young: {}\n      material: saint_venant"
+    across, deep = (*steps_past(even, cell, 39.3), even), steps_past(4, cell, 30)
+    (x, longest), (z, deepest) = steps_past(even, cell, 100), steps_past(4, cell, 200)
+    return f"""problem: roller
+bodies:
+{cylinder("cylinder", "-z", 50, across, deep, half=chr(10) + "      half: x", material=material.format(210000))}  - block:
+      lower: [0, 0, -200]
+      upper: [100, 1, 0]
+      cells: [{x}, 1, {z}]
+      grading: [{longest:.6g}, 1, {1 / deepest:.6g}]
+      even: [{even}, 1, 4]
+      {material.format(70000)}
+      poisson: 0.3
+faces:
+  - crown: {{of: cylinder.arc, upper: [12, inf, 12]}}
+displacements:
+  - floor: {{face: block.zmin, value: [0, 0, 0]}}
+symmetry: [cylinder.symmetry, cylinder.lmin, cylinder.lmax, block.xmin, block.ymin, block.ymax]
+forces:
+  - load: {{face: cylinder.flat, value: [0, 0, -17500]}}
+contact:
+  - touch: {{mortar: block.zmax, nonmortar: cylinder.crown, friction: {friction}}}
+probes:
+  - middle: {{point: [0, 0, 0], body: block}}
+"""
+
+
 def lift(law):
     return f"""problem: lift
 bodies:
@@ -133,6 +217,10 @@ SCENES = {
     "capstan_180_48": capstan(180, 48, 0.8),
     "capstan_180_96": capstan(180, 96, 0.8),
     "pulled": PULLED,
+    "cattaneo_14": cattaneo(14),
+    "cattaneo_21": cattaneo(21),
+    "roller_8": roller(8),
+    "roller_16": roller(16),
     "lift_rough": lift("stick: true"),
     "lift_100": lift("friction: 100"),
 }
@@ -181,8 +269,42 @@ def judge_capstan():
     print("pulled:", "converged" if run["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in run["steps"]))
 
 
+def half_width(x, y):
+    """Of the half-ellipse that has the second moment of a traction"""
+    return 2 * math.sqrt((x**2 * y * np.gradient(x)).sum() / (y * np.gradient(x)).sum())
+
+
+def judge_cattaneo():
+    friction, radius, modulus = 0.3, 0.5, 1000 / (2 * (1 - 0.3**2))
+    for name, edges in ("cattaneo_14", 0.05), ("cattaneo_21", 0.04):
+        force = load(name)["steps"][1]["pairs"][0]["force"]
+        normal, shear = force[2] / WIDTH, -force[0] / WIDTH
+        a = math.sqrt(4 * normal * radius / math.pi / modulus)
+        c, peak = a * math.sqrt(1 - shear / friction / normal), 2 * normal / math.pi / a
+        with h5py.File(name + ".h5") as mesh, h5py.File(name + "_0002.h5") as step:
+            x = mesh["vertices"][...]
+            touching = ~np.isnan(step["contact_gap"][...]) & (x[:, 2] > 1e-12) & (x[:, 1] < 1e-9)
+            order = np.argsort(x[touching, 0])
+            x, p, q = x[touching, 0][order], step["contact_pressure"][...][touching][order], -step["contact_shear"][...][touching, 0][order]
+        verdict(f"{name}, half-width off Hertz's", abs(half_width(x, p) / a - 1), 0.01)
+        verdict(f"{name}, peak off Hertz's", abs(p.max() / peak - 1), 0.01)
+        verdict(f"{name}, half-width that sticks off Cattaneo's", abs(half_width(x, friction * p - q) / c - 1), 0.01)
+        exact = friction * peak * (np.sqrt(np.maximum(0, 1 - (x / a) ** 2)) - c / a * np.sqrt(np.maximum(0, 1 - (x / c) ** 2)))
+        error, cell = abs(q - exact) * np.gradient(x), np.diff(x).min()
+        apart = (abs(abs(x) - a) > 2 * cell) & (abs(abs(x) - c) > 2 * cell)
+        verdict(f"{name}, traction off Cattaneo's but for two cells around its edges", error[apart].sum() / shear, 0.005)
+        verdict(f"{name}, with them", error.sum() / shear, edges)
+
+
+def judge_roller():
+    for name in "roller_8", "roller_16":
+        probe = load(name)["steps"][0]["probes"][0]
+        verdict(f"{name}, displacement off the published one", abs(probe["displacement"][2] / -1.30264 - 1), 0.01)
+        verdict(f"{name}, pressure off the published one", abs(probe["contact_pressure"] / 3542.7 - 1), 0.005)
+
+
 def judge_ranks():
-    for name in "torque_42", "capstan_90_24":
+    for name in "torque_42", "capstan_90_24", "cattaneo_14", "roller_8":
         one, three = (load(name + ranks)["steps"][-1]["pairs"] for ranks in ("", "_3"))
         verdict(f"{name}, 3 ranks against 1", max(abs(a["shear_force"] / b["shear_force"] - 1) for a, b in zip(one, three)), 1e-6)
 
@@ -205,5 +327,7 @@ else:
     judge_greco()
     judge_torque()
     judge_capstan()
+    judge_cattaneo()
+    judge_roller()
     judge_ranks()
     judge_lift()
