@@ -6,7 +6,8 @@ GRECO: a plate pressed onto a rigid ground and pushed from the side, tangential 
 frictional contact problems and applications, J. Theor. Appl. Mech. 7, 1988, and the benchmarks that took it up; codes scatter by 5 %).
 Torque: a shaft shrunk into a hub and turned, both held by their other faces: Lame's pressure for plane strain, and friction x pressure x 2 pi r^2 L.
 Capstan: a belt laid around a quarter and a half of a rigid pulley, tightened by both ends, then the pulley turns; tensions T2 / T1 = exp(friction x angle), of a belt of a thickness by the radius
-that friction acts at over that of the tension. Another belt is pulled over a pulley by one end, against a dead load at the other.
+that friction acts at over that of the tension. Another belt is pulled over a pulley by one end, against a dead load at the other, and again with friction alone
+to hold it sideways.
 Cattaneo and Mindlin: two equal cylinders pressed together and shifted; far from each other's size, as the theory has it: strains of the size of the half-width over the radius change it.
 Roller: NAFEMS contact benchmark 1 with friction (A. Konter, Advanced finite element contact benchmarks, 2006), a cylinder on a block in plane strain, displacement and pressure at the
 middle; its codes have large displacements, and so have these scenes.
@@ -109,6 +110,9 @@ symmetry: [belt.lmin, belt.lmax]
 contact:
   - wrap: {{mortar: pulley.outer, nonmortar: belt.inner, friction: 0.3}}
 """
+
+
+HUNG = PULLED.replace(belt(180, 48, 1, 2), belt(180, 24, 1, 2)).replace("[0, -0.5, free]", "[free, -0.5, free]")
 
 
 def steps_past(even, cell, length):
@@ -217,6 +221,7 @@ SCENES = {
     "capstan_180_48": capstan(180, 48, 0.8),
     "capstan_180_96": capstan(180, 96, 0.8),
     "pulled": PULLED,
+    "hung": HUNG,
     "cattaneo_14": cattaneo(14),
     "cattaneo_21": cattaneo(21),
     "roller_8": roller(8),
@@ -267,6 +272,11 @@ def judge_capstan():
         verdict(f"{name}, off those of one of its thickness", abs(math.log(ratio) / (0.3 * math.radians(angle) * PULLEY / (PULLEY + thickness / 2)) - 1), 2e-3)
     run = load("pulled")
     print("pulled:", "converged" if run["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in run["steps"]))
+    run = load("hung")
+    print("hung:", "converged" if run["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in run["steps"]))
+    force = run["steps"][-1]["pairs"][0]["force"]
+    verdict("hung, force sideways", abs(force[0]) / abs(force[1]), 1e-8)
+    verdict("hung, tensions off those of a belt of its thickness", abs((abs(force[1]) - 1) / math.exp(0.3 * math.pi * PULLEY / (PULLEY + 0.5)) - 1), 0.03)
 
 
 def half_width(x, y):

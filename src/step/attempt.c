@@ -24,7 +24,7 @@ static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u,
 static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   PetscInt  nsolves = 0;
-  PetscBool again;
+  PetscBool again, rescued;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
@@ -36,7 +36,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
     PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
     PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
-  } while (again);
+    PetscCall(ProximalRescue(p, u, report, &rescued));
+    if (rescued) nsolves = 0;
+  } while (again || rescued);
   PetscCall(LooseTest(p, u, report));
   PetscCall(RigidTest(p->sim, u, report));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));

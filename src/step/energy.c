@@ -67,6 +67,7 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(TiesTangent(p->sim, u, H));
+  PetscCall(ProximalAddStiffness(p, H));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

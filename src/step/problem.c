@@ -92,7 +92,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDestroy(&p->g));
   PetscCall(VecDestroy(&p->base));
-  PetscCall(VecDestroy(&p->centre));
+  PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));
   PetscCall(GapSecantsDestroy(&p->secants));
   PetscCall(VecDestroy(&p->load));

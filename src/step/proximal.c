@@ -1,6 +1,8 @@
 /*
    Free motions of rigid bodies have no stiffness of their own, and solvers ask for some. They are given a small one about a centre, which follows the solutions until no force is
    left in it: the proximal point method, with 1/2 (x - centre)^T held (x - centre) added to the energy. Its rate is that stiffness by that of what holds the bodies.
+
+   Where friction is all that holds an elastic body, or nearly not, and no solution has been found, all bodies are given such a stiffness: what is left to decide are small motions.
 */
 #include "stepimpl.h"
 
@@ -12,7 +14,7 @@ static const PetscReal stuck = 0.9;
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
-  if (p->centre) PetscCall(CentredAdd(1.0, NULL, p->sim->rigid.held, p->centre, x, energy, force));
+  if (p->centre) PetscCall(CentredAdd(1.0, NULL, p->held, p->centre, x, energy, force));
   PetscFunctionReturn(0);
 }
 
@@ -38,8 +40,53 @@ PetscErrorCode ProximalBegin(StepProblem *p)
 {
   PetscFunctionBegin;
   if (!p->sim->rigid.n) PetscFunctionReturn(0);
+  PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
+  p->held = p->sim->rigid.held;
   PetscCall(VecDuplicate(p->base, &p->centre));
   PetscCall(VecCopy(p->base, p->centre));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProximalEnd(StepProblem *p)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->centre));
+  PetscCall(VecDestroy(&p->held));
+  PetscCall(PetscFree(p->failed));
+  PetscFunctionReturn(0);
+}
+
+/* A tangent has that of rigid bodies by itself */
+PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
+{
+  PetscFunctionBegin;
+  if (p->failed) PetscCall(MatDiagonalSet(K, p->held, ADD_VALUES));
+  PetscFunctionReturn(0);
+}
+
+/* Once, and with friction only: a solve that has found no solution is to be followed by others, about the base, that know small motions alone */
+PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
+{
+  const PetscReal share = 1e-4;
+  Mat             K;
+
+  PetscFunctionBegin;
+  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->sim->interrupted && EnergyIsFinite(p->energy));
+  if (!*again) PetscFunctionReturn(0);
+  PetscCall(PetscStrallocpy(report->reason, &p->failed));
+  PetscCall(VecDuplicate(p->base, &p->held));
+  PetscCall(SpringsOfSize(p->sim, share, p->held));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, p->held));
+  PetscCall(TiesSet(&p->sim->ties, 0.0, p->held));
+  if (p->sim->quadratic) {
+    PetscCall(MatDuplicate(p->K, MAT_COPY_VALUES, &K));
+    PetscCall(ProximalAddStiffness(p, K));
+    PetscCall(MatDestroy(&p->K));
+    p->K = K;
+  }
+  PetscCall(VecDuplicate(p->base, &p->centre));
+  PetscCall(VecCopy(p->base, p->centre));
+  PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
 
@@ -52,6 +99,7 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
+  if (p->failed && !report->converged && !p->sim->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   if (!p->centre || !report->converged) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityForce(p->sim->elasticity, u, force));
@@ -64,6 +112,6 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || carried < stuck * p->carried));
   p->carried = carried;
   if (*again) PetscCall(ProximalCentre(p, u));
-  else PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that forces drive moves away or turns over: nothing stops it"));
+  else PetscCall(ReportReason(report, PETSC_FALSE, p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));
   PetscFunctionReturn(0);
 }

@@ -1,39 +1,53 @@
 /* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely. */
 #include "stepimpl.h"
 
-/*
-   At the vertices of the bodies that are not held: their share of the volume. The springs take as little from the bodies' deformation as they
-   are worth, and from the forces on them what is out of balance. mass: of unit density
-*/
-static PetscErrorCode SpringsCreateWeak(Simulation sim)
+/* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume. sim->mass: of unit density */
+PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
 {
   Scene              scene = sim->scene;
-  PetscBool         *unheld;
   PetscReal         *volume;
   const PetscScalar *m;
   PetscScalar       *k;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &unheld));
   PetscCall(PetscCalloc1(scene->nbodies, &volume));
-  PetscCall(MeshGetUnheld(sim->dm, scene, unheld));
-  PetscCall(VecDuplicate(sim->mass, &sim->springs.weak));
   PetscCall(VecGetLocalSize(sim->mass, &n));
   PetscCall(VecGetArrayRead(sim->mass, &m));
   for (PetscInt i = 0; i < n; i += 3) volume[sim->places.body[i / 3]] += PetscRealPart(m[i]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)scene->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCall(VecGetArrayWrite(sim->springs.weak, &k));
+  PetscCall(VecGetArrayWrite(stiffness, &k));
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = sim->places.body[i / 3];
 
-    k[i] = unheld[b] ? scene->weak_springs * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b] : 0.0;
+    k[i] = share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b];
   }
-  PetscCall(VecRestoreArrayWrite(sim->springs.weak, &k));
+  PetscCall(VecRestoreArrayWrite(stiffness, &k));
   PetscCall(VecRestoreArrayRead(sim->mass, &m));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) sim->springs.nweak += unheld[b];
-  PetscCall(PetscFree(unheld));
   PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
+/* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the forces on them what is out of balance. */
+static PetscErrorCode SpringsCreateWeak(Simulation sim)
+{
+  PetscBool   *unheld;
+  PetscScalar *k;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &unheld));
+  PetscCall(MeshGetUnheld(sim->dm, sim->scene, unheld));
+  PetscCall(VecDuplicate(sim->mass, &sim->springs.weak));
+  PetscCall(SpringsOfSize(sim, sim->scene->weak_springs, sim->springs.weak));
+  PetscCall(VecGetLocalSize(sim->springs.weak, &n));
+  PetscCall(VecGetArray(sim->springs.weak, &k));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (!unheld[sim->places.body[i / 3]]) k[i] = 0.0;
+  }
+  PetscCall(VecRestoreArray(sim->springs.weak, &k));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) sim->springs.nweak += unheld[b];
+  PetscCall(PetscFree(unheld));
   PetscFunctionReturn(0);
 }
 

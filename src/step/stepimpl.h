@@ -263,6 +263,7 @@ PETSC_INTERN PetscErrorCode CouplingsCreate(Simulation, Mat *stiffness);
 PETSC_INTERN PetscErrorCode CouplingsAddStiffness(Simulation, Mat C, Mat stiffness);
 
 /* springs.c */
+PETSC_INTERN PetscErrorCode SpringsOfSize(Simulation, PetscReal share, Vec stiffness);
 PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
@@ -353,7 +354,8 @@ typedef struct {
   Vec        lower, upper; /* NULL without bounds */
   GapSecants secants;      /* where the load is taken next */
   Vec        followed;     /* displacement at which the load is taken; NULL where no pressure follows its face */
-  Vec        centre;       /* of proximal.c; NULL where forces drive no rigid body */
+  Vec        centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
+  char      *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
   PetscReal  carried;      /* what was left between the last solution and its centre [force] */
   Vec        w, Kw;
 
@@ -378,6 +380,9 @@ PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsol
 
 /* proximal.c */
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
+PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
+PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
