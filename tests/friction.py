@@ -91,6 +91,19 @@ contact:
 load: {steps: 3}
 """
 
+BRINK = """problem: brink
+bodies:
+  - plate: {lower: [-2, -2, -1], upper: [4, 3, 0], cells: [6, 5, 1], young: 1e5, poisson: 0.3}
+  - block: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [4, 2, 2], young: 1e5, poisson: 0.3}
+displacements:
+  - fix: {face: plate.zmin, value: [0, 0, 0]}
+contact:
+  - joint: {mortar: plate.zmax, nonmortar: block.zmin, friction: 0.3}
+body_forces:
+  - g: {body: block, value: [29.99, 0, -100]}
+"""
+
+
 def proportional(steps):
     """Pressure and push grow together: any number of steps goes the same way"""
     return slide(120, "friction: 0.3", [(k + 1) / steps for k in range(steps)]).replace(f"{{factors: {[1] * steps}}}", f"{{steps: {steps}}}")
@@ -98,6 +111,11 @@ def proportional(steps):
 
 DRIVEN = "  - carry: {face: block.zmax, value: [0.02, 0, free], ramp: across}\n"
 CYCLE = slide(0, "friction: 0.3", (0, 0.5, 1, 0.5, 0, -0.5, -1, 0, 1), DRIVEN)
+
+def swap(text):
+    """The larger face nonmortar: most of its vertices at the block's rim are covered in part"""
+    return text.replace("mortar: ground.zmax, nonmortar: block.zmin", "mortar: block.zmin, nonmortar: ground.zmax")
+
 
 SCENES = {
     "sticks": slide(178.2, "friction: 0.3"),
@@ -107,6 +125,8 @@ SCENES = {
     "rough": slide(0, "stick: true", driven=DRIVEN.replace("0.02", "0.01")),
     "oiled": slide(0, "friction: 1e-6", driven=DRIVEN),
     "grips": slide(0, "friction: 10", driven=DRIVEN),
+    "swapped": swap(slide(0, "friction: 0.3", driven=DRIVEN)),
+    "swapped_limited": swap(slide(0, "shear_limit: 50", driven=DRIVEN)),
     "finite": slide(0, "friction: 0.3", driven=DRIVEN, material=", material: neohookean"),
     "cycle": CYCLE,
     "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
@@ -115,6 +135,8 @@ SCENES = {
     "shaft": SHAFT,
     "inclined": SHAFT.replace("[0, 90]", "[13, 103]"),
     "foreseen": FORESEEN,
+    "brink": BRINK,
+    "over": BRINK.replace("29.99", "30.01"),
 }
 
 
@@ -145,17 +167,36 @@ def slip_law(name, coefficient, limit, tolerance=2e-3):
     verdict(f"{name}, friction over its law", abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
 
 
+def beyond(name, coefficient):
+    """Of the largest pressure"""
+    import h5py
+    import numpy as np
+
+    with h5py.File(name + "_0003.h5") as fields:
+        pressure, shear = fields["contact_pressure"][...], np.linalg.norm(fields["contact_shear"][...], axis=1)
+    return max(0, np.nanmax(shear - coefficient * pressure) / np.nanmax(pressure))
+
+
 def judge():
     sticks, slides = load("sticks"), load("slides")
     verdict("block that sticks, force", abs(last("sticks")["force"][0] / -178.2 - 1), 1e-6)
     verdict("block that sticks, energy balance", imbalance(sticks["steps"][-1], sticks["steps"][0]), 1e-3)
     print("block that slides away:", "converged" if slides["converged"] else "not converged, exit code %d" % slides["exit_code"])
+    print("block a little below and above what friction holds:", *("converged" if load(name)["converged"] else "not converged" for name in ("brink", "over")))
+    verdict("block a little below it, force", abs(last("brink")["force"][0] / -59.98 - 1), 1e-6)
+    brinks = [load(name)["steps"][-1] for name in ("brink", "brink_3")]
+    verdict("block a little below it, 3 ranks against 1", abs(brinks[1]["energy"] / brinks[0]["energy"] - 1), 1e-6)
     forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
     verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
     verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)
     slip_law("finite", 0.3, math.inf)
     slip_law("limited", math.inf, 50)
     slip_law("capped", 0.3, 50, 0.02)  # less where the pressure is low
+    slip_law("swapped", 0.3, math.inf)
+    slip_law("swapped_limited", math.inf, 50)
+    for name in "swapped", "swapped_limited":
+        verdict(f"{name}, sizes of its forces against their resultant", abs(last(name)["shear_force"] / abs(last(name)["force"][0]) - 1), 5e-3)
+    verdict("swapped, traction beyond friction x pressure", beyond("swapped", 0.3), 1e-6)
     print("slip area where all sticks: %g" % last("rough")["slip_area"], "converged" if load("rough")["converged"] else "not converged")
     print("coefficients of 1e-6 and 10:", "converged" if load("oiled")["converged"] and load("grips")["converged"] else "not converged")
     for name in "cycle", "node":

@@ -95,7 +95,7 @@ static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
 }
 
 /* Friction gives way where the slip is more than rounding makes of the displacements */
-static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, PairRows *rows)
+static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;
   ContactLinearization lin      = sim->linearization;
@@ -110,8 +110,8 @@ static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, PairRows *rows)
     if (lin->pair[r] != pair || !(rows->area[r] > 0.0)) continue;
     rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
     for (PetscInt c = 0; c < 3; ++c) {
-      rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / rows->area[r];
-      rows->way[c * rows->n + r]   = s[0] * t[c] + s[1] * t[3 + c];
+      rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / PetscRealPart(mass[r]);
+      rows->way[c * rows->n + r]   = (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
     }
   }
   PetscFunctionReturn(0);
@@ -140,10 +140,10 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
     rows->gap[r]      = sim->gap[r] * PetscRealPart(mass[r]) / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
   }
-  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
   PetscCall(PetscFree(force));
   PetscCall(PairRowsClose(sim, rows));
-  if (rows->rubs) PetscCall(PairRowsRub(sim, pair, rows));
+  if (rows->rubs) PetscCall(PairRowsRub(sim, pair, mass, rows));
+  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
   PetscFunctionReturn(0);
 }
 
@@ -271,20 +271,55 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionReturn(0);
 }
 
-/* Shear and slip of the points from number `first` on, in the means of what the vertices have of the other side's cover, alone */
-static PetscErrorCode PairRubPoints(Simulation sim, PetscInt first, const PairVertices *vertices, Vec alone)
+/* A component of the shear in place of the pressure, handed on and evened out as that is, so that one stays within the other's law */
+static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices, Vec alone, PetscInt component)
 {
-  PetscSection         global;
-  const ContactMemory *m = &sim->memory;
-  const PetscScalar   *area, *side, *shear, *way;
-  PetscInt             rstart;
+  PetscSection       global;
+  const PetscScalar *shear, *a;
+  PetscScalar       *carry;
+  PetscInt           rstart, n;
+  Vec                carried;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetLocalSize(alone, &n));
+  PetscCall(VecDuplicate(alone, &carried));
+  PetscCall(VecCopy(alone, carried));
+  PetscCall(VecGetArrayRead(vertices->shear, &shear));
+  PetscCall(VecGetArray(carried, &carry));
+  for (PetscInt i = 0; i < n; i += 3) carry[i + 1] = shear[i + component];
+  PetscCall(VecRestoreArray(carried, &carry));
+  PetscCall(CoverEvenOut(sim, &sim->scene->pairs[pair], carried));
+  PetscCall(VecGetArrayRead(carried, &a));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    ContactPoint *point = &sim->points[k];
+    PetscInt      i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    if (point->area > 0.0) point->shear[component] = PetscRealPart(a[i + 1] / a[i]);
+  }
+  PetscCall(VecRestoreArrayRead(carried, &a));
+  PetscCall(VecRestoreArrayRead(vertices->shear, &shear));
+  PetscCall(VecDestroy(&carried));
+  PetscFunctionReturn(0);
+}
+
+/* Shear and slip of the points from number `first` on, slip in the means of what the vertices have of the other side's cover, alone */
+static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices, Vec alone)
+{
+  PetscSection         global;
+  const ContactMemory *m = &sim->memory;
+  const PetscScalar   *area, *side, *way;
+  PetscInt             rstart;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(PairShearPoints(sim, pair, first, vertices, alone, c));
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
   PetscCall(VecGetArrayRead(alone, &area));
   PetscCall(VecGetArrayRead(vertices->sides, &side));
-  PetscCall(VecGetArrayRead(vertices->shear, &shear));
   PetscCall(VecGetArrayRead(vertices->way, &way));
   for (PetscInt k = first; k < sim->npoints; ++k) {
     ContactPoint *point = &sim->points[k];
@@ -293,14 +328,13 @@ static PetscErrorCode PairRubPoints(Simulation sim, PetscInt first, const PairVe
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
     i -= rstart;
     for (PetscInt c = 0; c < 3; ++c) {
-      point->shear[c] = PetscRealPart(side[i] * shear[i + c] / area[i]);
-      point->slip[c]  = -PetscRealPart(side[i] * way[i + c] / area[i]);
+      point->shear[c] *= PetscRealPart(side[i]);
+      point->slip[c] = -PetscRealPart(side[i] * way[i + c] / area[i]);
     }
     point->slips     = (PetscBool)(point->closed && PetscRealPart(side[i + 2]) > 0.5 * PetscRealPart(side[i + 1]));
     point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
   }
   PetscCall(VecRestoreArrayRead(vertices->way, &way));
-  PetscCall(VecRestoreArrayRead(vertices->shear, &shear));
   PetscCall(VecRestoreArrayRead(vertices->sides, &side));
   PetscCall(VecRestoreArrayRead(alone, &area));
   PetscFunctionReturn(0);
@@ -388,7 +422,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(VecCopy(vertices.carried, alone));
     PetscCall(CoverEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
     PetscCall(PairAppendPoints(sim, p, &vertices, alone));
-    if (rows.rubs) PetscCall(PairRubPoints(sim, first, &vertices, alone));
+    if (rows.rubs) PetscCall(PairRubPoints(sim, p, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
     PetscCall(PairVerticesDestroy(&vertices));

@@ -9,10 +9,12 @@
 
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
-  Scene        scene = p->sim->scene;
-  PetscScalar *limit, *coefficient;
+  Scene              scene = p->sim->scene;
+  const PetscScalar *mass;
+  PetscScalar       *limit, *coefficient;
 
   PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrayWrite(p->friction.limit, &limit));
   PetscCall(VecGetArrayWrite(p->friction.coefficient, &coefficient));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
@@ -21,12 +23,13 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
 
     if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, p->time, &factor));
     PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must not be negative", pair->name, (double)factor, (double)p->time);
-    limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * lin->covered[r] : PETSC_INFINITY;
+    limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
     coefficient[r] = !SceneContactPairRubs(pair) ? 0.0 : pair->friction < PETSC_INFINITY ? factor * pair->friction
                                                                                          : PETSC_INFINITY;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscFunctionReturn(0);
 }
 

@@ -15,12 +15,12 @@ static PetscReal FrictionRowWork(const ContactMemory *m, ContactLinearization li
   return work;
 }
 
-/* Of every pair: the work since the start, if `sol` stands, and the sum of the sizes of the forces */
+/* Of every pair: the work since the start, if `sol` stands, and the sum of the sizes of the forces: of a row that is covered in part, that part */
 PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepReport *report)
 {
   ContactLinearization lin = sim->linearization;
   const ContactMemory *m   = &sim->memory;
-  const PetscScalar   *f, *s;
+  const PetscScalar   *f, *s, *mass;
   PetscReal           *sums;
 
   PetscFunctionBegin;
@@ -32,10 +32,12 @@ PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepR
   }
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     sums[2 * lin->pair[r]] += FrictionRowWork(m, lin, r, f + 2 * r, s + 2 * r);
-    sums[2 * lin->pair[r] + 1] += PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1])));
+    sums[2 * lin->pair[r] + 1] += PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1]))) * lin->covered[r] / PetscRealPart(mass[r]);
   }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
   PetscCall(VecRestoreArrayRead(sol->shear, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
