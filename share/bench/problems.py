@@ -54,9 +54,12 @@ class Problem:
         self.steps = steps
 
     def scene(self, level, body=()):
-        """The text of the scene on a mesh; body: keys and values that every body gets"""
+        """The text of the scene on a mesh; body: keys and values that every body gets, or with friction every contact pair"""
         text = edited(self.name, self.levels[level].edits)
         for key, value in body:
+            if key == "friction":
+                text = re.sub(r"(nonmortar: [\w.]+)", rf"\1, {key}: {value}", text)
+                continue
             text = re.sub(rf"^ *{key}:.*\n", "", text, flags=re.M)
             text = re.sub(r"^( *)(poisson:.*)$", rf"\1\2\n\1{key}: {value}", text, flags=re.M)
         return text

@@ -167,6 +167,8 @@ def formulation_studies(size):
     yield Study("quadrature", "Gauss points per axis of a hexahedron", "points", turn(size, two, values("-elasticity_quadrature", "2", "3")), costs=("time",))
     materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
     yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
+    rubbing = [("none", ()), ("0.3", (), (("friction", "0.3"),))]
+    yield Study("friction", "Friction: none against a coefficient of 0.3", "friction", turn(size, few(size, ("two_block", "beam_sphere_linear", "hertz_sphere")), rubbing, work=2), costs=("time", "applications"))
     models = values("-model", "quadratic", "energy")
     steps, updates = ("12", "3") if size == "full" else ("6", "2")
     true = ("-model", "energy", "-load_steps", steps, "-contact_updates", updates, "-contact_gap_tol", "1")
