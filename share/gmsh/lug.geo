@@ -1,13 +1,17 @@
 // A flat bar pulled by a pin in its hole, with a shoulder of fillets: a quarter of it, bar and pin in one file, tetrahedra with 10 nodes.
 //
-//   gmsh -3 share/gmsh/lug.geo -o lug.msh                                     tetrahedra
+//   gmsh -3 share/gmsh/lug.geo -setnumber size 1.4 -o lug.msh                 tetrahedra, as shipped
 //   gmsh -3 share/gmsh/lug.geo -setnumber hexahedra 1 -o lug_hexahedra.msh    hexahedra with 27 nodes, on sweeps of quadrilaterals
 //   gmsh -3 share/gmsh/lug.geo -setnumber size 0.7 -o lug_fine.msh            smaller ones
+//   gmsh -3 share/gmsh/lug.geo -setnumber thick 0.2 -o lug_thin.msh           another thickness, or width (narrow), or radius (fillet)
 //
 // Physical volumes are the names for a scene's `volume`, physical surfaces become the faces bar.hole, pin.round, ...
 
 If (!Exists(hexahedra)) hexahedra = 0; EndIf
 If (!Exists(size)) size = 1; EndIf
+If (!Exists(narrow)) narrow = 7.5; EndIf // half widths
+If (!Exists(fillet)) fillet = 2; EndIf
+If (!Exists(thick)) thick = 2; EndIf    // half of it
 Mesh.ElementOrder = 2;
 Mesh.MshFileVersion = 4.1;
 If (hexahedra)
@@ -15,8 +19,8 @@ If (hexahedra)
   Mesh.RecombineAll = 1;
 EndIf
 
-wide = 15; narrow = 10; fillet = 2; shoulder = 45; end = 85; // half widths; along the bar
-hole = 6; pin = 5.9; thick = 2;                              // radii; half the thickness
+wide = 15; shoulder = 45; end = 85; // along the bar
+hole = 6; pin = 5.9;                // radii
 coarse = 4 * size; fine = 0.5 * size; near = 0.9 * size;
 
 Point(1) = {-20, 0, 0, coarse};
