@@ -1,7 +1,7 @@
 static char help[] = "Manufactured solution on a cube, of cubes, of distorted or of curved cells: order of convergence in displacement and gradient, and\nhow far the error estimate is from the true error.\n\n";
 
 #include "elasticity_problem.h"
-#include "elasticity_point.h"
+#include "elasticity_stresses.h"
 
 static const Material materials[]  = {{.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3}, {.type = MATERIAL_NEOHOOKEAN, .young = 2, .poisson = 0.3}, {.type = MATERIAL_SAINT_VENANT, .young = 2, .poisson = 0.3}};
 static PetscReal      amplitude[3] = {0.2, -0.1, 0.14};
@@ -252,7 +252,7 @@ int main(int argc, char **argv)
   MaterialType    type    = MATERIAL_LINEAR;
   ElementType     element = ELEMENT_FULL;
   PetscReal       values[3], gradients[3], distance = 0, below = 0.1, above = 0.1, scale = 1, effectivity = 0;
-  PetscBool       curved = PETSC_FALSE;
+  PetscBool       curved = PETSC_FALSE, stresses = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
@@ -262,7 +262,8 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-above", &above, NULL));
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-below", &below, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-curved", &curved, NULL));
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-amplitude", &scale, NULL)); /* Saint Venant-Kirchhoff is stable at moderate strain only */
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-stresses", &stresses, NULL)); /* the true error by the element's own */
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-amplitude", &scale, NULL));   /* Saint Venant-Kirchhoff is stable at moderate strain only */
   for (PetscInt i = 0; i < 3; ++i) amplitude[i] *= scale;
   ProblemBox(name, lower, upper, cells, &cube);
   PetscCall(ProblemSetOrder(1, &cube));
@@ -282,6 +283,7 @@ int main(int argc, char **argv)
     gradients[level] = PetscSqrtReal(errors[1]);
     if (effectivity > 0 && level == 2) {
       PetscCall(ElasticityEstimateError(e, u, &estimate, NULL));
+      if (stresses) PetscCall(StressesError(dm, e, &materials[type], ExactGradient, u, &errors[2]));
       PetscCall(ProblemReport("effectivity of the estimate: distance from 1", PetscAbsReal(PetscSqrtReal(estimate / errors[2]) - 1), effectivity));
     }
     PetscCall(VecDestroy(&u));
@@ -342,6 +344,20 @@ int main(int argc, char **argv)
       test:
          suffix: estimate_tetrahedra
          args: -tetrahedra -order {{1 2}separate output} -below 0.4 -curved
+      test:
+         suffix: estimate_stresses
+         args: -stresses -element {{full bbar incompatible}}
+         output_file: output/elasticity_manufactured_estimate.out
+      test:
+         suffix: estimate_stresses_order2
+         args: -stresses -order 2 -element {{full bbar}} -above 0.6
+         output_file: output/elasticity_manufactured_estimate_order2.out
+      test:
+         suffix: estimate_stresses_tetrahedra
+         args: -stresses -tetrahedra -order {{1 2}separate output} -below 0.4
+      test:
+         suffix: estimate_stresses_tetrahedra_bbar
+         args: -stresses -tetrahedra -order 2 -element bbar -below 1.6
 
    testset:
       args: -order 2 -pc_type pbjacobi
