@@ -11,6 +11,7 @@ typedef struct {
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
+  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a symmetric pattern */
 } ReducedGather;
 
 /* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the diagonal lack nothing. */
@@ -24,7 +25,7 @@ static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r
   PetscCall(MatGetRow(A, g->rows[r], &nc, &columns, &values));
   for (PetscInt k = 0; k < nc; k++) {
     PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
-    if (place < 0 || values[k] == 0.0 || (g->half && columns[k] < g->rows[r])) continue;
+    if (place < 0 || (values[k] == 0.0 && !g->symmetric) || (g->half && columns[k] < g->rows[r])) continue;
     for (PetscInt mirror = 0; mirror <= (g->half && place != g->place[r]); mirror++) {
       if (i) {
         i[*n] = mirror ? place : g->place[r];
@@ -81,7 +82,7 @@ static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBo
 /* K_WW of what this rank owns of W, `own`, and of all ranks, w */
 static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
 {
-  ReducedGather g = {.M = nw, .nw = nw, .w = w};
+  ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
   PetscInt     *place, start;
 
   PetscFunctionBegin;

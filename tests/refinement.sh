@@ -12,6 +12,19 @@ for ranks in 1 2 3 5; do mpiexec --oversubscribe -n $ranks "$contact" slide.yaml
 for scene in finite node; do "$contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"; done
 "$contact" first.yaml -quiet -checkpoint_every 1 -checkpoint first.h5
 mpiexec --oversubscribe -n 3 "$contact" slide.yaml -quiet -restart first.h5 -summary again.json || echo "going on: exit code $?"
+cat > nested.yaml <<END
+bodies:
+  - low: {lower: [-1, -1, -1], upper: [1, 1, 0], cells: [3, 3, 2], young: 10, poisson: 0.3}
+  - top: {lower: [-0.5, -0.5, 0], upper: [0.5, 0.5, 1], cells: [2, 2, 2], young: 100, poisson: 0.3}
+displacements:
+  - fix: {face: low.zmin, value: [0, 0, 0]}
+  - press: {face: top.zmax, value: [0.05, 0, -0.1]}
+contact:
+  - c: {mortar: low.zmax, nonmortar: top.zmin, friction: 0.3}
+refinements:
+  - r: {near: c, levels: 2}
+END
+timeout -s KILL 120 "$contact" nested.yaml -quiet || echo "friction over hanging vertices: exit code $?"
 "$contact" hertz.yaml -quiet -refine 1 -summary uniform.json
 "$contact" hertz_by_hand.yaml -quiet -summary hand.json
 "$PYTHON" "$AMGF_DIR/tests/refinement.py" judge
