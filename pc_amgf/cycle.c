@@ -4,12 +4,32 @@
    With real scalars, conjugation does nothing.
 */
 #include "amgfimpl.h"
+#include "guard.h"
 
 /* VecConjugate() refuses vectors that are locked for reading, real ones too */
 static PetscErrorCode CycleConjugate(Vec x)
 {
   PetscFunctionBegin;
   if (PetscDefined(USE_COMPLEX)) PetscCall(VecConjugate(x));
+  PetscFunctionReturn(0);
+}
+
+/* PCApply() of the AMG. An error of its library may be one rank's alone: z is zero there then, and the PC says that it has failed, which all ranks hear of where they
+   next reduce what came of it */
+static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
+{
+  AMGFGuard      guard;
+  PetscErrorCode error;
+  PetscBool      failed;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGuardBegin_Private(&guard, r));
+  error = PCApply(((PC_AMGF *)pc->data)->amg, r, z);
+  PetscCall(PCAMGFGuardEnd_Private(&guard, error, &failed));
+  if (!failed) PetscFunctionReturn(0);
+  PetscCall(PetscInfo(pc, "An error inside the AMG: %s\n", guard.why));
+  pc->failedreason = PC_SUBPC_ERROR;
+  PetscCall(VecSet(z, 0.0));
   PetscFunctionReturn(0);
 }
 
@@ -33,7 +53,7 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
     PetscCall(PCApplyTranspose(amgf->amg, r, z));
     PetscCall(CycleConjugate(r));
     PetscCall(CycleConjugate(z));
-  } else PetscCall(PCApply(amgf->amg, r, z));
+  } else PetscCall(CycleGuardAMG(pc, r, z));
   PetscCall(PetscLogEventEnd(PC_AMGF_AMGApply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }

@@ -1,35 +1,6 @@
 /* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it ends no program. */
 #include "ipfilterimpl.h"
-
-/* Takes errors of libraries for itself, with what is said of them; others go the way they went before it was pushed. PETSc calls it at
-   every level that an error passes. */
-static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)ctx;
-
-  if (error == PETSC_ERR_LIB) {
-    if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(ip->lin.why, message, sizeof(ip->lin.why));
-    return error;
-  }
-  (void)PetscPopErrorHandler();
-  (void)PetscError(comm, line, function, file, error, type, "%s", message ? message : "");
-  (void)PetscPushErrorHandler(GuardHandleError, ctx);
-  return error;
-}
-
-/* hypre remembers an error, and every later call would return it. PETSc is linked with hypre, this library is not. */
-static PetscErrorCode GuardClearHypre(void)
-{
-  union {
-    void *symbol;
-    int (*call)(void);
-  } clear = {NULL};
-
-  PetscFunctionBegin;
-  if (PetscDefined(HAVE_HYPRE)) PetscCall(PetscDLSym(NULL, "HYPRE_ClearAllErrors", &clear.symbol));
-  if (clear.symbol) (void)clear.call();
-  PetscFunctionReturn(0);
-}
+#include "../pc_amgf/guard.h"
 
 /* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can neither use again nor
    take apart: that one is left alone, with a reference that nobody gives back */
@@ -58,27 +29,41 @@ static PetscErrorCode GuardReplacePC(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve(). *failed: a library inside it met an error, which all ranks then did, since the norms it is found by are the same on all;
-   x is zero. */
-PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
+/* Whether PCAMGF met the error inside, on any rank: it says so of itself, and the KSP has ended with that on all */
+static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
 {
-  PetscErrorCode error;
-  PetscInt       before, after;
+  PC             pc;
+  PCFailedReason why;
+  PetscBool      amgf;
 
   PetscFunctionBegin;
-  PetscCall(VecLockGet(b, &before));
-  PetscCall(PetscPushErrorHandler(GuardHandleError, tao->data));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  PetscCall(PCGetFailedReason(pc, &why));
+  *failed = (PetscBool)(amgf && why == PC_SUBPC_ERROR);
+  PetscFunctionReturn(0);
+}
+
+/* KSPSolve(). *failed: a library inside it met an error; x is zero. Errors that PCAMGF has not taken, those of a set-up say, all ranks are taken to have met. */
+PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  AMGFGuard          guard;
+  KSPConvergedReason reason;
+  PetscErrorCode     error;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGuardBegin_Private(&guard, b));
   error = KSPSolve(ksp, b, x);
-  PetscCall(PetscPopErrorHandler());
-  *failed = (PetscBool)(error == PETSC_ERR_LIB);
-  if (!*failed) {
-    PetscCall(error);
-    PetscFunctionReturn(0);
+  PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
+  if (*failed) PetscCall(PetscStrncpy(ip->lin.why, guard.why, sizeof(ip->lin.why)));
+  else {
+    PetscCall(KSPGetConvergedReason(ksp, &reason));
+    if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(GuardAskPC(ksp, failed));
+    if (!*failed) PetscFunctionReturn(0);
+    PetscCall(PetscStrncpy(ip->lin.why, "an error inside the multigrid", sizeof(ip->lin.why)));
   }
-  PetscCall(PetscInfo(tao, "An error inside the linear solver: %s\n", ((TAO_IPFILTER *)tao->data)->lin.why));
-  PetscCall(GuardClearHypre());
-  PetscCall(VecLockGet(b, &after));
-  for (; after > before; after--) PetscCall(VecLockReadPop(b));
+  PetscCall(PetscInfo(tao, "An error inside the linear solver: %s\n", ip->lin.why));
   PetscCall(GuardReplacePC(tao));
   PetscCall(VecSet(x, 0.0));
   PetscFunctionReturn(0);

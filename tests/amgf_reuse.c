@@ -301,6 +301,45 @@ static PetscErrorCode CheckFailure(void)
   PetscFunctionReturn(0);
 }
 
+/* A library that meets an error on the last rank alone, in its third application */
+static PetscErrorCode ApplyBroken(PC pc, Vec r, Vec z)
+{
+  PetscInt   *napplies;
+  PetscMPIInt rank, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(PCShellGetContext(pc, &napplies));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCheck(++*napplies != 3 || rank < size - 1, PETSC_COMM_SELF, PETSC_ERR_LIB, "the library's own error");
+  PetscCall(VecCopy(r, z));
+  PetscFunctionReturn(0);
+}
+
+/* An error inside the AMG that one rank has alone ends the solve on all of them; nobody waits */
+static PetscErrorCode CheckError(void)
+{
+  Context            c;
+  PC                 amg;
+  PetscInt           napplies = 0;
+  KSPConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error on one rank\n"));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(PCAMGFGetAMGPC(c.pc, &amg));
+  PetscCall(PCSetType(amg, PCSHELL));
+  PetscCall(PCShellSetContext(amg, &napplies));
+  PetscCall(PCShellSetApply(amg, ApplyBroken));
+  PetscCall(KSPSolve(c.ksp, c.b, c.x));
+  PetscCall(KSPGetConvergedReason(c.ksp, &reason));
+  PetscCall(PetscPrintf(c.comm, "  first operator: %s\n", KSPConvergedReasons[reason]));
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "recovered"));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -317,6 +356,7 @@ int main(int argc, char **argv)
   PetscCall(CheckReset());
   PetscCall(CheckAmat());
   PetscCall(CheckFailure());
+  PetscCall(CheckError());
   PetscCall(PetscFinalize());
   return 0;
 }

@@ -1,0 +1,16 @@
+/* Errors of libraries inside a call, hypre's say, that are to end no program */
+#ifndef AMGF_GUARD_H
+#define AMGF_GUARD_H
+
+#include <petscvec.h>
+
+typedef struct {
+  char     why[128]; /* what was said of the error */
+  Vec      b;        /* the call's right-hand side, which an interrupted call leaves locked */
+  PetscInt nlocks;
+} AMGFGuard;
+
+PETSC_INTERN PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *, Vec);
+PETSC_INTERN PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *, PetscErrorCode, PetscBool *);
+
+#endif
