@@ -72,6 +72,7 @@ nlp: all
 	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) -c tests/stress/nlp_ipopt.c -o build/nlp/ipopt.o
 	gcc build/nlp/ipopt.o -o build/nlp/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/nlp.py --folder build/nlp
+	$(PYTHON) -B tests/stress/nlp_random.py --folder build/nlp
 
 # Obstacle problems on a grid beside TRON and IPOPT; the table goes to tests/stress/grid.md. GRID="--sizes 100 300" runs some
 GRID ?=

@@ -88,15 +88,17 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Leaves Mehrotra's method for the monotone one, with a mu near the present products */
+/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no model foresaw has made of them: no more than a few times
+   those of the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal growth = 3.0;
 
   PetscFunctionBegin;
   ip->bar.free = PETSC_FALSE;
   PetscCall(IPBarrierAverage(tao, &ip->mu));
-  ip->mu = PetscMax(0.8 * ip->mu, IPWorthLeastMu(ip));
+  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar.first), IPWorthLeastMu(ip));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);

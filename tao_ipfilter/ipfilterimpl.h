@@ -354,6 +354,7 @@ typedef struct {
 typedef struct {
   PetscBool free;          /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
   PetscReal corrector_max; /* mehrotra: bound of the second-order term */
+  PetscReal first;         /* mean product at the start */
   PetscReal errors[4];     /* KKT errors that the free mode must improve on */
   PetscInt  nerrors;
   PetscBool curved; /* a step has shown constraints that are not linear, or an objective that is not convex */
@@ -375,7 +376,9 @@ typedef struct {
   PetscReal rounding;           /* changes of phi below this mean nothing */
   PetscReal alpha, alpha_dual;
   PetscInt  ntrials;
-  char      tag; /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
+  PetscBool blocked;              /* whether it was the filter alone that refused the last trial point refused */
+  PetscInt  nblocked, nunblocked; /* steps in a row that were shortened so; how often the filter was cleared for that */
+  char      tag;                  /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
 } IPSearch;
 
 /* Relaxation of constraints without an interior */

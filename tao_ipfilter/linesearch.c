@@ -38,25 +38,36 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
   return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
 }
 
+/* What the objective may rise by for a violation that falls: little, where there is hardly any violation left */
+static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
+{
+  const IPSearch *search = &ip->search;
+  const PetscReal trace = 1e-10, worth = 1e-2, factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
+
+  return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
+}
+
 /* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching condition promises, or that
    there is no violation that could fall instead: the iterate left behind then stays out of the filter (equations (18) to (20) there) */
 static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi, PetscBool *accepted, PetscBool *objective)
 {
-  const TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const IPSearch     *search = &ip->search;
-  const IPOptions    *opt    = &ip->opt;
-  const PetscReal     first = SearchFirstViolation(ip), change = phi - search->phi;
-  const PetscReal     rise     = opt->scaling == IP_SCALING_NONE ? PETSC_INFINITY : opt->obj_max_inc * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
-  const PetscBool     alone    = (PetscBool)(search->theta <= 0.0);
-  const PetscBool     switches = SearchSwitches(ip, alpha, slope);
-  const PetscBool     armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
+  TAO_IPFILTER    *ip     = (TAO_IPFILTER *)tao->data;
+  IPSearch        *search = &ip->search;
+  const IPOptions *opt    = &ip->opt;
+  const PetscReal  first = SearchFirstViolation(ip), change = phi - search->phi;
+  const PetscBool  alone    = (PetscBool)(search->theta <= 0.0);
+  const PetscBool  switches = SearchSwitches(ip, alpha, slope);
+  const PetscBool  armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
+  PetscBool        descends;
 
   PetscFunctionBegin;
   *objective = (PetscBool)(alone || (switches && armijo));
-  if (theta > opt->theta_max_fact * first || change > rise) *accepted = PETSC_FALSE;
+  if (theta > opt->theta_max_fact * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
   else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
   else *accepted = (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta || change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
-  if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
+  descends = *accepted;
+  if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
+  if (!*accepted) search->blocked = descends;
   PetscFunctionReturn(0);
 }
 
@@ -203,6 +214,21 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
+/* Steps that descend, and that the filter alone shortens several times in a row, creep along what iterates of another valley have left in it: it is cleared then, a few times
+   a solve (IPOPT's filter_reset_trigger and max_filter_resets) */
+static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
+{
+  const PetscInt patience = 5, limit = 5;
+
+  PetscFunctionBegin;
+  ip->search.nblocked = ip->search.blocked ? ip->search.nblocked + 1 : 0;
+  if (ip->search.nblocked < patience || ip->search.nunblocked >= limit) PetscFunctionReturn(0);
+  ip->search.nblocked = 0;
+  ip->search.nunblocked++;
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
 /* Backtracks along the direction until the filter accepts; *ok is false where no step is acceptable */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
@@ -217,6 +243,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least              = SearchSmallestStep(ip, slope);
   ip->search.ntrials = 0;
+  ip->search.blocked = PETSC_FALSE;
   *ok                = PETSC_FALSE;
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
@@ -229,5 +256,6 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
     else if (finite && ip->search.ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
+  if (*ok) PetscCall(SearchUnblock(ip));
   PetscFunctionReturn(0);
 }

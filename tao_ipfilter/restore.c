@@ -9,10 +9,11 @@
 */
 #include "ipfilterimpl.h"
 
-#define IP_RESTORE_MAX    200  /* steps */
-#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
-#define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
-#define IP_RESTORE_LEAST  1e-6 /* of one that is, if it does not fall */
+#define IP_RESTORE_MAX     200  /* steps */
+#define IP_RESTORE_METRIC  0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_SMALL   1e-3 /* relative gradient of a violation that may be a minimum */
+#define IP_RESTORE_DROWNED 1e8  /* growth of the Hessian, by multipliers, that leaves nothing of the objective's to steps */
+#define IP_RESTORE_LEAST   1e-6 /* of one that is, if it does not fall */
 
 /* psi at the point of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
@@ -133,8 +134,8 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
    worse this one was, and less where a whole step gains as much as the model promises at least, but for a fraction: half of the slope */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal armijo   = 1e-4, fair = 0.5;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal armijo = 1e-4, fair = 0.5, rounding = 10.0 * PETSC_MACHINE_EPSILON * *psi;
   const PetscInt  halvings = 12, max_halvings_of_a_fair_model = 1;
 
   PetscFunctionBegin;
@@ -151,7 +152,8 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
     PetscCall(RestoreViolation(tao, &ip->trial, &trial));
     if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
     if (k > max_halvings_of_a_fair_model) ip->restore.zeta *= 10.0;
-    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope) ip->restore.zeta *= 0.1;
+    else if (k == 1) ip->restore.zeta *= 3.0;
+    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope - rounding) ip->restore.zeta *= 0.1;
     *psi = trial;
     PetscFunctionReturn(0);
   }
@@ -240,17 +242,54 @@ static PetscErrorCode RestoreLeave(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Multipliers that have grown without limit make a Hessian that is a multiple of the one at the start: how large */
+static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+  PetscInt      n;
+  Vec           diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(IPHessianDiagonal(tao, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_1, &size));
+  PetscCall(VecGetSize(diagonal, &n));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  *growth = PetscMax(size / n / ip->stiff.hscale, 1.0);
+  PetscFunctionReturn(0);
+}
+
+/* The metric becomes the Hessian of the objective alone */
+static PetscErrorCode RestoreForgetMultipliers(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPHessianEvaluate(tao));
+  PetscFunctionReturn(0);
+}
+
 /* zeta at which the metric and the violation's model weigh alike, from the stiffness of the constraints */
 static PetscErrorCode RestoreFirstZeta(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     rho;
+  PetscReal     rho, growth = 1.0;
 
   PetscFunctionBegin;
   if (ip->mi) {
     PetscCall(VecMax(ip->stiff.rho, NULL, &rho));
     ip->restore.zeta = 1.0 / rho;
   } else ip->restore.zeta = PetscSqr(ip->search.equality_weight * ip->scale.equality) / ip->scale.product;
+  PetscCall(RestoreMetricGrowth(tao, &growth));
+  if (growth > IP_RESTORE_DROWNED) {
+    PetscCall(RestoreForgetMultipliers(tao));
+    PetscCall(RestoreMetricGrowth(tao, &growth));
+  }
+  ip->restore.zeta /= growth;
   PetscFunctionReturn(0);
 }
 

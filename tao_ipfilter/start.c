@@ -72,12 +72,45 @@ static PetscErrorCode GradientStiffness(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and only the bounds will end it: mean per pair of
+   bounds */
+static PetscErrorCode BoundsWorth(Tao tao, PetscReal *worth)
+{
+  TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal    linear = 100.0; /* ways that a step of Newton's method is long there */
+  PetscReal          sum[2] = {0.0, 0.0};
+  const PetscScalar *g, *h, *t;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(VecGetArrayRead(tao->gradient, &g));
+  PetscCall(VecGetArrayRead(ip->stiff.hdiag, &h));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecGetArrayRead(ip->pair[b].t, &t));
+    for (PetscInt j = 0; j < n; j++) {
+      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0), way = PetscRealPart(t[j]);
+
+      if (way >= PETSC_INFINITY) continue;
+      if (force > linear * PetscRealPart(h[j]) * way) sum[0] += force * way;
+      sum[1] += 1.0;
+    }
+    PetscCall(VecRestoreArrayRead(ip->pair[b].t, &t));
+  }
+  PetscCall(VecRestoreArrayRead(ip->stiff.hdiag, &h));
+  PetscCall(VecRestoreArrayRead(tao->gradient, &g));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  *worth = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+  PetscFunctionReturn(0);
+}
+
 /* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there. Constraints that
    all happen to be active there say nothing: pairs start with a gap that is worth something beside the objective. */
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     length, pressure, mean, terms;
+  PetscReal     length, pressure, mean, terms, worth;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
 
@@ -93,6 +126,8 @@ static PetscErrorCode StartPredicted(Tao tao)
   ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
   PetscCall(IPWorthTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
+  PetscCall(BoundsWorth(tao, &worth));
+  ip->mu = PetscMax(ip->mu, ip->opt.mu_start * worth);
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -201,7 +236,7 @@ static PetscErrorCode StartBounds(Tao tao)
   else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
-    ip->mu = ip->opt.mu_start * (mean > 0.0 ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
+    ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);
@@ -224,6 +259,8 @@ PetscErrorCode IPStartPoint(Tao tao)
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
   if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(IPBarrierAverage(tao, &ip->bar.first));
+  ip->bar.first = PetscMax(ip->bar.first, ip->mu);
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -152,6 +152,21 @@ static const NLP problems[] = {
   /* a gradient that is zero everywhere, and constraints that all are active at the penalty step */
   {"constant objective, disc", "0", "1-x1^2-x2^2", "", "", "3 4", 0.0, NLP_SOLVED, NULL},
   {"line by two inequalities", "x1^2+x2^2", "x1+x2-1; 1-x1-x2", "", "", "2 0", 0.5, NLP_SOLVED, NULL},
+  /* next to no curvature but in kinks: only what the bounds hold back says how large the barrier is to be */
+  {"kinks in a box", "sqrt((x1-1)^2+1e-6)+sqrt((x2-2)^2+1e-6)", "3-x1-x2; x1-x2+4", "", "-4:4 -4:4", "-3 3.5", 2e-3, NLP_SOLVED, NULL},
+  /* the filter remembers iterates of another valley, and lets hardly a step pass in this one */
+  {"two decays in a ball",
+   "(x1*exp(-x2^2*0.0)+x3*exp(-x4^2*0.0)-0.29299689032415976)^2"
+   "+(x1*exp(-x2^2*0.3333333333333333)+x3*exp(-x4^2*0.3333333333333333)-1.050672629088706)^2"
+   "+(x1*exp(-x2^2*0.6666666666666666)+x3*exp(-x4^2*0.6666666666666666)-1.2131996763103259)^2"
+   "+(x1*exp(-x2^2*1.0)+x3*exp(-x4^2*1.0)-1.2335581739912609)^2"
+   "+(x1*exp(-x2^2*1.3333333333333333)+x3*exp(-x4^2*1.3333333333333333)-1.258247635014007)^2"
+   "+(x1*exp(-x2^2*1.6666666666666667)+x3*exp(-x4^2*1.6666666666666667)-1.3333475880257675)^2"
+   "+(x1*exp(-x2^2*2.0)+x3*exp(-x4^2*2.0)-1.2646752941640136)^2"
+   "+(x1*exp(-x2^2*2.3333333333333335)+x3*exp(-x4^2*2.3333333333333335)-1.2236341960973356)^2"
+   "+(x1*exp(-x2^2*2.6666666666666665)+x3*exp(-x4^2*2.6666666666666665)-1.1923559168807798)^2"
+   "+(x1*exp(-x2^2*3.0)+x3*exp(-x4^2*3.0)-1.1843070385749834)^2",
+   "4-x1^2/4-x2^2/4-x3^2/4-x4^2/4", "", "-5:5 -5:5 -5:5 -5:5", "-1.465 2.2036 0.2897 -0.2183", 8.597992812278e-3, NLP_SOLVED, NULL},
   /* complementarity without an interior: a slack vanishes before mu does, and hypre meets a pivot of zero */
   {"jr2", "(x2-1)^2+x1^2", "x2; x2-x1; -(x2)*(x2-x1)", "", "", "0 0", 0.5, NLP_DEGENERATE, NULL},
   /* linear programs but for products of two unknowns, whose first steps do not lead to the interior */
