@@ -65,7 +65,7 @@ fuzz:
 	done
 
 # The nonlinear programs beside IPOPT (coinor-libipopt-dev), a program of its own because IPOPT brings another MUMPS. The table goes to
-# tests/stress/nlp.md, the performance profile beside it
+# tests/stress/nlp.md, the performance profile beside it, that of 500 drawn at random to tests/stress/nlp_random.md
 nlp: all
 	@mkdir -p build/nlp
 	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/stress/nlp_tao.c -o build/nlp/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm

@@ -94,7 +94,7 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               first
 . -tao_ipfilter_theta_max_fact <1e4>                        - largest violation accepted, as a multiple of the first
 . -tao_ipfilter_obj_max_inc <1e5>                           - largest rise of phi accepted for less violation, against its
-                                                              size
+                                                              size; 0.01 where hardly any violation is left
 . -tao_ipfilter_max_soc <4>                                 - limit of second-order corrections a step
 . -tao_ipfilter_kappa_soc <0.99>                            - reduction of the violation that a correction must give to be
                                                               continued
