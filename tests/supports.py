@@ -45,6 +45,14 @@ probes:
   - tip: {point: [1, 2, 5.2]}
 """
 SCENES["pads"] = SCENES["pad"].replace("value: [4, 4, 20]", "value: [4, 4, 5]").replace("forces:", "  - more: {face: low.zmax, to: top.zmin, value: [0, 0, 15], distance: 0.3}\nforces:")
+# Pressed beside its middle between two larger blocks: what tilts of their faces presses out
+SQUEEZED = (
+    "bodies:\n  - low: {lower: [-3, -3, 0], upper: [3, 3, 1.6], cells: [4, 4, 3], young: 3000, poisson: 0.3}\n"
+    "  - mid: {lower: [-1.5, -1.5, 1.6], upper: [1.5, 1.5, 2.9], cells: [3, 2, 3], young: 10, poisson: 0.3}\n"
+    "  - top: {lower: [-2, -2, 2.9], upper: [2.5, 3, 4.3], cells: [2, 2, 3], young: 1400, poisson: 0.3}\n"
+    "displacements:\n  - floor: {face: low.zmin, value: [0, 0, 0]}\n  - push: {face: top.zmax, value: [0, 0, -0.18]}\n"
+    "contact:\n  - lower: {mortar: mid.zmin, nonmortar: low.zmax}\n  - upper: {mortar: mid.zmax, nonmortar: top.zmin}\nweak_springs: true\n"
+)
 SCENES["soft"] = SCENES["stack"].replace("1e5", "100")
 
 
@@ -85,7 +93,7 @@ def judge_bars(title, end):
 
 
 if sys.argv[1] == "write":
-    for name, text in SCENES.items():
+    for name, text in (*SCENES.items(), ("squeezed", SQUEEZED)):
         with open(name + ".yaml", "w") as file:
             file.write("problem: %s\n%s" % (name, text))
 else:

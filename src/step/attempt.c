@@ -238,6 +238,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   *end  = PETSC_TRUE;
   *slid = PETSC_FALSE;
   PetscCall(AttemptLinearized(p, resume, u_linearized, u, report, sol));
+  if (report->contact_updates) PetscCall(LooseTestMotion(p, u_linearized, u, report));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));

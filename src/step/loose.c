@@ -1,4 +1,4 @@
-/* Weak springs that carry a load: nothing else holds the body, and what they make of it is no answer. */
+/* Weak springs that carry a load, or let a body go: nothing else holds it, and what they make of it is no answer. */
 #include "stepimpl.h"
 
 /* Of a body's dead loads, the sizes at its vertices summed */
@@ -50,5 +50,59 @@ PetscErrorCode LooseTest(const StepProblem *p, Vec u, StepReport *report)
     if (force > loose_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree(carried));
+  PetscFunctionReturn(0);
+}
+
+/* Of each body on weak springs its volume, and the largest change of a displacement from u0 to u, squared; of others 0 */
+static PetscErrorCode LooseMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal volume[], PetscReal moved[])
+{
+  const PetscInt     nbodies = sim->scene->nbodies;
+  const PetscScalar *m, *k, *v0, *v;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(volume, nbodies));
+  PetscCall(PetscArrayzero(moved, nbodies));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(sim->mass, &m));
+  PetscCall(VecGetArrayRead(sim->springs.weak, &k));
+  PetscCall(VecGetArrayRead(u0, &v0));
+  PetscCall(VecGetArrayRead(u, &v));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscInt body   = sim->places.body[i / 3];
+    PetscReal      square = 0.0;
+
+    if (!(PetscRealPart(k[i]) > 0.0)) continue;
+    for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(PetscRealPart(v[i + d] - v0[i + d]));
+    volume[body] += PetscRealPart(m[i]);
+    moved[body] = PetscMax(moved[body], square);
+  }
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCall(VecRestoreArrayRead(u0, &v0));
+  PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
+  PetscCall(VecRestoreArrayRead(sim->mass, &m));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Nor has one that follows another linearization of the gap, at u_linearized, and takes such a body farther from there than it is long: faces that tilt have squeezed it out */
+PetscErrorCode LooseTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
+{
+  Scene      scene = p->sim->scene;
+  PetscReal *volume, *moved;
+
+  PetscFunctionBegin;
+  if (!p->sim->springs.weak || !report->converged) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
+  PetscCall(LooseMeasureMotion(p->sim, u_linearized, u, volume, moved));
+  for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
+    const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);
+    char            reason[256];
+
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; friction, something that holds it, or stiffer springs, as weak_springs: 1e-3", scene->bodies[b].name, (double)way, (double)length));
+    if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  PetscCall(PetscFree2(volume, moved));
   PetscFunctionReturn(0);
 }

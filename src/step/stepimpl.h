@@ -421,6 +421,7 @@ PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
 
 /* loose.c */
 PETSC_INTERN PetscErrorCode LooseTest(const StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode LooseTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
 /* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
 #define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
