@@ -45,6 +45,9 @@ try "levels in words" "levels: 2" "levels: two"
 try "negative" "distance: 0.2" "distance: -0.2"
 try "far away" "distance: 0.2" "distance: 0.001"
 try "a box that meets no cell" "near: touch" "lower: [5, 5, 5], upper: [6, 6, 6]"
+try "a box that misses the body it names" "near: touch" "lower: [-2, -2, 0.4], upper: [2, 2, 4], body: base"
+sed 's/near: touch, levels: 2, distance: 0.2/lower: [2, -2, -2], upper: [3, 2, 4], body: base/' slide.yaml > other.yaml
+"$contact" other.yaml -scene_check | grep "hang" # a box that touches the body at its border refines what it touches, as the documents say
 try "misspelt" "distance: 0.2" "distanse: 0.2"
 try "no such body" "near: touch" "lower: [0, 0, 0], upper: [1, 1, 1], body: bass"
 try "order 2" "young: 10," "young: 10, order: 2,"

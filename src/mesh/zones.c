@@ -129,6 +129,17 @@ static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshH
   PetscFunctionReturn(0);
 }
 
+/* No cell is near both faces, or in the box */
+static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefinement *refinement)
+{
+  const PetscReal  *a = refinement->lower, *b = refinement->upper;
+  const char *const body = refinement->body >= 0 ? bodies[refinement->body].name : "";
+
+  PetscFunctionBegin;
+  PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name, (double)refinement->distance, refinement->face[0], refinement->face[1]);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], meets no cell of %s%s%s", refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2], *body ? "body \"" : "any body", body, *body ? "\"" : "");
+}
+
 /* Marks the cells of a zone that are not fine enough, and counts those of any size */
 static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone, const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
 {
@@ -144,7 +155,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     marked[c] = PETSC_TRUE;
     *more     = PETSC_TRUE;
   }
-  PetscCheck(n, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "refinements \"%s\": no cell is there to be refined", refinement->name);
+  if (!n) PetscCall(ZoneComplain(bodies, refinement));
   PetscFunctionReturn(0);
 }
 
