@@ -17,3 +17,10 @@ run cones 1
 for ranks in 2 3; do
   mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" rings_20_2.2.yaml -refine 2 -scene_check | sed -n '/^Contact at/,$p' | cmp - one && echo "$ranks ranks: the same gaps at the start"
 done
+# Two nodes amid edges exchanged, of which order 2 is inside out
+for nodes in 20 27; do
+  awk 'NF > 20 && !n++ { node = $14; $14 = $15; $15 = node } { print }' rings_${nodes}_2.2.msh > swapped.msh
+  sed "s/mesh: rings_${nodes}_2.2.msh/mesh: swapped.msh, order: 2/" rings_${nodes}_2.2.yaml > swapped.yaml
+  "$AMGF_DIR/bin/contact" swapped.yaml -quiet 2>&1 || echo "$nodes nodes, exit code $?"
+  mpiexec --oversubscribe -n 3 "$AMGF_DIR/bin/contact" swapped.yaml -quiet 2>&1 | grep -c "contact: error"
+done

@@ -26,6 +26,11 @@ static const char tets10[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNam
                              "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .6 .6 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n"
                              "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
 
+/* Sound at its nodes, inside out between them, where it is integrated */
+static const char inside_out10[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+                                   "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .147 .316 -.144\n6 .67 .869 .09\n7 .153 .706 -.301\n8 .398 -.185 .194\n9 .02 .143 .425\n10 .728 .267 .442\n$EndNodes\n"
+                                   "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
+
 /* A tetrahedron on a cube, of one volume */
 static const char both[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
                            "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n$EndNodes\n"
@@ -69,6 +74,7 @@ static const Mistake mistakes[] = {
   {"tetrahedra", sound, tets, HELD},
   {"10-node tetrahedra", sound, tets10, HELD},
   {"inverted tetrahedron", sound, inside_out, HELD},
+  {"10-node tetrahedron, inside out between its nodes", sound, inside_out10, HELD},
   {"a tetrahedron among hexahedra", sound, both, HELD},
   {"a prism among hexahedra", "2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7", "2 3 2 3 2 2 9 11 6\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 6 2 1 1 2 9 3 6 11 7", HELD},
   {"20-node hexahedra", sound, hex20, HELD},

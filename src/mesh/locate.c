@@ -93,7 +93,7 @@ static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s
 }
 
 /* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
-static void LocateShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
+void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
 {
   const PetscInt width = n == 8 ? 2 : 3;
   PetscReal      L[3][3], s[3][3];
@@ -118,7 +118,7 @@ static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point
 {
   PetscReal dN[3][MESH_MAX_NODES];
 
-  LocateShape(n, xi, N, dN);
+  MeshCellShape(n, xi, N, dN);
   for (PetscInt d = 0; d < 3; ++d) {
     r[d] = point[d];
     for (PetscInt k = 0; k < 3; ++k) J[d][k] = 0;

@@ -240,8 +240,11 @@ PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 /* map.c: from the shapes' parameters to space: the nodes of bodies with curved refinement, or at level 0 the vertices of those without */
 PETSC_INTERN PetscErrorCode MeshMapNodes(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
 
-/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: at one of its nodes, also in bodies that are mapped
-   after refinement */
+/* locate.c: the shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
+PETSC_INTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
+
+/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: at one of its nodes, or integration points of order 2, also in
+   bodies that are mapped after refinement */
 PETSC_INTERN PetscReal      MeshCellQuality(PetscInt n, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
