@@ -24,12 +24,13 @@ RIGHT = {
     "follower": ("pressures", dict(face="low.xmax", value="1", follows="true")),
     "traction": ("tractions", dict(face="low.xmax", value="[1, 0, 0]", ramp="later")),
     "force": ("forces", dict(face="low.xmax", value="[1, 0, 0]", moment="[0, 1, 0]", point="[0, 0, 0]", ramp="later")),
+    "moment": ("forces", dict(face="low.xmax", moment="[0, 1, 0]")),
     "body force": ("body_forces", dict(body="low", value="[0, 0, -1]", ramp="later")),
     "springs": ("springs", dict(face="low.xmax", value="[1, 0, 2]")),
     "pad": ("springs", dict(face="low.zmax", to="top.zmin", value="[1, 0, 2]", distance="0.1")),
     "tie": ("ties", dict(mortar="low.zmax", nonmortar="top.zmin", distance="0.1")),
     "pair": ("contact", dict(mortar="low.zmax", nonmortar="top.zmin", friction="0.2", interference="0.01")),
-    "temperature": ("temperatures", dict(body="low", value="10", ramp="later")),
+    "temperature": ("temperatures", dict(body="low", value="10*x", ramp="later")),
     "probe": ("probes", dict(body="low", point="[0.5, 0.5, 0.5]")),
     "line": ("probes", {"body": "low", "from": "[0, 0, 0]", "to": "[1, 1, 1]", "points": "3"}),
     "table": ("ramps", dict(times="[0, 0.5, 1]", values="[0, 0.2, 1]")),
@@ -57,7 +58,7 @@ OTHERS = {
     "first_axis": ["[0, 0, 0]"],
     "shear": ["[4, 3, 0]", "[4, -3, 3.5]"],
     "material": ["rubber", "7", '""'],
-    "follows": ["maybe", "2", '""', "[true]"],
+    "follows": ["maybe", "2", '""', "[true, true]"],
     "expression": ["s^", "s(2)", "q", "1/(s-1)", "(s", '""', "sqrt(-1)"],
     "times": ["[0, 1, 0.5]", "[0, 1]", "[0, 0, 1]", "[0, nan, 1]"],
     "values": ["[0, 1]", "[0, nan, 1]", "[]"],
@@ -91,8 +92,8 @@ def changes(keys):
     """One key at a time: a value that it cannot have, another name of it, and without it"""
     for key in keys:
         others = OTHERS["face"][:6] if key == "to" and keys[key].startswith("top") else [] if key == "to" else OTHERS.get(key, [])
-        # A temperature is an expression of the place, and judged where it is evaluated
-        for value in others + [number for number in (NUMBERS if key not in WORDS else []) if not (number == "1e999" and keys[key] == "10")]:
+        # A temperature is an expression of the place, which may have two signs, and is judged where it is evaluated
+        for value in others + [number for number in (NUMBERS if key not in WORDS else []) if not (number in ("1e999", "--1") and keys[key] == "10*x")]:
             yield "%s: %s" % (key, value), {**keys, key: value}
         yield "%s misspelt" % key, {(key + "x" if name == key else name): value for name, value in keys.items()}
 

@@ -123,7 +123,7 @@ static const Mistake mistakes[] = {
   {"symmetry of a displacement's name", "refine: 0", "symmetry: [top: {face: slab.xmin, normal: x}]"},
   {"traction on no face", "refine: 0", "tractions: [wind: {value: [1, 0, 0], face: slab.top}]"},
   {"traction of one number", "refine: 0", "tractions: [wind: {face: slab.zmax, value: 1}]"},
-  {"force without a value", "refine: 0", "forces: [bolt: {face: slab.zmax, moment: [0, 0, 1]}]"},
+  {"force without a value", "refine: 0", "forces: [bolt: {face: slab.zmax, point: [0, 0, 1]}]"},
   {"moment of a traction", "refine: 0", "tractions: [wind: {face: slab.zmax, value: [1, 0, 0], moment: [0, 0, 1]}]"},
   {"springs that push", "refine: 0", "springs: [soil: {face: slab.zmin, value: [0, 0, -1]}]"},
   {"springs of no stiffness", "refine: 0", "springs: [soil: {face: slab.zmin, value: [0, 0, 0]}]"},

@@ -16,32 +16,49 @@ PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char nam
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+static PetscErrorCode SceneReadFaceName(SceneKeys keys, const char list[], const char name[], char **face)
 {
   const char *text;
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_%s_face", list, name));
   PetscCall(PetscStrallocpy(text ? text : "", face));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadOnFace(SceneKeys keys, const char list[], const char name[], char **face, PetscReal value[3])
+{
+  PetscFunctionBegin;
+  PetscCall(SceneReadFaceName(keys, list, name, face));
   PetscCall(SceneReadTriple(keys, list, name, "value", value, NULL));
   PetscFunctionReturn(0);
 }
 
-/* A force: on a face or on a rigid body, with its moment and where it acts */
+/* Force, moment or both, and where they act */
+static PetscErrorCode SceneReadResultant(SceneKeys keys, SceneTraction *force)
+{
+  PetscBool turns, pushes;
+
+  PetscFunctionBegin;
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "moment", force->moment, &turns));
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "value", force->value, turns ? &pushes : NULL));
+  PetscCall(SceneReadTriple(keys, "forces", force->name, "point", force->point, &force->placed));
+  PetscFunctionReturn(0);
+}
+
+/* A force: on a face or on a rigid body */
 static PetscErrorCode SceneReadForce(SceneKeys keys, Scene scene, SceneTraction *force)
 {
   const char *text, *face;
   char        whole[SCENE_KEY_LENGTH];
   PetscInt    body;
-  PetscBool   given;
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "forces_%s_body", force->name));
   PetscCall(SceneReadBodyName(keys, scene, "forces", force->name, &body));
-  PetscCall(SceneReadTriple(keys, "forces", force->name, "moment", force->moment, &given));
-  PetscCall(SceneReadTriple(keys, "forces", force->name, "point", force->point, &force->placed));
+  PetscCall(SceneReadResultant(keys, force));
   if (!text) {
-    PetscCall(SceneReadOnFace(keys, "forces", force->name, &force->face, force->value));
+    PetscCall(SceneReadFaceName(keys, "forces", force->name, &force->face));
     PetscFunctionReturn(0);
   }
   if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "forces_%s_body is \"%s\", which is not rigid: on an elastic body forces act on faces", force->name, text));
@@ -49,7 +66,6 @@ static PetscErrorCode SceneReadForce(SceneKeys keys, Scene scene, SceneTraction 
   if (face) PetscCall(SceneKeysComplain(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, text));
   PetscCall(PetscStrallocpy(whole, &force->face));
-  PetscCall(SceneReadTriple(keys, "forces", force->name, "value", force->value, NULL));
   PetscFunctionReturn(0);
 }
 
