@@ -85,6 +85,7 @@ typedef struct {
   PetscReal distance; /* of the point from the cell [length] */
   PetscReal size;     /* of the cell: diagonal of its box [length] */
   PetscInt  cell, n;  /* nodes of the cell */
+  PetscInt  body;     /* that the cell is of */
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 

@@ -28,6 +28,28 @@ done
 "$PYTHON" "$AMGF_DIR/share/plot/curves.py" stack_height.csv line.png --steps all && head -c 4 line.png | tail -c 3 && echo
 "$contact" stack.yaml -scene_check | sed -n '/^Probes/,/^Load steps/p'
 
+# Where bodies touch a point is the first one's, on any ranks
+cat > touch.yaml <<'YAML'
+bodies:
+  - low: {lower: [0, 0, 0], upper: [3, 2, 1], cells: [3, 2, 1], young: 10, poisson: 0.3}
+  - top: {lower: [0.5, 0.5, 1], upper: [2.5, 1.5, 2], cells: [2, 2, 1], young: 10, poisson: 0.3}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+  - guide: {face: top.zmax, value: [0, 0, -0.05]}
+contact:
+  - touch: {mortar: low.zmax, nonmortar: top.zmin}
+probes:
+  - between: {point: [1.5, 1, 1]}
+  - below: {point: [1.5, 1, 1], body: low}
+  - above: {point: [1.5, 1, 1], body: top}
+YAML
+for ranks in 1 2 3 4; do
+  mpiexec --oversubscribe -n $ranks "$contact" touch.yaml -quiet -summary touch.json && "$PYTHON" -c '
+import json
+between, below, above = (probe["displacement"][2] for probe in json.load(open("touch.json"))["steps"][0]["probes"])
+print("between two bodies: the first one'"'"'s", between == below, ", not the other", abs(above - below) > 1e-3)'
+done
+
 cat > ball.yaml <<'YAML'
 bodies:
   - ball: {shape: ball, radius: 1, patches: [2, 2, 2], layers: 2, young: 1, poisson: 0.3}

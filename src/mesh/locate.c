@@ -7,6 +7,9 @@
 /* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between facets */
 static const PetscReal locate_margin = 0.25;
 
+/* Points in a cell and on its side differ by less than this part of its size */
+static const PetscReal locate_rounding = 1e-12;
+
 /* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at first[d][i] */
 typedef struct {
   PetscInt   n[3], *start, *order;
@@ -242,14 +245,15 @@ PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const 
   PetscFunctionReturn(0);
 }
 
-/* A place in the cell is taken where it is nearer than any before */
-static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal size, PetscInt n, PetscReal X[][3])
+/* A place in the cell is taken where it is nearer than any before; where bodies touch, to rounding, that in the first of them */
+static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscReal X[][3])
 {
-  MeshPlace place = {.cell = cell, .size = size, .n = n};
+  MeshPlace      *nearest  = &locator->places[i];
+  const PetscReal rounding = locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
 
-  if (locator->places[i].distance <= 1e-14 * size) return; /* in a cell: none is nearer */
-  place.distance = LocateInCell(n, X, locator->points[i], place.N);
-  if (place.distance < locator->places[i].distance) locator->places[i] = place;
+  if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return; /* in a cell: none is nearer */
+  place.distance = LocateInCell(place.n, X, locator->points[i], place.N);
+  if (place.distance < nearest->distance + rounding) *nearest = place;
 }
 
 /*@
@@ -267,8 +271,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, PetscInt cell, PetscReal
   Level: developer
 
   Notes:
-  A point has its place in the nearest cell; among equals in the one that was added first. Cells farther away than a quarter of their size are not
-  looked at.
+  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added first. Cells farther away
+  than a quarter of their size are not looked at.
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
@@ -294,7 +298,7 @@ PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt b
         PetscBool        near  = (PetscBool)(locator->body[i] == PETSC_DECIDE || locator->body[i] == body);
 
         for (PetscInt d = 0; d < 3; ++d) near = (PetscBool)(near && point[d] >= lower[d] && point[d] <= upper[d]);
-        if (near) LocatorTry(locator, i, cell, size, n, X);
+        if (near) LocatorTry(locator, i, (MeshPlace){.cell = cell, .body = body, .size = size, .n = n}, X);
       }
     }
   }
@@ -341,29 +345,33 @@ PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
   PetscFunctionReturn(0);
 }
 
-/* The nearest of all ranks has a point, of equals the first; rounding makes no difference between a point in a cell and one on its side */
+/* The nearest of all ranks has a point, of equals that of the first body, and of these the first */
 static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace places[])
 {
   PetscMPIInt rank;
+  double     *distance;
   struct {
-    double distance;
+    double body;
     int    rank;
-  } * nearest;
+  } * first;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(PetscMalloc1(n, &nearest));
+  PetscCall(PetscMalloc2(n, &distance, n, &first));
+  for (PetscInt i = 0; i < n; ++i) distance[i] = (double)places[i].distance;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, (PetscMPIInt)n, MPI_DOUBLE, MPI_MIN, comm));
   for (PetscInt i = 0; i < n; ++i) {
-    nearest[i].distance = places[i].cell < 0 ? PETSC_MAX_REAL : places[i].distance > 1e-12 * places[i].size ? (double)places[i].distance
-                                                                                                            : 0.0;
-    nearest[i].rank     = rank;
+    const PetscBool nearest = (PetscBool)(places[i].cell >= 0 && (double)places[i].distance <= distance[i] + locate_rounding * (double)places[i].size);
+
+    first[i].body = nearest ? (double)places[i].body : PETSC_MAX_REAL;
+    first[i].rank = rank;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nearest, (PetscMPIInt)n, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, first, (PetscMPIInt)n, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   for (PetscInt i = 0; i < n; ++i) {
-    places[i].distance = (PetscReal)nearest[i].distance;
-    if (nearest[i].rank != rank) places[i].cell = -1;
+    places[i].distance = (PetscReal)distance[i];
+    if (first[i].rank != rank) places[i].cell = -1;
   }
-  PetscCall(PetscFree(nearest));
+  PetscCall(PetscFree2(distance, first));
   PetscFunctionReturn(0);
 }
 

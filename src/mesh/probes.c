@@ -7,11 +7,12 @@ static const PetscReal probe_tolerance = 0.1;
 static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3], const MeshPlace *place)
 {
   const char *what = probe->line ? "a point of the line" : "the point", *body = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
-  MPI_Comm    comm = PetscObjectComm((PetscObject)dm);
+  const char *advice = probe->line ? ": let the line end before, and another one begin behind" : "";
+  MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;
-  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body);
-  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance);
+  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, advice);
+  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
 }
 
 /*@C
