@@ -2,6 +2,7 @@
 #include "sceneimpl.h"
 #include <options.h>
 #include <stdarg.h>
+#include <string.h>
 
 /* On the first rank: the whole file, ended by a zero */
 static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
@@ -60,6 +61,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   ierr = SceneCheckYAML((size_t)length, text);
   if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
   PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
   PetscCall(PetscFree(text));
   *keys = k;
@@ -110,6 +112,14 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   PetscFunctionReturn(0);
 }
 
+/* What YAML makes of 3 in {poisson: 0,3} */
+static PetscBool SceneKeyIsNumber(const char key[])
+{
+  const char *last = strrchr(key, '_');
+
+  return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
+}
+
 /* Raises what is wrong with the file, if anything: a key nobody asked for, else the first complaint */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
@@ -133,6 +143,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
     PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
     PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT, "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list symmetry names", keys->file);
     PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT, "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -", keys->file, unknown);
+    PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT, "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, [1, 2]", keys->file, unknown);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file, unknown, nearest);
   }

@@ -57,11 +57,13 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
   SceneKeys   library;
   char       *file;
   const char *units;
-  PetscBool   same = PETSC_TRUE;
+  PetscBool   exists, same = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(name, &file));
   PetscCall(SceneResolveFile(keys->file, &file));
+  PetscCall(PetscTestFile(file, 'r', &exists));
+  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: there is no library \"%s\" that can be read", keys->file, file);
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));
   PetscCall(MaterialsReadList(library, PETSC_TRUE, keys));

@@ -2,8 +2,8 @@
    Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias where it stands, so that an anchor which holds its own
    alias never ends, and anchors of aliases of anchors outgrow any memory. Anchored values of a scene therefore hold no aliases.
 */
-#include "sceneimpl.h"
-#include <yaml.h>
+#include "repeated.h"
+#include <string.h>
 
 /* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored values */
 static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
@@ -30,26 +30,53 @@ static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
   return PETSC_FALSE;
 }
 
+/* What the parser has to say; text: the whole */
+static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
+{
+  const size_t line = parser->problem_mark.line + 1;
+  PetscBool    tab;
+
+  PetscFunctionBegin;
+  PetscCheck(parser->error != YAML_READER_ERROR, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "byte %zu: %s", parser->problem_offset + 1, parser->problem);
+  for (size_t l = 1; l < line && strchr(text, '\n'); ++l) text = strchr(text, '\n') + 1;
+  tab = (PetscBool)(text[strspn(text, " ")] == '\t' && strspn(text, " ") == parser->problem_mark.column);
+  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab, where YAML has spaces", line);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line, parser->problem ? parser->problem : "it cannot be read");
+}
+
+static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], RepeatedKeys *keys)
+{
+  yaml_event_t event;
+  PetscInt     anchored = 0;
+  PetscBool    end      = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  while (!end) {
+    if (!yaml_parser_parse(parser, &event)) PetscCall(YAMLRaise(parser, text));
+    end = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
+    PetscCheck(!YAMLIsNested(&event, &anchored), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1);
+    PetscCall(RepeatedKeysRead(keys, &event));
+    yaml_event_delete(&event);
+  }
+  PetscCall(RepeatedKeysCheck(keys));
+  PetscFunctionReturn(0);
+}
+
+/* Errors: PETSC_ERR_USER_INPUT for keys that are names of nothing, or stand twice */
 PetscErrorCode SceneCheckYAML(size_t length, const char text[])
 {
-  yaml_parser_t parser;
-  yaml_event_t  event;
-  PetscInt      anchored      = 0;
-  PetscBool     end           = PETSC_FALSE;
-  char          sentence[256] = "";
+  yaml_parser_t  parser;
+  RepeatedKeys   keys = {0};
+  const size_t   mark = strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3; /* of UTF-8, which some editors begin files with */
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to parse it");
-  yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
-  while (!end && !sentence[0]) {
-    if (yaml_parser_parse(&parser, &event)) {
-      end = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
-      if (YAMLIsNested(&event, &anchored)) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1));
-      yaml_event_delete(&event);
-    } else if (parser.error == YAML_READER_ERROR) PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "byte %zu: %s", parser.problem_offset + 1, parser.problem));
-    else PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "line %zu: %s", parser.problem_mark.line + 1, parser.problem ? parser.problem : "it cannot be read"));
-  }
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text + mark, length - mark);
+  yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
+  ierr = YAMLReadEvents(&parser, text, &keys);
   yaml_parser_delete(&parser);
-  PetscCheck(!sentence[0], PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s", sentence);
+  PetscCall(RepeatedKeysDestroy(&keys));
+  PetscCall(ierr);
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,141 @@
+/*
+   Keys that a scene has twice, of which PETSc would take the last: in one mapping, or once nested and once joined, as outer: {radius: 1} and outer_radius: 2. Each has a path of the
+   keys that it is below, joined as options are, with the numbers of entries in lists, since two entries of one name have a complaint of their own.
+*/
+#include "repeated.h"
+#include <ctype.h>
+#include <string.h>
+
+static PetscErrorCode RepeatedSetPath(RepeatedKeys *keys, size_t length, const char more[])
+{
+  size_t added;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrlen(more, &added));
+  if (length + added + 2 > keys->room) {
+    keys->room = 2 * (length + added + 2);
+    PetscCall(PetscRealloc(keys->room, &keys->path));
+  }
+  PetscCall(PetscMemcpy(keys->path + length, more, added + 1));
+  keys->length = length + added;
+  PetscFunctionReturn(0);
+}
+
+/* One that holds a mapping is another than one with a value; mappings that are taken in, <<, may be many */
+static PetscErrorCode RepeatedRemember(RepeatedKeys *keys, PetscBool mapping)
+{
+  PetscBool taken;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrendswith(keys->path, "<<", &taken));
+  if (taken) PetscFunctionReturn(0);
+  if (keys->n == keys->max) {
+    keys->max = 2 * keys->max + 64;
+    PetscCall(PetscRealloc(keys->max * sizeof(*keys->paths), &keys->paths));
+    PetscCall(PetscRealloc(keys->max * sizeof(*keys->lines), &keys->lines));
+  }
+  if (mapping) PetscCall(RepeatedSetPath(keys, keys->length, "/"));
+  keys->lines[keys->n] = keys->line;
+  PetscCall(PetscStrallocpy(keys->path, &keys->paths[keys->n++]));
+  if (mapping) keys->path[--keys->length] = 0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RepeatedReadKey(RepeatedKeys *keys, const yaml_event_t *event)
+{
+  const RepeatedLevel *level = &keys->levels[keys->depth - 1];
+  const char          *name  = (const char *)event->data.scalar.value;
+  size_t               start = level->length;
+
+  PetscFunctionBegin;
+  PetscCheck(isalnum((unsigned char)name[0]) || !strcmp(name, "<<"), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: \"%s\" is not a name: a letter, then letters, digits, _ or -", event->start_mark.line + 1, name);
+  keys->line = event->start_mark.line + 1;
+  if (start) PetscCall(RepeatedSetPath(keys, start++, "_"));
+  PetscCall(RepeatedSetPath(keys, start, name));
+  PetscCall(PetscStrtolower(keys->path + start));
+  PetscFunctionReturn(0);
+}
+
+/* What begins is a key, the value of one, an entry of a list, or the whole */
+static PetscErrorCode RepeatedBeginNode(RepeatedKeys *keys, const yaml_event_t *event)
+{
+  RepeatedLevel  *level = keys->depth ? &keys->levels[keys->depth - 1] : NULL;
+  const PetscBool leaf  = (PetscBool)(event->type != YAML_MAPPING_START_EVENT);
+  char            entry[32];
+
+  PetscFunctionBegin;
+  if (!level) PetscFunctionReturn(0);
+  if (!level->mapping) {
+    PetscCall(PetscSNPrintf(entry, sizeof(entry), "#%" PetscInt_FMT, level->n++));
+    PetscCall(RepeatedSetPath(keys, level->length, entry));
+  } else if (level->n++ % 2) PetscCall(RepeatedRemember(keys, (PetscBool)!leaf));
+  else if (event->type == YAML_SCALAR_EVENT) PetscCall(RepeatedReadKey(keys, event));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping)
+{
+  PetscFunctionBegin;
+  if (keys->depth == keys->maxdepth) {
+    keys->maxdepth = 2 * keys->maxdepth + 16;
+    PetscCall(PetscRealloc(keys->maxdepth * sizeof(*keys->levels), &keys->levels));
+  }
+  keys->levels[keys->depth++] = (RepeatedLevel){.mapping = mapping, .length = keys->length};
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
+{
+  const PetscBool mapping = (PetscBool)(event->type == YAML_MAPPING_START_EVENT), list = (PetscBool)(event->type == YAML_SEQUENCE_START_EVENT);
+
+  PetscFunctionBegin;
+  if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT) PetscCall(RepeatedBeginNode(keys, event));
+  if (mapping || list) PetscCall(RepeatedPush(keys, mapping));
+  if (event->type == YAML_MAPPING_END_EVENT || event->type == YAML_SEQUENCE_END_EVENT) --keys->depth;
+  PetscFunctionReturn(0);
+}
+
+/* As a key is written in messages: without the numbers of entries */
+static void RepeatedStrip(char path[])
+{
+  char *to = path;
+
+  for (const char *from = path; *from && *from != '/'; ++from) {
+    if (*from == '#') {
+      while (isdigit((unsigned char)from[1])) ++from;
+    } else *to++ = *from;
+  }
+  *to = 0;
+}
+
+/* After the last event */
+PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
+{
+  PetscInt *order;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(keys->n, &order));
+  for (PetscInt i = 0; i < keys->n; ++i) order[i] = i;
+  PetscCall(PetscSortStrWithPermutation(keys->n, (const char **)keys->paths, order));
+  for (PetscInt i = 1; i < keys->n; ++i) {
+    const PetscInt a = PetscMin(order[i - 1], order[i]), b = PetscMax(order[i - 1], order[i]);
+    PetscBool      same;
+
+    PetscCall(PetscStrcmp(keys->paths[a], keys->paths[b], &same));
+    if (same) RepeatedStrip(keys->paths[a]);
+    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is there already, in line %zu", keys->lines[b], keys->paths[a], keys->lines[a]);
+  }
+  PetscCall(PetscFree(order));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RepeatedKeysDestroy(RepeatedKeys *keys)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < keys->n; ++i) PetscCall(PetscFree(keys->paths[i]));
+  PetscCall(PetscFree(keys->paths));
+  PetscCall(PetscFree(keys->lines));
+  PetscCall(PetscFree(keys->levels));
+  PetscCall(PetscFree(keys->path));
+  PetscFunctionReturn(0);
+}
