@@ -36,6 +36,18 @@ contact:
 probes:
   - tip: {point: [1, 1, 2]}
 """
+RIDE = """problem: ride
+bodies:
+  - low: {lower: [0, 0, 0], upper: [4, 2, 1], cells: [5, 2, 1], material: neohookean, young: 10, poisson: 0.3}
+  - top: {lower: [0.5, 0.5, 1], upper: [1.5, 1.5, 2], cells: [2, 2, 2], material: neohookean, young: 5, poisson: 0.3}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+  - drag: {face: top.xmin, value: [0.3, 0, free]}
+pressures:
+  - press: {face: top.zmax, value: 0.3, follows: true}
+contact:
+  - touch: {mortar: low.zmax, nonmortar: top.zmin}
+"""
 SCENES = {
     "cube": CUBE,
     "free": CUBE.replace("symmetry: [cube.xmin, cube.ymin, cube.zmin]", "weak_springs: true").replace("probes:", OTHER_SIDES + "probes:"),
@@ -120,6 +132,8 @@ if sys.argv[1] == "write":
     for name, text in SCENES.items():
         with open(name + ".yaml", "w") as file:
             file.write("problem: %s\n%s" % (name, text))
+    with open("ride.yaml", "w") as file:
+        file.write(RIDE)
 else:
     inside = blown(0.2, 30)
     judge("", "", inside)

@@ -6,6 +6,10 @@ for scene in cube free bar sphere press glued fine; do
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -tao_ipfilter_tol 1e-8 -summary ${scene}_3.json || echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/follower.py" judge
+# Where the gap is linearized again the load goes on from the last solve, by secants of its own: a third of the solves that it takes with those of another gap
+"$contact" ride.yaml > ride.log || echo "ride: exit code $?"
+solves=$(grep -c '^iter' ride.log)
+echo "solves of four linearizations of the gap, 55 at most: $([ "$solves" -le 55 ] && echo yes || echo "no, $solves")"
 "$contact" cube.yaml -scene_check | grep '^  pressure px'
 
 try() {

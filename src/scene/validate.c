@@ -73,7 +73,7 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
     SceneRequire(!SceneContactPairRubs(here) || !scene->displacement_bounds, "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
-    for (PetscInt q = 0; q < scene->npressures; ++q) SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows, "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face, which do not go together: take one of the two without", file, here->name, scene->pressures[q].name);
+    for (PetscInt q = 0; q < scene->npressures; ++q) SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows, "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is found by solves that begin where the last one ended, which with friction do not always end; let the pressure be dead, or the pair without friction", file, here->name, scene->pressures[q].name);
     SceneRequire(here->distance >= 0, "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the faces", file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name, here->mortar);

@@ -29,6 +29,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   do {
+    if (!nsolves) PetscCall(FollowersForget(p));
     if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
     else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
     else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));

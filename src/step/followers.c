@@ -63,6 +63,15 @@ PetscErrorCode FollowersBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
+/* Secants are those of one problem: the next one's gap is another */
+PetscErrorCode FollowersForget(StepProblem *p)
+{
+  PetscFunctionBegin;
+  PetscCall(GapSecantsDestroy(&p->secants));
+  p->secants = (GapSecants){0};
+  PetscFunctionReturn(0);
+}
+
 /* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they are in p->load */
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {

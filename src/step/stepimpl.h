@@ -375,6 +375,7 @@ PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec 
 
 /* followers.c */
 PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode FollowersForget(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
