@@ -33,13 +33,17 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
   PetscFunctionReturn(0);
 }
 
-/* Nodes and body of every cell of this rank */
+/* Nodes and body of every cell of this rank: as many as hexahedra of order 1 have, or more as they come */
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;
+  PetscInt     room = 8 * e->ncells;
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(e->dm, &section));
+  PetscCall(PetscMalloc2(e->ncells + 1, &e->cellstart, e->ncells, &e->cellbody));
+  PetscCall(PetscMalloc1(room, &e->cellnodes));
+  e->cellstart[0] = 0;
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscInt n, nodes[MESH_MAX_NODES];
 
@@ -47,6 +51,11 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
     PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
     PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
     PetscCall(ElasticitySetBasis(e, n, &e->bodies[e->cellbody[c]]));
+    e->cellstart[c + 1] = e->cellstart[c] + n;
+    if (e->cellstart[c + 1] > room) {
+      room = 2 * e->cellstart[c + 1];
+      PetscCall(PetscRealloc((size_t)room * sizeof(*e->cellnodes), &e->cellnodes));
+    }
     for (PetscInt a = 0; a < n; ++a) {
       PetscInt offset;
 
@@ -54,22 +63,7 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
       e->cellnodes[e->cellstart[c] + a] = offset / 3;
     }
   }
-  PetscFunctionReturn(0);
-}
-
-/* Where the nodes of each cell begin */
-static PetscErrorCode ElasticityCountNodes(Elasticity e, PetscInt start)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(e->ncells + 1, &e->cellstart, e->ncells, &e->cellbody));
-  e->cellstart[0] = 0;
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    PetscInt n, nodes[MESH_MAX_NODES];
-
-    PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
-    e->cellstart[c + 1] = e->cellstart[c] + n;
-  }
-  PetscCall(PetscMalloc1(e->cellstart[e->ncells], &e->cellnodes));
+  if (e->cellstart[e->ncells] < room) PetscCall(PetscRealloc((size_t)e->cellstart[e->ncells] * sizeof(*e->cellnodes), &e->cellnodes));
   PetscFunctionReturn(0);
 }
 
@@ -91,8 +85,7 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   e->nnodes = size / 3;
   e->ncells = end - start;
   PetscCall(RankErrorBegin(&error));
-  ierr = ElasticityCountNodes(e, start);
-  if (!ierr) ierr = ElasticityNumberCells(e, label, start);
+  ierr = ElasticityNumberCells(e, label, start);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscFunctionReturn(0);

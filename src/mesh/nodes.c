@@ -263,7 +263,7 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 - nbodies - number of bodies
 
   Output Parameter:
-. orders - 1 or 2 for each, on all ranks: what it asks for, or what suits its cells
+. orders - 1 or 2 for each, on all ranks: what it asks for, or what suits its cells, which are all of one order
 
   Level: intermediate
 
@@ -271,18 +271,19 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 @*/
 PetscErrorCode MeshGetOrders(DM dm, PetscInt nbodies, PetscInt orders[])
 {
-  PetscInt cstart, cend;
+  PetscInt cstart, cend, unknown = nbodies;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) orders[b] = 1;
+  PetscCall(PetscArrayzero(orders, nbodies));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
-  for (PetscInt c = cstart; c < cend; ++c) {
+  for (PetscInt c = cstart; c < cend && unknown; ++c) {
     PetscInt b, n, nodes[MESH_MAX_NODES];
 
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
-    if (b < 0 || b >= nbodies || orders[b] > 1) continue;
+    if (b < 0 || b >= nbodies || orders[b]) continue;
     PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
     orders[b] = MeshOrder(n);
+    --unknown;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, orders, (PetscMPIInt)nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
