@@ -4,7 +4,7 @@
     share/plot/curves.py BASE.csv PICTURE.png [COLUMN ...] [-x COLUMN] [--steps all|N,...]
     share/plot/curves.py BASE.csv                            # says which columns there are
 
-A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'. Of a history, by default energy and work and each pair's normal force over time; of a
+A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'; each has axes of its own. Of a history, by default energy and work and each pair's normal force over time; of a
 line the displacement and von Mises stress along it, a curve each load step.
 """
 import argparse
@@ -49,9 +49,21 @@ def chosen(table, steps):
 
 def panels(table, args):
     if args.columns:
-        return [matching(table, args.columns, args.table)]
+        return [matching(table, [pattern], args.table) for pattern in args.columns]
     groups = [[column for pattern in group for column in table if fnmatch.fnmatchcase(column, pattern)] for group in (LINE if "arc" in table else HISTORY)]
     return [group for group in groups if group]
+
+
+def draw(axis, table, along, group, curves):
+    """Load steps from dark to light, of which ten at most are named"""
+    for column in group:
+        for k, (rows, label) in enumerate(curves):
+            style = ".-" if len(table[along][rows]) <= 60 else "-"
+            named = not label or (len(curves) - 1 - k) % (1 + (len(curves) - 1) // 10) == 0
+            color = plt.cm.viridis(0.9 * k / max(1, len(curves) - 1)) if len(group) == 1 and len(curves) > 1 else None
+            axis.plot(table[along][rows], table[column][rows], style, color=color, label=(column + " " + label).strip() if named else None)
+    axis.legend(fontsize="small")
+    axis.grid(alpha=0.3)
 
 
 def main():
@@ -70,13 +82,10 @@ def main():
     along = args.x or ("arc" if line else "time")
     matching(table, [along], args.table)
     groups = panels(table, args)
+    curves = chosen(table, args.steps) if line else [(slice(None), "")]
     figure, axes = plt.subplots(len(groups), squeeze=False, sharex=True, figsize=(8, 3.2 * len(groups) + 0.8))
     for axis, group in zip(axes.ravel(), groups):
-        for column in group:
-            for rows, label in chosen(table, args.steps) if line else [(slice(None), "")]:
-                axis.plot(table[along][rows], table[column][rows], "." if line and len(table[along]) > 200 else ".-", label=(column + " " + label).strip())
-        axis.legend(fontsize="small")
-        axis.grid(alpha=0.3)
+        draw(axis, table, along, group, curves)
     axes[-1, 0].set_xlabel(along)
     figure.tight_layout()
     figure.savefig(args.picture, dpi=110)
