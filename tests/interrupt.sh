@@ -16,3 +16,16 @@ run = json.load(open("run.json"))
 print("converged: %s; reason: %s; load steps: %s" % (run["converged"], run["reason"], [step["converged"] for step in run["steps"]]))
 PY
 ls run*.h5 run.xmf
+
+# While a run lives its files are its own
+"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 1 -load_steps 50 -output busy -quiet > /dev/null 2>&1 &
+pid=$!
+for i in $(seq 600); do
+  [ -e busy.xmf ] && break
+  sleep 0.1
+done
+"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output busy 2>&1 || echo "exit $?"
+kill -TERM $pid
+wait $pid
+"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -load_steps 1 -quiet -output busy && echo "and then those of the next"
+rm -f busy*

@@ -27,7 +27,7 @@
    the .xmf comes last, so a run that is killed, or finds the disk full, leaves what it has finished readable. Once the
    first step is written, the files of later steps that an older run of the same name left are removed.
 
-   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written; PETSC_ERR_FILE_WRITE where there is no room.
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written, or another process writes them; PETSC_ERR_FILE_WRITE where there is no room.
 
 .seealso: `OutputWrite()`, `OutputDestroy()`
 @*/
@@ -44,7 +44,10 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
+  PetscCall(ClaimBegin(o->comm, file, &o->claim)); /* of an earlier run */
+  ClaimEnd(&o->claim);
   PetscCall(OutputWriteMesh(o));
+  PetscCall(ClaimBegin(o->comm, file, &o->claim));
   PetscCall(OutputWriteXDMF(o));
   *output = o;
   PetscFunctionReturn(0);
@@ -189,6 +192,7 @@ PetscErrorCode OutputDestroy(Output *output)
 
   PetscFunctionBegin;
   if (!o) PetscFunctionReturn(0);
+  ClaimEnd(&o->claim);
   for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
   PetscCall(PetscFree(o->bodynames));
   for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));

@@ -37,6 +37,10 @@ PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErro
 /* The same behind what the file holds; it stays as it was where there is no room for all of it */
 PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
 
+/* claim.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first rank, is closed */
+PETSC_INTERN PetscErrorCode ClaimBegin(MPI_Comm, const char file[], int *descriptor);
+PETSC_INTERN void           ClaimEnd(int *descriptor);
+
 /* A step that has been written */
 typedef struct {
   PetscInt  step;
@@ -46,7 +50,8 @@ typedef struct {
 struct _n_Output {
   MPI_Comm    comm;
   DM          dm;
-  char       *base; /* of the file names */
+  char       *base;  /* of the file names */
+  int         claim; /* of the mesh's file, a descriptor */
   PetscInt    nbodies;
   char      **bodynames;
   PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
