@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
-"""What an effect costs that a scene does not call for: wall time and peak memory of a scene in which it is switched off, with
-what belongs to it left in the file, over those of a scene that never had it. One command, one table.
+"""What an effect costs that a scene does not call for: a scene in which it is switched off, with what belongs to it left in the file,
+over one that never had it. One command, one table; effects.md is such a one.
 
-    share/bench/effects.py [--contact bin/contact] [--refine 2] [--repeat 5]
+    share/bench/effects.py [--contact bin/contact] [--refine 2] [--repeat 5]             wall time and peak memory
+    share/bench/effects.py --instructions [--before OTHER/bin/contact] [--refine 1]      instructions, by valgrind, and peak memory
 
-Runs alternate, so that a change of the machine's speed meets both; ratios are those of the medians.
+Runs alternate, so that a change of the machine's speed meets both; ratios are those of the medians. Instructions are the same each
+time to 0.1 %: one run each is enough, and one that never had any. With --before there is a row for another build, and the scene that never had any effect.
 """
 import argparse
+import functools
 import os
+import re
+import shutil
 import statistics
 import sys
 import tempfile
@@ -32,11 +37,21 @@ EFFECTS = {
     "body force": ("", "ramps:\n  - weight: {factors: [1]}\nload: {steps: 1}\n"),
     "displacement bounds": ("", "displacement_bounds: 0\n"),
     "weak springs": ("", "weak_springs: false\n"),
-    "thermal strain": (", expansion: 1e-5", ""),
+    "thermal strain": (", expansion: 1e-5", "temperatures: []\n"),
     "ramps, tables": ("", "ramps:\n  - later: {times: [0, 1], values: [0, 1]}\n"),
-    "library": ("", "materials:\n  - other: {law: mooney_rivlin, c10: 1, c01: 1, bulk: 1}\n"),
+    "expressions": ("", "ramps:\n  - later: {expression: sin(pi*s/2)}\n"),
+    "library, units": ("", "units: mm, N, MPa\nmaterials:\n  - other: {law: mooney_rivlin, c10: 1, c01: 1, bulk: 1}\n"),
+    "tractions, forces": ("", "tractions: []\nforces: []\n"),
+    "springs": ("", "springs: []\n"),
+    "ties": ("", "ties: []\n"),
+    "probes": ("", "probes: []\n"),
+    "inclined symmetry": ("", "symmetry: []\n"),
+    "order 2": (", order: 1", ""),
+    "local refinement": ("", "refinements: []\n"),
     "AMG filter": ("", "solver: {tao_ipfilter_filter_switch: 10}\n"),
 }
+# effect: options, without which it is off too
+OPTIONS = {"checkpoints": ["-checkpoint_every", "0"]}
 
 
 def write(folder, name, body, rest):
@@ -46,38 +61,66 @@ def write(folder, name, body, rest):
     return path
 
 
-def run(args, scene, folder):
+def run(args, contact, scene, folder, options=()):
+    """Wall time or instructions, and peak memory; the number of unknowns"""
     base = os.path.join(folder, "summary")
-    code, said, _ = execute([args.contact, scene, "-quiet", "-refine", str(args.refine), "-summary", base + ".json"], None)
+    command = [contact, scene, "-quiet", "-refine", str(args.refine), "-summary", base + ".json", *options]
+    code, said, _ = execute(command, None)
     if code:
         sys.exit("effects.py: %s: %s" % (scene, last_words(said)))
     report = read_summary(base)
     on = [effect["name"] for effect in report["effects"] if effect["on"] and effect["name"] != "error estimate"]
     if on:
         sys.exit("effects.py: %s: switched on: %s" % (scene, ", ".join(on)))
-    return report["time"]["total"], report["peak_memory_bytes"], report["dofs"]
+    cost = report["time"]["total"]
+    if args.instructions:
+        _, said, _ = execute(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command], None)
+        cost = int(re.search(r"Collected : (\d+)", said).group(1)) / 1e6
+    return cost, report["peak_memory_bytes"], report["dofs"]
+
+
+def compare(args, name, off, never):
+    """A row: medians of what two functions return in turn; the larger of the two differences"""
+    pairs = [(off(), never()) for _ in range(args.repeat)]
+    cost = [statistics.median(p[i][0] for p in pairs) for i in (0, 1)]
+    memory = [statistics.median(p[i][1] for p in pairs) for i in (0, 1)]
+    print("| %-20s | %12.3f | %12.3f | %8.4f | %8.3f |" % (name, *cost, cost[0] / cost[1], memory[0] / memory[1]), flush=True)
+    return max(abs(cost[0] / cost[1] - 1), abs(memory[0] / memory[1] - 1))
+
+
+def table(args, folder):
+    never = write(folder, "never", "", "")
+    plain = functools.partial(run, args, args.contact, never, folder)
+    if args.instructions:
+        plain = functools.cache(plain)
+    dofs, unit = plain()[2], "million instructions" if args.instructions else "s"
+    print("%d unknowns, medians of %d runs each, in turn\n" % (dofs, args.repeat))
+    print("| %-20s | %12s | %12s | %8s | %8s |\n|%s" % ("switched off", "off", "never", "ratio", "memory", " --- |" * 5))
+    worst = 0.0
+    for effect, (body, rest) in EFFECTS.items():
+        off = write(folder, "off", body, rest)
+        worst = max(worst, compare(args, effect, lambda off=off: run(args, args.contact, off, folder), plain))
+    for effect, options in OPTIONS.items():
+        worst = max(worst, compare(args, effect, lambda options=options: run(args, args.contact, never, folder, options), plain))
+    print("\nOff and never in %s; largest difference: %.2f %%" % (unit, 100 * worst))
+    if args.before:
+        print("\n| %-20s | %12s | %12s | %8s | %8s |\n|%s" % ("plain scene", "now", "before", "ratio", "memory", " --- |" * 5))
+        compare(args, "another build", plain, lambda: run(args, args.before, never, folder))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--contact", default="bin/contact")
+    parser.add_argument("--before", help="another build of it")
+    parser.add_argument("--instructions", action="store_true", help="in place of time")
     parser.add_argument("--refine", type=int, default=2)
-    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--repeat", type=int)
     args = parser.parse_args()
+    args.repeat = args.repeat or (1 if args.instructions else 5)
+    if args.instructions and not shutil.which("valgrind"):
+        sys.exit("effects.py: instructions are counted by valgrind, which is not here")
     with tempfile.TemporaryDirectory() as folder:
-        never = write(folder, "never", "", "")
-        _, _, dofs = run(args, never, folder)
-        print("%d unknowns, medians of %d runs each, in turn\n" % (dofs, args.repeat))
-        print("%-20s %12s %12s %8s %8s" % ("switched off", "off [s]", "never [s]", "time", "memory"))
-        worst = 0.0
-        for effect, (body, rest) in EFFECTS.items():
-            off = write(folder, "off", body, rest)
-            pairs = [(run(args, off, folder), run(args, never, folder)) for _ in range(args.repeat)]
-            time = [statistics.median(p[i][0] for p in pairs) for i in (0, 1)]
-            memory = [statistics.median(p[i][1] for p in pairs) for i in (0, 1)]
-            worst = max(worst, abs(time[0] / time[1] - 1), abs(memory[0] / memory[1] - 1))
-            print("%-20s %12.3f %12.3f %8.3f %8.3f" % (effect, *time, time[0] / time[1], memory[0] / memory[1]), flush=True)
-        print("\nlargest difference: %.1f %%" % (100 * worst))
+        table(args, folder)
 
 
 if __name__ == "__main__":

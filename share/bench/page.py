@@ -232,7 +232,7 @@ half-space is itself some 0.2 % off this ball in force and energy. Rows and keys
     make bench-quick       # ten minutes on two cores
     make bench-page        # takes the page and its figures into share/bench
     make bench BENCH="--only tolerance forcing"     # some studies; BENCH=--plan says what would be run, BENCH=--no-run draws what has been
-    share/bench/effects.py                          # what an effect costs that a scene does not call for
+    share/bench/effects.py                          # what an effect costs that a scene does not call for: effects.md
     make bench-calculix                             # the two-block problem beside CalculiX: calculix.md
 """
 
