@@ -59,6 +59,7 @@ static const Mistake mistakes[] = {
   {"negative box", "upper: [4, 4, 1]", "upper: [4, -4, 1]"},
   {"flat box", "upper: [4, 4, 1]", "upper: [4, 4, 0]"},
   {"unknown shape", "slab: {", "slab: {shape: sphere, "},
+  {"expansion of a law that has none", "young: 1,", "young: 1, material: neohookean, expansion: 1e-5,"},
   {"unknown material", "slab: {", "slab: {material: rubber, "},
   {"library that is not there", "refine: 0", "library: nowhere.yaml"},
   {"material without constants", "refine: 0", "materials: [soft: {young: 1}]"},

@@ -12,7 +12,7 @@ PetscErrorCode ElementGet(ElementType type, PetscInt nnodes, const Element **ele
     *element = &ElementBbar;
     break;
   case ELEMENT_INCOMPATIBLE:
-    PetscCheck(nnodes == 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "Incompatible modes are for hexahedra of 8 nodes, not for cells of %" PetscInt_FMT, nnodes);
+    PetscCheck(nnodes == 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "element incompatible is for hexahedra of 8 nodes, and not for cells of %" PetscInt_FMT ": take full or bbar for their body", nnodes);
     *element = &ElementIncompatible;
     break;
   default:

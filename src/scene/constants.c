@@ -74,6 +74,18 @@ static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
   return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
 }
 
+/* A law that has no expansion says which have, where one is given */
+static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
+{
+  const char *text;
+
+  PetscFunctionBegin;
+  if (!MaterialIsFinite(material)) PetscFunctionReturn(0);
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_expansion", owner));
+  if (text) PetscCall(SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand", owner, MaterialTypes[material->type]));
+  PetscFunctionReturn(0);
+}
+
 /* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
@@ -92,6 +104,7 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
     else if (text) PetscCall(SceneParseReals(keys, key, text, constants[i].n, value));
     if (text && MaterialConstantIsAxis(&constants[i]) && !MaterialConstantIsSet(&constants[i], value)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
+  PetscCall(SceneReadNoExpansion(keys, owner, material));
   PetscCall(MaterialSetScale(material));
   PetscFunctionReturn(0);
 }
