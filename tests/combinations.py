@@ -6,8 +6,12 @@ import random
 import subprocess
 import sys
 
+from tetrahedra import BOX_FACES, Block
+
 CONTACT = os.path.join(os.environ["AMGF_DIR"], "bin", "contact")
-BODY = "  - %s: {lower: %s, upper: %s, cells: [2, 2, 1], %s}\n"
+BODY = "  - %s: {%s, %s}\n"
+BOX = "lower: %s, upper: %s, cells: [2, 2, 1]"
+CORNERS = dict(low=([0, 0, 0], [3, 2, 1]), top=([0.5, 0.5, 1], [2.5, 1.5, 2]))
 LAW = "young: 10, poisson: 0.3"
 
 
@@ -16,6 +20,7 @@ class Scene:
 
     def __init__(self):
         self.law = dict(low="", top="")
+        self.shape = {name: BOX % corners for name, corners in CORNERS.items()}
         self.constants = LAW
         self.bodies, self.top, self.options, self.ranks, self.restarts = "", [], [], 1, False
         self.lists = {
@@ -27,7 +32,7 @@ class Scene:
         self.lists.setdefault(section, []).append(entry)
 
     def text(self):
-        bodies = BODY % ("low", [0, 0, 0], [3, 2, 1], self.law["low"] + self.constants) + BODY % ("top", [0.5, 0.5, 1], [2.5, 1.5, 2], self.law["top"] + self.constants) + self.bodies
+        bodies = "".join(BODY % (name, self.shape[name], self.law[name] + self.constants) for name in ("low", "top")) + self.bodies
         lists = "".join("%s:\n%s" % (name, "".join("  - %s\n" % entry for entry in entries)) for name, entries in self.lists.items() if entries)
         return "bodies:\n" + bodies + lists + "".join(line + "\n" for line in self.top)
 
@@ -67,13 +72,13 @@ def friction(scene):
 
 
 def tie(scene):
-    scene.bodies += BODY % ("cap", [0.5, 0.5, 2], [2.5, 1.5, 2.5], LAW)
+    scene.bodies += BODY % ("cap", BOX % ([0.5, 0.5, 2], [2.5, 1.5, 2.5]), LAW)
     scene.add("pressures", "cap: {face: cap.zmax, value: 0.02}")
     scene.add("ties", "glue: {mortar: top.zmax, nonmortar: cap.zmin}")
 
 
 def rigid(scene):
-    scene.bodies += BODY % ("wall", [-0.5, -0.5, -0.5], [0, 2.5, 1.5], "material: rigid")
+    scene.bodies += BODY % ("wall", BOX % ([-0.5, -0.5, -0.5], [0, 2.5, 1.5]), "material: rigid")
     scene.add("displacements", "shove: {body: wall, value: [0.005, 0, 0]}")
     scene.add("contact", "side: {mortar: wall.xmax, nonmortar: low.xmin}")
 
@@ -86,7 +91,7 @@ def driven(scene):
 
 
 def pad(scene):
-    scene.bodies += BODY % ("lid", [0.5, 0.5, 2.1], [2.5, 1.5, 2.5], LAW)
+    scene.bodies += BODY % ("lid", BOX % ([0.5, 0.5, 2.1], [2.5, 1.5, 2.5]), LAW)
     scene.add("pressures", "lid: {face: lid.zmax, value: 0.02}")
     scene.add("springs", "pad: {face: lid.zmin, to: top.zmax, value: [1, 1, 4], distance: 0.2}")
 
@@ -98,6 +103,18 @@ def follows(scene):
 
 def rotation(scene):
     scene.lists["displacements"][0] = "floor: {face: low.zmin, value: [0, 0, 0], rotation: [0, 0, 0.2], center: [1.5, 1, 0]}"
+
+
+def tetrahedra(order, *names):
+    def change(scene):
+        for name in names:
+            lower, upper = CORNERS[name]
+            cells = Block(order, [2, 2, 1], lambda p, a=lower, b=upper: [x + t * (y - x) for x, y, t in zip(a, b, p)], BOX_FACES)
+            cells.write("%s_%d.msh" % (name, order), "2.2")
+            scene.shape[name] = "mesh: %s_%d.msh, volume: block" % (name, order)
+            scene.law[name] += "order: 1, " if order == 1 else ""
+
+    return change
 
 
 def order_low(scene):
@@ -146,6 +163,8 @@ EFFECTS = {
     "incompatible": law("element: incompatible, "),
     "order 2": law("order: 2, "),
     "order 2 below": order_low,
+    "tetrahedra": tetrahedra(2, "low", "top"),
+    "tetrahedra of 4 nodes": tetrahedra(1, "low"),
     "tie": tie,
     "rigid body": rigid,
     "driven by force": driven,
@@ -214,7 +233,7 @@ def judge(names):
 
 
 # By themselves only: they change nothing of what is solved, or little
-ALONE = {"pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "local refinement", "body force", "expression"}
+ALONE = {"tetrahedra of 4 nodes", "pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "local refinement", "body force", "expression"}
 TABLE = {}
 
 
