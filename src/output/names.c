@@ -1,5 +1,17 @@
 /* What the files of an output are called */
 #include "outputimpl.h"
+#include <string.h>
+
+/* What names a folder would make files that have no name */
+PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
+{
+  const char     *slash = strrchr(base, '/'), *last = slash ? slash + 1 : base;
+  const PetscBool named = (PetscBool)(last[0] && strcmp(last, ".") && strcmp(last, ".."));
+
+  PetscFunctionBegin;
+  PetscCheck(named, comm, PETSC_ERR_FILE_OPEN, "\"%s\" is a folder; -output is what the names of the files begin with, as results/press", base);
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode OutputGetMeshFile(Output output, char file[], size_t length)
 {

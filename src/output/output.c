@@ -37,6 +37,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   char   file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
+  PetscCall(OutputCheckBase(PetscObjectComm((PetscObject)dm), basename));
   PetscCall(OutputCreateMesh(dm, &o));
   PetscCall(PetscStrallocpy(basename, &o->base));
   o->nbodies = nbodies;

@@ -70,6 +70,7 @@ struct _n_Output {
 };
 
 /* names.c */
+PETSC_INTERN PetscErrorCode OutputCheckBase(MPI_Comm, const char base[]);
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 
