@@ -5,6 +5,7 @@ python3 friction_published.py scenes writes them; python3 friction_published.py 
 GRECO: a plate pressed onto a rigid ground and pushed from the side, tangential displacements of five points of its base (M. Raous, P. Chabrand, F. Lebon, Numerical methods for
 frictional contact problems and applications, J. Theor. Appl. Mech. 7, 1988, and the benchmarks that took it up; codes scatter by 5 %).
 Torque: a shaft shrunk into a hub and turned, both held by their other faces: Lame's pressure for plane strain, and friction x pressure x 2 pi r^2 L.
+The same without friction is what its AMG applications are held against.
 Capstan: a belt laid around a quarter and a half of a rigid pulley, tightened by both ends, then the pulley turns; tensions T2 / T1 = exp(friction x angle), of a belt of a thickness by the radius
 that friction acts at over that of the tension. Another belt is pulled over a pulley by one end, against a dead load at the other, and again with friction alone
 to hold it sideways.
@@ -216,6 +217,7 @@ SCENES = {
     "greco_64": greco(64),
     "torque_42": torque(28, 21),
     "torque_84": torque(56, 42),
+    "smooth_42": torque(28, 21).replace(f", friction: {FRICTION}", ""),
     "capstan_90_24": capstan(90, 24, 0.5),
     "capstan_90_48": capstan(90, 48, 0.5),
     "capstan_180_48": capstan(180, 48, 0.8),
@@ -262,6 +264,12 @@ def judge_torque():
         torque, normal = FIT * sum(pair["shear_force"] for pair in pairs), sum(pair["normal_force"] for pair in pairs)
         verdict(f"{name}, pressure off Lame's", abs(normal / (2 * math.pi * FIT * LENGTH) / pressure - 1), limit)
         verdict(f"{name}, torque off its closed form", abs(torque / (FRICTION * pressure * 2 * math.pi * FIT**2 * LENGTH) - 1), limit)
+
+
+def judge_cost():
+    with_friction, without = (load(name)["steps"] for name in ("torque_42_amg", "smooth_42_amg"))
+    verdict("torque_42, applications of AMG against those without friction", sum(step["amg_applications"] for step in with_friction) / sum(step["amg_applications"] for step in without), 1.25)
+    verdict("torque_42, KKT error", max(step["kkt_error"] for step in with_friction), 1e-8)
 
 
 def judge_capstan():
@@ -336,6 +344,7 @@ if len(sys.argv) > 1 and sys.argv[1] == "scenes":
 else:
     judge_greco()
     judge_torque()
+    judge_cost()
     judge_capstan()
     judge_cattaneo()
     judge_roller()

@@ -251,6 +251,23 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   PetscFunctionReturn(0);
 }
 
+/* With friction many linearizations are made. But for the last one they are solved as far as the one before was true; weak springs alone would carry what that leaves */
+static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool last, Vec u, const StepReport *report)
+{
+  const PetscReal first = 1e-4, fraction = 0.1;
+  Simulation      sim = p->sim;
+  PetscReal       size;
+
+  PetscFunctionBegin;
+  p->tolerance = 0.0;
+  if (last || !sim->linearization->slip || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
+  p->tolerance = first;
+  if (!report->contact_updates) PetscFunctionReturn(0);
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  p->tolerance = PetscMin(first, fraction * report->gap_change / size);
+  PetscFunctionReturn(0);
+}
+
 /* Back to the undeformed bodies, where that is the answer: sim->linearization and `at_u` are of them then */
 static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
 {
@@ -283,7 +300,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   Simulation sim          = p->sim;
   GapSecants secants      = {0};
   Vec        u_linearized = sim->path.u;
-  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE;
+  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, is_true = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -291,7 +308,10 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
+    PetscCall(AttemptSetTolerance(p, is_true, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
+    is_true = (PetscBool)(end && report->converged && p->loose);
+    if (is_true) end = PETSC_FALSE;
     if (end || report->contact_updates == sim->scene->contact_updates) break;
     if (u_linearized == sim->path.u) PetscCall(AttemptCopy(sim->path.u, &u_linearized));
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));

@@ -44,6 +44,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoSetFromOptions(*tao));
   PetscCall(OptimizerKnowBothNames());
   PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
+  p->loose = (PetscBool)(p->tolerance > sim->tolerances.optimizer && !p->centre);
+  if (p->loose) PetscCall(TaoSetTolerances(*tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));

@@ -357,6 +357,8 @@ typedef struct {
   Vec        centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
   char      *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
   PetscReal  carried;      /* what was left between the last solution and its centre [force] */
+  PetscReal  tolerance;    /* KKT error that the present linearization is solved to; 0: that of the load step */
+  PetscBool  loose;        /* the last solve ended by it, short of the load step's */
   Vec        w, Kw;
 
   StepFriction friction;
