@@ -255,6 +255,9 @@ def judge_greco():
         found = [1e3 * probe["displacement"][0] for probe in probes]
         verdict(f"{name}, displacements of the base off the published ones", max(abs(u / p - 1) for u, p in zip(found, PUBLISHED.values())), 0.05)
         verdict(f"{name}, the first four of them", max(abs(u / p - 1) for u, p in list(zip(found, PUBLISHED.values()))[:4]), 0.01)
+    one, five = (load(name)["steps"][-1] for name in ("greco_32", "greco_32_5"))
+    verdict("greco_32 in 5 steps, displacements of the base off those in 1", max(abs(a["displacement"][0] / b["displacement"][0] - 1) for a, b in zip(five["probes"], one["probes"])), 1e-6)
+    verdict("greco_32 in 5 steps, dissipated work", abs(five["dissipated"] / one["dissipated"] - 1), 1e-3)
 
 
 def judge_torque():

@@ -137,7 +137,7 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   char reason[512];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; a body may slide away that friction no longer holds, or be wedged by a large coefficient", report->reason));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; a body may slide away that friction no longer holds, tip over, or be wedged by a large coefficient", report->reason));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
