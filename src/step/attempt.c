@@ -251,10 +251,13 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   PetscFunctionReturn(0);
 }
 
-/* With friction many linearizations are made. But for the last one they are solved as far as the one before was true; weak springs alone would carry what that leaves */
+/*
+   With friction many linearizations are made. But for the last one they are solved as far as the one before was true. Where it becomes no truer, what a loose solve leaves may be
+   why. Weak springs alone would carry that.
+*/
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool last, Vec u, const StepReport *report)
 {
-  const PetscReal first = 1e-4, fraction = 0.1;
+  const PetscReal first = 1e-4, fraction = 0.1, fair = 0.5, before = p->tolerance;
   Simulation      sim = p->sim;
   PetscReal       size;
 
@@ -265,6 +268,8 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool last, Vec u,
   if (!report->contact_updates) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   p->tolerance = PetscMin(first, fraction * report->gap_change / size);
+  if (report->contact_updates > 1 && report->gap_change > fair * p->gap_change) p->tolerance = PetscMin(p->tolerance, fraction * before);
+  p->gap_change = report->gap_change;
   PetscFunctionReturn(0);
 }
 

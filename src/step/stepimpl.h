@@ -359,6 +359,7 @@ typedef struct {
   PetscReal  carried;      /* what was left between the last solution and its centre [force] */
   PetscReal  tolerance;    /* KKT error that the present linearization is solved to; 0: that of the load step */
   PetscBool  loose;        /* the last solve ended by it, short of the load step's */
+  PetscReal  gap_change;   /* of the linearization before the last one */
   Vec        w, Kw;
 
   StepFriction friction;
