@@ -252,10 +252,10 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 }
 
 /*
-   With friction many linearizations are made. But for the last one they are solved as far as the one before was true. Where it becomes no truer, what a loose solve leaves may be
-   why. Weak springs alone would carry that.
+   With friction many linearizations are made. They are solved as far as the one before was true, and the last one, whose gap is true, again to the end. Where a gap becomes no
+   truer, what a loose solve leaves may be why. Weak springs alone would carry that.
 */
-static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool last, Vec u, const StepReport *report)
+static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool solve_again, Vec u, const StepReport *report)
 {
   const PetscReal first = 1e-4, fraction = 0.1, fair = 0.5, before = p->tolerance;
   Simulation      sim = p->sim;
@@ -263,7 +263,7 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool last, Vec u,
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (last || !sim->linearization->slip || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
+  if (solve_again || !sim->linearization->slip || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
   p->tolerance = first;
   if (!report->contact_updates) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
@@ -305,7 +305,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   Simulation sim          = p->sim;
   GapSecants secants      = {0};
   Vec        u_linearized = sim->path.u;
-  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, is_true = PETSC_FALSE;
+  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, solve_again = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -313,10 +313,15 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
-    PetscCall(AttemptSetTolerance(p, is_true, u, report));
+    PetscCall(AttemptSetTolerance(p, solve_again, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
-    is_true = (PetscBool)(end && report->converged && p->loose);
-    if (is_true) end = PETSC_FALSE;
+    solve_again = (PetscBool)(end && report->converged && p->loose);
+    if (solve_again) {
+      end = PETSC_FALSE;
+      --report->contact_updates;
+      PetscCall(ContactLinearizationDestroy(at_u));
+      continue;
+    }
     if (end || report->contact_updates == sim->scene->contact_updates) break;
     if (u_linearized == sim->path.u) PetscCall(AttemptCopy(sim->path.u, &u_linearized));
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
