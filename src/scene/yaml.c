@@ -46,17 +46,22 @@ static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
 
 static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], RepeatedKeys *keys)
 {
-  yaml_event_t event;
-  PetscInt     anchored = 0;
-  PetscBool    end      = PETSC_FALSE;
+  yaml_event_t   event;
+  PetscInt       anchored = 0;
+  PetscBool      end      = PETSC_FALSE, nested;
+  size_t         line;
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   while (!end) {
     if (!yaml_parser_parse(parser, &event)) PetscCall(YAMLRaise(parser, text));
-    end = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
-    PetscCheck(!YAMLIsNested(&event, &anchored), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", event.start_mark.line + 1);
-    PetscCall(RepeatedKeysRead(keys, &event));
+    end    = event.type == YAML_STREAM_END_EVENT ? PETSC_TRUE : PETSC_FALSE;
+    nested = YAMLIsNested(&event, &anchored);
+    line   = event.start_mark.line + 1;
+    ierr   = nested ? 0 : RepeatedKeysRead(keys, &event);
     yaml_event_delete(&event);
+    PetscCheck(!nested, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", line);
+    PetscCall(ierr);
   }
   PetscCall(RepeatedKeysCheck(keys));
   PetscFunctionReturn(0);
