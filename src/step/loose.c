@@ -53,36 +53,29 @@ PetscErrorCode LooseTest(const StepProblem *p, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Of each body on weak springs its volume, and the largest change of a displacement from u0 to u, squared; of others 0 */
-static PetscErrorCode LooseMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal volume[], PetscReal moved[])
+/* Of each body on weak springs the largest change of a displacement from u0 to u, squared; of others 0 */
+static PetscErrorCode LooseMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal moved[])
 {
-  const PetscInt     nbodies = sim->scene->nbodies;
-  const PetscScalar *m, *k, *v0, *v;
+  const PetscScalar *k, *v0, *v;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(volume, nbodies));
-  PetscCall(PetscArrayzero(moved, nbodies));
+  PetscCall(PetscArrayzero(moved, sim->scene->nbodies));
   PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(sim->mass, &m));
   PetscCall(VecGetArrayRead(sim->springs.weak, &k));
   PetscCall(VecGetArrayRead(u0, &v0));
   PetscCall(VecGetArrayRead(u, &v));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscInt body   = sim->places.body[i / 3];
-    PetscReal      square = 0.0;
+    PetscReal *body = &moved[sim->places.body[i / 3]], square = 0.0;
 
     if (!(PetscRealPart(k[i]) > 0.0)) continue;
     for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(PetscRealPart(v[i + d] - v0[i + d]));
-    volume[body] += PetscRealPart(m[i]);
-    moved[body] = PetscMax(moved[body], square);
+    *body = PetscMax(*body, square);
   }
   PetscCall(VecRestoreArrayRead(u, &v));
   PetscCall(VecRestoreArrayRead(u0, &v0));
   PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
-  PetscCall(VecRestoreArrayRead(sim->mass, &m));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, (PetscMPIInt)sim->scene->nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscFunctionReturn(0);
 }
 
@@ -95,7 +88,8 @@ PetscErrorCode LooseTestMotion(const StepProblem *p, Vec u_linearized, Vec u, St
   PetscFunctionBegin;
   if (!p->sim->springs.weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
-  PetscCall(LooseMeasureMotion(p->sim, u_linearized, u, volume, moved));
+  PetscCall(SpringsMeasureVolumes(p->sim, volume));
+  PetscCall(LooseMeasureMotion(p->sim, u_linearized, u, moved));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
     const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);
     char            reason[256];

@@ -1,7 +1,23 @@
 /* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely. */
 #include "stepimpl.h"
 
-/* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume. sim->mass: of unit density */
+/* Of every body, on all ranks; sim->mass: of unit density */
+PetscErrorCode SpringsMeasureVolumes(Simulation sim, PetscReal volume[])
+{
+  const PetscScalar *m;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(volume, sim->scene->nbodies));
+  PetscCall(VecGetLocalSize(sim->mass, &n));
+  PetscCall(VecGetArrayRead(sim->mass, &m));
+  for (PetscInt i = 0; i < n; i += 3) volume[sim->places.body[i / 3]] += PetscRealPart(m[i]);
+  PetscCall(VecRestoreArrayRead(sim->mass, &m));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)sim->scene->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume */
 PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
 {
   Scene              scene = sim->scene;
@@ -11,11 +27,10 @@ PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(scene->nbodies, &volume));
+  PetscCall(PetscMalloc1(scene->nbodies, &volume));
+  PetscCall(SpringsMeasureVolumes(sim, volume));
   PetscCall(VecGetLocalSize(sim->mass, &n));
   PetscCall(VecGetArrayRead(sim->mass, &m));
-  for (PetscInt i = 0; i < n; i += 3) volume[sim->places.body[i / 3]] += PetscRealPart(m[i]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)scene->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscCall(VecGetArrayWrite(stiffness, &k));
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = sim->places.body[i / 3];

@@ -263,6 +263,7 @@ PETSC_INTERN PetscErrorCode CouplingsCreate(Simulation, Mat *stiffness);
 PETSC_INTERN PetscErrorCode CouplingsAddStiffness(Simulation, Mat C, Mat stiffness);
 
 /* springs.c */
+PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(Simulation, PetscReal volume[]);
 PETSC_INTERN PetscErrorCode SpringsOfSize(Simulation, PetscReal share, Vec stiffness);
 PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
