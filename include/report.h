@@ -83,6 +83,7 @@ typedef struct {
   PetscInt             gap_damped;       /* linearizations made short of where they would be, because the solutions got no truer */
   PetscReal            complementarity;  /* max s z [force/length] */
   PetscReal            algebraic_error;  /* in the energy, relative: what products of gap and pressure, forces out of balance and an untrue gap are worth */
+  PetscReal            gap_error;        /* what of it is the untrue gap's */
   PetscReal            action_reaction;  /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal            error_estimate;   /* discretization error in the energy norm over sqrt(2 energy); its square is the relative error in energy; NaN: no estimate was made */
   PetscReal           *body_errors;      /* parts of the bodies, whose squares sum to its square; NULL: none was made */

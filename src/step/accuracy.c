@@ -247,11 +247,7 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
 /* What the solver leaves in the energy; where one linearization of the gap is asked for, the true gap is another problem's, and no tolerance makes it truer */
 static PetscReal AccuracySolverError(const Accuracy *acc, const StepReport *step)
 {
-  PetscReal force = 0.0;
-
-  if (acc->updates != 1 || step->energy <= 0.0) return step->algebraic_error;
-  for (PetscInt p = 0; p < step->npairs; ++p) force += step->pairs[p].normal_force;
-  return PetscMax(0.0, step->algebraic_error - force * step->gap_change / (2.0 * step->energy));
+  return acc->updates == 1 ? step->algebraic_error - step->gap_error : step->algebraic_error;
 }
 
 static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, PetscInt npairs)

@@ -81,8 +81,12 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
     PetscCall(VecDestroy(&products));
     PetscCall(VecNorm(weighted, NORM_1, &press));
   }
-  report->algebraic_error = PetscAbsScalar(duality) + PetscAbsScalar(work) + press * report->gap_change;
-  if (report->energy > 0.0) report->algebraic_error /= 2.0 * report->energy;
+  report->gap_error       = press * report->gap_change;
+  report->algebraic_error = PetscAbsScalar(duality) + PetscAbsScalar(work) + report->gap_error;
+  if (report->energy > 0.0) {
+    report->gap_error /= 2.0 * report->energy;
+    report->algebraic_error /= 2.0 * report->energy;
+  }
   PetscFunctionReturn(0);
 }
 
