@@ -252,24 +252,36 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 }
 
 /*
-   With friction many linearizations are made. They are solved as far as the one before was true, and the last one, whose gap is true, again to the end. Where a gap becomes no
-   truer, what a loose solve leaves may be why. Weak springs alone would carry that.
+   Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end. again: the same one is solved further, for what the loose solve
+   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too. Weak springs alone would carry that.
 */
-static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool solve_again, Vec u, const StepReport *report)
+static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool again, PetscBool end, Vec u, const StepReport *report)
 {
-  const PetscReal first = 1e-4, fraction = 0.1, fair = 0.5, before = p->tolerance;
+  const PetscReal first = 1e-3, fraction = 0.1, fair = 0.5, before = p->tolerance;
   Simulation      sim = p->sim;
   PetscReal       size;
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (solve_again || !sim->linearization->slip || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
+  if (end || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
   p->tolerance = first;
-  if (!report->contact_updates) PetscFunctionReturn(0);
+  if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   p->tolerance = PetscMin(first, fraction * report->gap_change / size);
+  if (again) PetscFunctionReturn(0);
   if (report->contact_updates > 1 && report->gap_change > fair * p->gap_change) p->tolerance = PetscMin(p->tolerance, fraction * before);
   p->gap_change = report->gap_change;
+  PetscFunctionReturn(0);
+}
+
+/* Whether the linearization just solved is to be solved further: it is the last one, or the first, and no more untrue than the solve was loose */
+static PetscErrorCode AttemptIsLoose(const StepProblem *p, PetscBool end, Vec u, const StepReport *report, PetscBool *again)
+{
+  PetscReal size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  *again = (PetscBool)(report->converged && p->loose && (end || (report->contact_updates == 1 && report->gap_change <= p->tolerance * size)));
   PetscFunctionReturn(0);
 }
 
@@ -305,7 +317,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   Simulation sim          = p->sim;
   GapSecants secants      = {0};
   Vec        u_linearized = sim->path.u;
-  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, solve_again = PETSC_FALSE;
+  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -313,10 +325,11 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
-    PetscCall(AttemptSetTolerance(p, solve_again, u, report));
+    PetscCall(AttemptSetTolerance(p, again, last, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
-    solve_again = (PetscBool)(end && report->converged && p->loose);
-    if (solve_again) {
+    PetscCall(AttemptIsLoose(p, end, u, report, &again));
+    last = (PetscBool)(again && end);
+    if (again) {
       end = PETSC_FALSE;
       --report->contact_updates;
       PetscCall(ContactLinearizationDestroy(at_u));

@@ -13,6 +13,21 @@ static PetscErrorCode OptimizerKnowBothNames(void)
   PetscFunctionReturn(0);
 }
 
+/* The filtered subspace method goes on where a loose solve has ended; what the interior point method knows of one is worth nothing to the next */
+static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
+{
+  const char *const uses[] = {"false", "true", "auto"};
+  PetscInt          use;
+  PetscBool         given, interior;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
+  interior = (PetscBool)(!ours || (given && !use && !p->friction.T));
+  p->loose = (PetscBool)(p->tolerance > p->sim->tolerances.optimizer && !p->centre && !interior);
+  if (p->loose) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
 /* ours: false where -tao_type has chosen another optimizer */
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
@@ -44,9 +59,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoSetFromOptions(*tao));
   PetscCall(OptimizerKnowBothNames());
   PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
-  p->loose = (PetscBool)(p->tolerance > sim->tolerances.optimizer && !p->centre);
-  if (p->loose) PetscCall(TaoSetTolerances(*tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
+  PetscCall(OptimizerSetTolerance(p, *ours, *tao));
   if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
