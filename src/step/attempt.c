@@ -253,18 +253,19 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 
 /*
    Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end. again: the same one is solved further, for what the loose solve
-   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too. Weak springs alone would carry that.
+   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too. Weak springs alone would carry that. A foreseen start is as near as
+   a loose solve comes.
 */
-static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool again, PetscBool end, Vec u, const StepReport *report)
+static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u, const StepReport *report)
 {
-  const PetscReal first = 1e-3, fraction = 0.1, fair = 0.5, before = p->tolerance;
-  Simulation      sim = p->sim;
+  Simulation      sim   = p->sim;
+  const PetscReal first = sim->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5, before = p->tolerance;
   PetscReal       size;
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
   if (end || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
-  p->tolerance = first;
+  p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   p->tolerance = PetscMin(first, fraction * report->gap_change / size);
@@ -325,7 +326,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
-    PetscCall(AttemptSetTolerance(p, again, last, u, report));
+    PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
     PetscCall(AttemptIsLoose(p, end, u, report, &again));
     last = (PetscBool)(again && end);
