@@ -254,7 +254,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 /*
    Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end. again: the same one is solved further, for what the loose solve
    left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too. Weak springs alone would carry that. A foreseen start is as near as
-   a loose solve comes.
+   a loose solve comes. A gap that is to be true to rounding is for answers that repeat, which loose solves alone would leave apart.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u, const StepReport *report)
 {
@@ -264,7 +264,7 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (end || sim->springs.weak || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
+  if (end || sim->springs.weak || sim->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
   p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
@@ -327,7 +327,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
-    PetscCall(AttemptOnce(p, (PetscBool)(foreseen || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
+    PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
     PetscCall(AttemptIsLoose(p, end, u, report, &again));
     last = (PetscBool)(again && end);
     if (again) {
