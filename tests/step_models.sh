@@ -48,7 +48,8 @@ press quadratic 2 quadratic 1
 press updated_2 2 energy 20
 press updated_5 5 energy 20
 press untrue 2 energy 2
-for name in energy quadratic updated_2 updated_5 untrue; do run "$name"; done
+for name in energy quadratic untrue; do run "$name"; done
+for name in updated_2 updated_5; do run "$name" -contact_update_tol 8e-7; done # of the largest displacement, which is above the 0.6 that the block is pressed in by
 
 # one step that is too large turns elements inside out; cut, it ends where small steps end
 cat > squash.yaml <<'YAML'
