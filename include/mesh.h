@@ -74,6 +74,10 @@ PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, Pet
 /* The corners that each node of a tetrahedron is between; values and derivatives of its shape functions */
 PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
 PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
+/* The integration points of a tetrahedron of 4 or 10 nodes, and their weights */
+PETSC_EXTERN void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[]);
+/* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
+PETSC_EXTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
 /* The order of every body, on all ranks: the one it asks for, or that of its cells */
 PETSC_EXTERN PetscErrorCode MeshGetOrders(DM, PetscInt nbodies, PetscInt orders[]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */

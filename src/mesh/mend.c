@@ -45,7 +45,7 @@ static PetscErrorCode MendPlace(DM dm, const SceneBody bodies[], const MeshCurve
 }
 
 /* The quality of a cell with its vertices placed; hangs: those that hang are between others, NULL: none does */
-static PetscReal MendQuality(const MeshHexes *hexes, PetscInt cell, const PetscBool hangs[])
+static PetscReal MendQuality(const MeshHexes *hexes, const MeshQualityTable *table, PetscInt cell, const PetscBool hangs[])
 {
   const PetscReal *x = hexes->placed;
   PetscReal        corners[8][3];
@@ -58,22 +58,24 @@ static PetscReal MendQuality(const MeshHexes *hexes, PetscInt cell, const PetscB
       for (PetscInt i = 0; hangs && hangs[v] && i < n; ++i) corners[a][d] += x[3 * parent[i] + d] / (PetscReal)n;
     }
   }
-  return MeshCellQuality(8, corners);
+  return MeshCellQuality(table, corners);
 }
 
 /* Not collective: on the rank that has the cells */
 PetscErrorCode MeshHexesMend(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
-  PetscBool more = PETSC_TRUE;
+  PetscBool        more = PETSC_TRUE;
+  MeshQualityTable table;
 
   PetscFunctionBegin;
+  PetscCall(MeshQualityTableCreate(8, &table));
   while (more) {
     PetscBool *hangs, *marked;
 
     PetscCall(PetscMalloc2(hexes->nvertices, &hangs, hexes->ncells, &marked));
     PetscCall(MendPlace(dm, bodies, curves, hexes));
     PetscCall(MeshHexesFindHanging(hexes, hangs));
-    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, c, hangs) < MEND_LEAST * MendQuality(hexes, c, NULL));
+    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, &table, c, hangs) < MEND_LEAST * MendQuality(hexes, &table, c, NULL));
     PetscCall(MeshHexesMarkHolders(hexes, marked, &more));
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
     PetscCall(PetscFree2(hangs, marked));

@@ -240,12 +240,15 @@ PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 /* map.c: from the shapes' parameters to space: the nodes of bodies with curved refinement, or at level 0 the vertices of those without */
 PETSC_INTERN PetscErrorCode MeshMapNodes(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
 
-/* locate.c: the shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
-PETSC_INTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
-
-/* quality.c: collective error if a cell is inverted or flat at one of its corners; mapped: at one of its nodes, or integration points of order 2, also in
-   bodies that are mapped after refinement */
-PETSC_INTERN PetscReal      MeshCellQuality(PetscInt n, PetscReal x[][3]);
+/* quality.c: the slopes of a cell's shape functions at its nodes, which come first, and at the integration points of order 2; the smallest of the Jacobian's
+   determinants there. Collective error if a cell is inverted or flat at one of its corners; mapped: at one of these places, also in bodies that are mapped after refinement */
+#define MESH_QUALITY_PLACES (2 * MESH_MAX_NODES)
+typedef struct {
+  PetscInt  nnodes, nplaces;
+  PetscReal dN[MESH_QUALITY_PLACES][3][MESH_MAX_NODES];
+} MeshQualityTable;
+PETSC_INTERN PetscErrorCode MeshQualityTableCreate(PetscInt nnodes, MeshQualityTable *);
+PETSC_INTERN PetscReal      MeshCellQuality(const MeshQualityTable *, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
 /* refine.c: so many uniform refinements of a mesh in place */

@@ -56,3 +56,60 @@ void MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], Pets
     }
   }
 }
+
+/* Places with the same barycentric coordinates in all orders: n of them, the coordinates that differ from the others */
+typedef struct {
+  PetscInt  n;
+  PetscReal place, weight; /* of the whole, each */
+} TetrahedronOrbit;
+
+/* Of n points of an orbit: of 4, one coordinate is 1 - 3 place; of 6, two are 1/2 - place */
+static void TetrahedronOrbitPoint(const TetrahedronOrbit *orbit, PetscInt i, PetscReal xi[3])
+{
+  const PetscReal other = orbit->n == 4 ? 1 - 3 * orbit->place : 0.5 - orbit->place;
+  const PetscInt  p = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][0], q = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][1];
+
+  for (PetscInt d = 0; d < 3; ++d) xi[d] = p == d + 1 || q == d + 1 ? other : orbit->place;
+}
+
+/*@
+  MeshTetrahedronRule - The rule that integrates over a tetrahedron of so many nodes
+
+  Not Collective
+
+  Input Parameter:
+. nnodes - 4, or 10
+
+  Output Parameters:
++ npoints - the number of its points: 4, or 14
+. xi      - their places on the reference tetrahedron
+- weight  - their weights, whose sum is 1/6
+
+  Level: developer
+
+  Note:
+  It is of degree 2 for 4 nodes and of degree 5 for 10.
+
+  References:
+  N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000.
+
+.seealso: `MeshTetrahedronShape()`
+@*/
+void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[])
+{
+  static const TetrahedronOrbit second[1] = {
+    {4, 0.13819660112501051518, 0.25}};
+  static const TetrahedronOrbit fifth[3] = {
+    {4, 0.31088591926330060980, 0.11268792571801585080},
+    {4, 0.09273525031089122640, 0.073493043116361949544},
+    {6, 0.04550370412564964949, 0.042546020777081466438}};
+  const TetrahedronOrbit *orbits = nnodes == 4 ? second : fifth;
+
+  *npoints = 0;
+  for (PetscInt k = 0; k < (nnodes == 4 ? 1 : 3); ++k) {
+    for (PetscInt i = 0; i < orbits[k].n; ++i, ++*npoints) {
+      TetrahedronOrbitPoint(&orbits[k], i, xi[*npoints]);
+      weight[*npoints] = orbits[k].weight / 6;
+    }
+  }
+}
