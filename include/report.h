@@ -163,6 +163,7 @@ typedef struct {
   PetscReal     *displaced; /* of each point of the scene's probes, 3 components [length] */
   PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
   PetscReal      change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
+  PetscReal      gain;      /* relative change of the energy alone; NaN: there was none */
   PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
   PetscBool      unseen;    /* it changed by more than recovery accounts for */
   PetscReal      algebraic; /* of the solver, relative, in energy */

@@ -4,7 +4,6 @@
 
 #define ACCURACY_RATE       4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_RAISED     16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
-#define ACCURACY_LEAST_RATE 1.25 /* of adaptive refinement, which may make a mesh of next to the same error */
 #define ACCURACY_UPDATES    20
 #define ACCURACY_UNSEEN     2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
 #define ACCURACY_MINOR      1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
@@ -201,24 +200,34 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
+/* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the width of uniform cells */
+static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now, const AccuracyLevel *before)
+{
+  return acc->adaptive ? PetscCbrtReal(PetscMax((PetscReal)now->dofs / (PetscReal)before->dofs, 1.25)) : 2.0;
+}
+
 /*
    Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
-   than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of
-   the recovered error stands; where they differ by more than recovery can tell, nothing of their difference is taken off.
-   Pressures err with the stress, whose error is the root of that of the energy
+   than they can, though recovery does on meshes that are too coarse for it, and no faster than the differences of the energies of three
+   meshes. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it where it falls by less than
+   elements of order 1 have it at best for so many unknowns: something singular is left; where results differ by more than recovery can tell,
+   nothing of their difference is taken off. Pressures err with the stress, whose error is the root of that of the energy
 */
 static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
 {
-  PetscReal ratio, pressure;
+  PetscReal ratio, pressure, least;
 
   now->error  = now->recovery;
-  now->change = NAN;
+  now->change = now->gain = NAN;
   if (!before) return;
   now->change = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
+  now->gain   = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0);
   now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, acc->adaptive ? ACCURACY_LEAST_RATE : 2.0, now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
-  now->error  = PetscMax(now->change / (ratio - 1.0), 0.25 * now->recovery);
+  least       = ratio < PetscPowReal((PetscReal)now->dofs / (PetscReal)before->dofs, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
+  if (before->gain < ratio * now->gain) ratio = before->gain / now->gain;
+  ratio      = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now, before), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
+  now->error = PetscMax(now->change / (ratio - 1.0), least);
   if (acc->of != ACCURACY_PRESSURE) return;
   pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
   now->change = PetscMax(now->change, pressure);
@@ -360,8 +369,9 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Notes:
    The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where the faces meet:
    no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated from the change of energy
-   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, a factor of 4 at most, as
-   trilinear elements have it; it is taken for a quarter of recovery's at least. A change beyond what recovery accounts for on both
+   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, or that of the differences in energy of three
+   meshes if it is lower, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of recovery's at least, and for all of it where
+   that falls by less than a regular solution's, as beside singular edges. A change beyond what recovery accounts for on both
    meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first relative to the largest of all pairs.
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,
@@ -370,7 +380,7 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Load steps of each mesh but the first start from what they ended with on the one before, see `SimulationSetForecast()`.
 
    Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names; what is extrapolated follows the
-   rate that recovery shows, of 1.25 at least.
+   same rates, of the cube root of the growth of the unknowns at least.
 
    With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and the error is extrapolated with a factor of 16
    at most; later ones are refined.
