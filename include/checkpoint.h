@@ -19,6 +19,7 @@ typedef struct _n_Checkpoint {
   PetscReal        increment;         /* of time, that a load step under way was tried with; 0: all that is left of it */
   PetscReal        largest_increment; /* of any displacement so far [length] */
   PetscReal        work;              /* of the forces from outside [force length] */
+  PetscReal        contact_work;      /* of those in the contacts where pairs rub [force length] */
   PetscInt         nfields;
   CheckpointField *fields;
 } * Checkpoint;

@@ -72,6 +72,7 @@ typedef struct {
   TaoIPFilterFallbacks linear;                    /* linear solves that took more than the Krylov method by itself */
   PetscReal            energy;                    /* elastic, from the elements [force length] */
   PetscReal            work;                      /* of the dead loads and of the reactions on driven faces since the start, by the trapezoidal rule over all solves [force length] */
+  PetscReal            contact_work;              /* what the contacts took up since the start, by the same rule: that of friction, and what normal forces do; 0 where no pair rubs [force length] */
   PetscReal            potential;                 /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force length] */
   PetscReal            equilibrium;               /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
   PetscReal            kkt_error;                 /* scaled, dimensionless */

@@ -162,6 +162,12 @@ def imbalance(step, first):
     return abs(step["energy"] - first["energy"] + step["dissipated"] - first["dissipated"] - (step["work"] - first["work"])) / step["work"]
 
 
+def taken_up(name):
+    """Work of the loads against what is stored and what the contacts take up, of it: of linear bodies as exact as equilibrium is"""
+    run = load(name)
+    return max(abs(step["work"] - step["energy"] - step["contact_work"]) for step in run["steps"]) / max(abs(step["work"]) for step in run["steps"])
+
+
 def slip_law(name, coefficient, limit, tolerance=2e-3):
     pair = last(name)
     verdict(f"{name}, friction over its law", abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
@@ -204,11 +210,14 @@ def judge():
         dissipated = [step["dissipated"] for step in run["steps"]]
         slip_law(name, 0.3, math.inf)
         verdict(f"{name}, energy balance", max(imbalance(step, run["steps"][0]) for step in run["steps"][1:]), 2e-3)
+        verdict(f"{name}, work of the loads that is neither stored nor taken up by the contacts", taken_up(name), 1e-9)
         verdict(f"{name}, dissipation that is taken back", max(a - b for a, b in zip(dissipated, dissipated[1:])) / dissipated[-1], 0.02)
     for name in "cycle", "cattaneo":
         one, three = load(name + "_1rank") or load(name), load(name + "_3")
         worst = max(abs(a["pairs"][0]["force"][k] - b["pairs"][0]["force"][k]) for a, b in zip(one["steps"], three["steps"]) for k in range(3))
         verdict(f"{name}, 3 ranks against 1", worst / one["steps"][-1]["pairs"][0]["normal_force"], 1e-6)
+    for name in "cycle_3", "cycle_restarted", "swapped", "shaft", "cattaneo":
+        verdict(f"{name}, work of the loads that is neither stored nor taken up by the contacts", taken_up(name), 1e-9)
     judge_proportional()
     whole, parts = load("cycle"), load("cycle_restarted")
     a, b = whole["steps"][-1], parts["steps"][-1]

@@ -12,6 +12,7 @@ const CheckpointNumberField CheckpointNumbers[] = {
   {"increment", offsetof(struct _n_Checkpoint, increment)},
   {"largest_increment", offsetof(struct _n_Checkpoint, largest_increment)},
   {"work", offsetof(struct _n_Checkpoint, work)},
+  {"contact_work", offsetof(struct _n_Checkpoint, contact_work)},
   {NULL, 0},
 };
 
@@ -261,10 +262,14 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
 
 static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
 {
+  PetscBool rubs = PETSC_FALSE;
+
   PetscFunctionBegin;
+  for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
+  if (rubs) PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
   for (PetscInt p = 0; p < r->scene->npairs; ++p) {
     for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
       char      name[128];

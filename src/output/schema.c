@@ -112,6 +112,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, energy, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, work, FIELD_REAL, "force length"),
   FIELD(StepReport, dissipated, FIELD_REAL, "force length"),
+  FIELD(StepReport, contact_work, FIELD_REAL, "force length"),
   FIELD(StepReport, potential, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, equilibrium, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "equilibrium", "residual", 11)}),
   FIELD(StepReport, kkt_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "KKT", "error", 9)}),

@@ -31,6 +31,16 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
+/* In a vector of its own, as u is, in the place of the one that was */
+static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[], Vec u, Vec *force)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(force));
+  PetscCall(VecDuplicate(u, force));
+  PetscCall(CheckpointGetVec(checkpoint, name, *force));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
 {
   const PetscInt   nvertices                      = sim->memory.nowned;
@@ -92,10 +102,12 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->increment         = sim->increment;
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
+  (*checkpoint)->contact_work      = path->contact_work;
   PetscCall(VecGetLocalSize(path->u, &n));
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
+  if (sim->memory.shear) PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
@@ -131,11 +143,11 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   path->previous_time     = checkpoint->previous_time;
   path->largest_increment = checkpoint->largest_increment;
   path->work              = checkpoint->work;
+  path->contact_work      = checkpoint->contact_work;
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
-  PetscCall(VecDestroy(&path->outside));
-  PetscCall(VecDuplicate(path->u, &path->outside));
-  PetscCall(CheckpointGetVec(checkpoint, "outside_force", path->outside));
+  PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
+  if (sim->memory.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);

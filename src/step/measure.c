@@ -97,7 +97,7 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {
   Simulation sim = p->sim;
-  Vec        force, contact, ties, rigid, weighted = NULL;
+  Vec        force, ties, rigid, contact = NULL, weighted = NULL;
   PetscReal  size, residual;
 
   PetscFunctionBegin;
@@ -118,10 +118,10 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(FrictionMeasure(sim, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
-    PetscCall(VecDestroy(&contact));
+    if (!sim->memory.shear) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(sim, force, &ties, &rigid));
-  PetscCall(WorkAdd(p, u, force, rigid, report));
+  PetscCall(WorkAdd(p, u, force, rigid, &contact, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
   PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, report));

@@ -258,6 +258,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(VecDestroy(&s->path.u));
   PetscCall(VecDestroy(&s->path.previous_u));
   PetscCall(VecDestroy(&s->path.outside));
+  PetscCall(VecDestroy(&s->path.contact));
   PetscCall(DMDestroy(&s->dm));
   PetscCall(PetscFree(*sim));
   PetscFunctionReturn(0);

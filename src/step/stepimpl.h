@@ -137,6 +137,8 @@ typedef struct {
   PetscReal largest_increment; /* of any component in any step so far [length] */
   Vec       outside;           /* forces from outside at u; NULL at the start: none [force] */
   PetscReal work;              /* of theirs [force length] */
+  Vec       contact;           /* forces on the contacts at u, where pairs rub; NULL: none [force] */
+  PetscReal contact_work;      /* of theirs [force length] */
 } LoadPath;
 
 /* Fields that are asked for, and what they were at the end of the last load step */
@@ -456,7 +458,7 @@ PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, V
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* work.c */
-PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, StepReport *);
+PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
