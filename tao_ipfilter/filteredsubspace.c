@@ -236,7 +236,8 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possi
 }
 
 /* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it led; *done is false
-   where neither is possible, or helps */
+   where neither is possible, or helps. With norm terms, whose reduced problem is solved to a tolerance, what is left may lie along directions
+   that there are, none of them new */
 PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -254,11 +255,11 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   PetscCall(IPKeptGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
+  if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms.n ? &exact : done));
   f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
-  if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
-  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, done));
-  else if (*done) PetscCall(FilteredCentreHere(tao, &kept->basis));
+  if (*done && !exact) PetscCall(FilteredCentreHere(tao, &kept->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   if (*done) PetscCall(FilteredSolveReduced(tao, &kept->basis, done));
   if (*done) {

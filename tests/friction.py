@@ -103,6 +103,22 @@ body_forces:
   - g: {body: block, value: [29.99, 0, -100]}
 """
 
+OPENS = """problem: opens
+bodies:
+  - ground: {lower: [-0.5, -0.5, -0.5], upper: [2.5, 1.5, 0], cells: [6, 4, 2], young: 1e5, poisson: 0.3}
+  - block: {lower: [0, 0, 0], upper: [2, 1, 0.5], cells: [5, 3, 2], young: 1e5, poisson: 0.3}
+displacements:
+  - fix: {face: ground.zmin, value: [0, 0, 0]}
+  - along: {face: block.zmax, value: [0.02, 0, free], ramp: along}
+  - down: {face: block.zmax, value: [free, free, -0.002], ramp: down}
+contact:
+  - joint: {mortar: ground.zmax, nonmortar: block.zmin, friction: 0.3}
+load: {steps: 4}
+ramps:
+  - along: {factors: [0, 1, 1, 2]}
+  - down: {factors: [1, 1, -5, 1]}
+"""
+
 
 def proportional(steps):
     """Pressure and push grow together: any number of steps goes the same way"""
@@ -136,6 +152,7 @@ SCENES = {
     "inclined": SHAFT.replace("[0, 90]", "[13, 103]"),
     "foreseen": FORESEEN,
     "brink": BRINK,
+    "opens": OPENS,
     "over": BRINK.replace("29.99", "30.01"),
 }
 
@@ -192,6 +209,9 @@ def judge():
     verdict("block a little below it, force", abs(last("brink")["force"][0] / -59.98 - 1), 1e-6)
     brinks = [load(name)["steps"][-1] for name in ("brink", "brink_3")]
     verdict("block a little below it, 3 ranks against 1", abs(brinks[1]["energy"] / brinks[0]["energy"] - 1), 1e-6)
+    opened = load("opens")
+    verdict("block that is lifted off and put down again by MUMPS, cuts", sum(step["cuts"] for step in opened["steps"]) if opened["converged"] else math.inf, 0)
+    verdict("block that is lifted off, force", max(map(abs, opened["steps"][2]["pairs"][0]["force"])), 0)
     forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
     verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
     verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)

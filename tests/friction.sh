@@ -9,6 +9,7 @@ run() {
 for scene in sticks slides limited capped rough oiled grips finite cycle node swapped_limited shaft inclined foreseen brink over proportional_1 proportional_2 proportional_5 proportional_20; do run $scene $scene; done
 for scene in cattaneo swapped; do options="-output $scene" run $scene $scene; done
 for scene in cycle cattaneo brink; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
+options="-options_file $AMGF_DIR/share/options/direct.opts" run opens opens
 options="-checkpoint_every 4 -checkpoint cycle.h5" run part cycle
 options="-restart cycle.h5" run cycle_restarted cycle
 "$PYTHON" "$AMGF_DIR/tests/friction.py"
