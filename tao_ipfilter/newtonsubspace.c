@@ -141,18 +141,34 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers included; *ok is false where it does not, or the model is not convex along d */
+/* The violation that the model has at d: what its solution leaves, where norm terms are solved for to a tolerance */
+static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           c;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
+  PetscCall(MatMultAdd(ip->jac.inequality, d, ip->at.c, c));
+  PetscCall(NewtonViolation(tao, c, left));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
+  PetscFunctionReturn(0);
+}
+
+/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers included, and without the violation that the model has in
+   proportion to the step; *ok is false where it does not, or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo = 1e-4, least = 1e-4;
-  PetscReal       nu = 0.0, violation, rounding = 0.0, terms[2], slope, alpha;
+  PetscReal       nu = 0.0, violation, left, rounding = 0.0, terms[2], slope, alpha;
   PetscScalar     gd;
 
   PetscFunctionBegin;
   PetscCall(NewtonPenalty(tao, force, &nu));
   PetscCall(NewtonRounding(tao, &rounding));
   PetscCall(NewtonViolation(tao, ip->at.c, &violation));
+  PetscCall(NewtonModelViolation(tao, d, &left));
   PetscCall(VecDot(tao->gradient, d, &gd));
   PetscCall(IPTermsSum(tao, tao->solution, force, &terms[0]));
   PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
@@ -171,7 +187,7 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(NewtonViolation(tao, ip->trial.c, &rest));
     PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-    *ok = (PetscBool)(ip->trial.f + nu * rest + terms[1] <= ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
+    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] <= ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
   }
   PetscFunctionReturn(0);
 }

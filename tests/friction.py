@@ -109,14 +109,31 @@ bodies:
   - block: {lower: [0, 0, 0], upper: [2, 1, 0.5], cells: [5, 3, 2], young: 1e5, poisson: 0.3}
 displacements:
   - fix: {face: ground.zmin, value: [0, 0, 0]}
-  - along: {face: block.zmax, value: [0.02, 0, free], ramp: along}
-  - down: {face: block.zmax, value: [free, free, -0.002], ramp: down}
+  - along: {face: block.zmax, value: [1, free, free], ramp: along}
+  - across: {face: block.zmax, value: [free, 1, free], ramp: across}
+  - down: {face: block.zmax, value: [free, free, 1], ramp: down}
 contact:
   - joint: {mortar: ground.zmax, nonmortar: block.zmin, friction: 0.3}
-load: {steps: 4}
+load: {factors: [1, 1, 1, 1]}
 ramps:
-  - along: {factors: [0, 1, 1, 2]}
-  - down: {factors: [1, 1, -5, 1]}
+  - along: {factors: [0, 0.02, 0.02, 0.04]}
+  - across: {factors: [0, 0, 0, 0]}
+  - down: {factors: [-0.002, -0.002, 0.01, -0.002]}
+"""
+
+FEW = """problem: few
+bodies:
+  - low: {lower: [0, 0, 0], upper: [3, 2, 0.6], cells: [6, 2, 3], young: 1e4, poisson: 0.3, material: neohookean}
+  - top: {lower: [0.639, 0.56, 0.6], upper: [2.414, 1.842, 1.6], cells: [2, 4, 2], young: 1e5, poisson: 0.49, material: neohookean}
+displacements:
+  - fix: {face: low.zmin, value: [0, 0, 0]}
+  - press: {face: top.zmax, value: [free, free, -0.032]}
+  - shift: {face: top.zmax, value: [0.0005621, 0.0063753, free], ramp: across}
+contact:
+  - joint: {mortar: top.zmin, nonmortar: low.zmax, friction: 0.1, gap: node}
+load: {factors: [1, 1, 1, 1]}
+ramps:
+  - across: {factors: [0, 0.2, 0.4, 1]}
 """
 
 
@@ -153,6 +170,7 @@ SCENES = {
     "foreseen": FORESEEN,
     "brink": BRINK,
     "opens": OPENS,
+    "few": FEW,
     "over": BRINK.replace("29.99", "30.01"),
 }
 
@@ -212,6 +230,7 @@ def judge():
     opened = load("opens")
     verdict("block that is lifted off and put down again by MUMPS, cuts", sum(step["cuts"] for step in opened["steps"]) if opened["converged"] else math.inf, 0)
     verdict("block that is lifted off, force", max(map(abs, opened["steps"][2]["pairs"][0]["force"])), 0)
+    print("block on three vertices at finite strain:", "converged" if load("few")["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in load("few")["steps"]))
     forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
     verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
     verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)
