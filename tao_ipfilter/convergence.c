@@ -13,7 +13,7 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &violation));
   }
-  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.n) PetscFunctionReturn(0);
+  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.given) PetscFunctionReturn(0);
   if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
