@@ -320,8 +320,8 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none */
-PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, StepReport *report)
+/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none. Forces below rounding are in balance */
+PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
   PetscReal largest = 0.0;
 
@@ -345,7 +345,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, St
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 
-    body->balance   = largest > 0.0 ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest) : 0.0; /* rounding is no force */
+    body->balance   = body->balance > rounding ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest) : 0.0;
     report->balance = PetscMax(report->balance, body->balance);
   }
   PetscFunctionReturn(0);

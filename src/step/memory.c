@@ -2,6 +2,7 @@
 #include "stepimpl.h"
 
 static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
+static const PetscReal open_share          = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is open, and its pressure that of a barrier */
 
 PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
 {
@@ -17,7 +18,7 @@ PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
   PetscCall(VecGetOwnershipRange(u, &m->first, &last));
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
-  PetscCall(PetscCalloc2(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack));
+  PetscCall(PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->closed));
   for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
   if (rubs) PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
@@ -32,20 +33,27 @@ PetscInt ContactMemoryIndex(const ContactMemory *m, ContactLinearization lin, Pe
   return lin->pair[row] * m->nowned + (offset - m->first) / 3;
 }
 
-PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack)
+/* stiffness: of the bodies [force/length] */
+PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack, PetscReal stiffness)
 {
-  const PetscScalar *z, *s;
+  const PetscScalar *z, *s, *mass;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
+  PetscCall(PetscArrayzero(m->closed, m->npairs * m->nowned));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(slack, &s));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
-    m->pressure[ContactMemoryIndex(m, lin, i)] = PetscRealPart(z[i]);
-    m->slack[ContactMemoryIndex(m, lin, i)]    = PetscRealPart(s[i]);
+    const PetscInt k = ContactMemoryIndex(m, lin, i);
+
+    m->pressure[k] = PetscRealPart(z[i]);
+    m->slack[k]    = PetscRealPart(s[i]);
+    m->closed[k]   = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) > open_share * stiffness * m->slack[k]);
   }
   PetscCall(VecRestoreArrayRead(slack, &s));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscFunctionReturn(0);
 }
 
@@ -74,11 +82,17 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   PetscFunctionReturn(0);
 }
 
+/* The pressure of closed rows, 0 of others */
+static PetscReal ContactMemoryPressure(const ContactMemory *m, PetscInt k)
+{
+  return m->closed[k] ? m->pressure[k] : 0.0;
+}
+
 static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm, PetscReal *largest)
 {
   PetscFunctionBegin;
   *largest = 0.0;
-  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) *largest = PetscMax(*largest, m->pressure[k]);
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) *largest = PetscMax(*largest, ContactMemoryPressure(m, k));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscFunctionReturn(0);
 }
@@ -100,7 +114,7 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
     const PetscInt  k   = ContactMemoryIndex(m, lin, i);
     const PetscReal gap = PetscRealPart(g[i]);
 
-    worst = PetscMax(worst, m->pressure[k] > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+    worst = PetscMax(worst, ContactMemoryPressure(m, k) > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
   PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
@@ -116,7 +130,7 @@ PetscErrorCode ContactMemoryFindClosed(const ContactMemory *m, ContactLinearizat
   PetscFunctionBegin;
   PetscCall(ContactMemoryLargest(m, PetscObjectComm((PetscObject)closed), &largest));
   PetscCall(VecGetArrayWrite(closed, &c));
-  for (PetscInt i = 0; i < lin->nlocal; ++i) c[i] = m->pressure[ContactMemoryIndex(m, lin, i)] > negligible_pressure * largest ? 1.0 : 0.0;
+  for (PetscInt i = 0; i < lin->nlocal; ++i) c[i] = ContactMemoryPressure(m, ContactMemoryIndex(m, lin, i)) > negligible_pressure * largest ? 1.0 : 0.0;
   PetscCall(VecRestoreArrayWrite(closed, &c));
   PetscFunctionReturn(0);
 }
@@ -132,7 +146,7 @@ PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearizatio
   *nlost = 0;
   PetscCall(ContactMemoryLargest(m, comm, &largest));
   PetscCall(PetscMalloc1(n, lost));
-  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(m->pressure[k] > negligible_pressure * largest);
+  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(ContactMemoryPressure(m, k) > negligible_pressure * largest);
   for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactMemoryIndex(m, lin, i)] = PETSC_FALSE;
   for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
@@ -158,7 +172,7 @@ PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool los
 PetscErrorCode ContactMemoryDestroy(ContactMemory *m)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(m->pressure, m->slack));
+  PetscCall(PetscFree3(m->pressure, m->slack, m->closed));
   PetscCall(PetscFree4(m->shear, m->settled, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

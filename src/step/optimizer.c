@@ -195,7 +195,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap)); /* no rows, or another optimizer: no slacks */
+  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap, p->sim->stiffness)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);
 }
 

@@ -42,7 +42,7 @@ PetscErrorCode RestSolve(const StepProblem *p, ContactLinearization undeformed, 
   PetscCall(ContactSolutionCreate(undeformed->g, sol));
   PetscCall(VecZeroEntries(sol->pressure));
   PetscCall(VecCopy(undeformed->g, sol->gap));
-  PetscCall(ContactMemoryStore(&p->sim->memory, undeformed, sol, sol->gap));
+  PetscCall(ContactMemoryStore(&p->sim->memory, undeformed, sol, sol->gap, p->sim->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
   PetscCall(ReportReason(report, PETSC_TRUE, "converged: nothing is asked for, the bodies are undeformed"));
   PetscFunctionReturn(0);

@@ -28,6 +28,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
   PetscCall(TemperaturesCreate(scene, sim->elasticity, sim->comm, &sim->temperatures));
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
+  PetscCall(SpringsMeasureStiffness(sim, &sim->stiffness));
   PetscCall(SpringsCreate(sim));
   PetscCall(StiffnessSetType(sim));
   PetscCall(TiesCreate(sim));

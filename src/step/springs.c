@@ -17,6 +17,19 @@ PetscErrorCode SpringsMeasureVolumes(Simulation sim, PetscReal volume[])
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode SpringsMeasureStiffness(Simulation sim, PetscReal *largest)
+{
+  PetscReal *volume;
+
+  PetscFunctionBegin;
+  *largest = 0.0;
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &volume));
+  PetscCall(SpringsMeasureVolumes(sim, volume));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) *largest = PetscMax(*largest, sim->scene->bodies[b].material.young * PetscCbrtReal(volume[b]));
+  PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
 /* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume */
 PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
 {

@@ -114,6 +114,7 @@ typedef struct {
   PetscInt     npairs, nowned;   /* nodes that this rank owns */
   PetscInt     first;            /* global row of the first */
   PetscReal   *pressure, *slack; /* npairs x nowned; pressure 0 where no row was */
+  PetscBool   *closed;           /* where the last solve has a pressure that is no barrier's */
   PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
   PetscReal   *settled;          /* that at the last state of equilibrium, */
   PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
@@ -122,7 +123,7 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, Scene, ContactMemory *);
 PETSC_INTERN PetscInt       ContactMemoryIndex(const ContactMemory *, ContactLinearization, PetscInt row);
-PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack);
+PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack, PetscReal stiffness);
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
 PETSC_INTERN PetscErrorCode ContactMemoryFindClosed(const ContactMemory *, ContactLinearization, Vec closed);
@@ -231,6 +232,7 @@ struct _n_Simulation {
   PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
   Mat                  K;
   Vec                  mass;
+  PetscReal            stiffness;  /* the largest of the bodies', Young's modulus times length [force/length] */
   KSP                  ksp;        /* of a quadratic step without contact */
   PetscInt             first_step; /* of this run: 0, or that which it goes on with */
   PetscReal            increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
@@ -266,6 +268,7 @@ PETSC_INTERN PetscErrorCode CouplingsAddStiffness(Simulation, Mat C, Mat stiffne
 
 /* springs.c */
 PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(Simulation, PetscReal volume[]);
+PETSC_INTERN PetscErrorCode SpringsMeasureStiffness(Simulation, PetscReal *largest);
 PETSC_INTERN PetscErrorCode SpringsOfSize(Simulation, PetscReal share, Vec stiffness);
 PETSC_INTERN PetscErrorCode SpringsCreate(Simulation);
 PETSC_INTERN PetscErrorCode SpringsMeasure(Simulation, Vec u, PetscReal bodies[], PetscReal *weak);
@@ -448,7 +451,7 @@ PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization 
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */

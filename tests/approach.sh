@@ -1,0 +1,34 @@
+# Load steps that end before the faces meet: nothing presses, a body that is moved as a whole has no forces but rounding, and no optimizer makes anything else of it
+cat > approach.yaml << 'SCENE'
+bodies:
+  - low: {lower: [0, 0, -1], upper: [2, 2, 0], cells: [3, 2, 1], young: 10, poisson: 0.3}
+  - up: {lower: [0.5, 0.5, 0.025], upper: [1.5, 1.5, 1], cells: [2, 2, 1], young: 1000, poisson: 0.3}
+displacements:
+  - floor: {face: low.zmin, value: [0, 0, 0]}
+  - press: {face: up.zmax, value: [0.01, 0, -0.04]}
+pressures:
+  - side: {face: low.xmax, value: 0}
+contact:
+  - touch: {mortar: low.zmax, nonmortar: up.zmin}
+load: {steps: 4}
+SCENE
+sed 's/ 1000, poisson: 0.3/&, material: neohookean/' approach.yaml > finite.yaml
+sed 's/low.xmax, value: 0/low.xmax, value: 0.01/' finite.yaml > loaded.yaml
+sed 's/young: 1000, poisson: 0.3/material: rigid/; s/press: {face: up.zmax/press: {body: up/; s/up.zmin}/up.zmin, friction: 0.3}/' approach.yaml > rigid.yaml
+sed 's/friction: 0.3/shear_limit: 0.01/' rigid.yaml > limited.yaml
+for scene in approach finite loaded rigid limited; do
+  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"
+done
+for scene in approach finite loaded; do
+  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary ${scene}_interior.json -tao_ipfilter_subspace false || echo "$scene, interior point: exit code $?"
+done
+"$PYTHON" - << 'CHECK'
+import json
+
+for name in "approach", "finite", "loaded", "rigid", "limited", "approach_interior", "finite_interior", "loaded_interior":
+    with open(name + ".json") as file:
+        steps = json.load(file)["steps"]
+    open_, closed = steps[0], steps[-1]
+    good = all(step["balance"] < 1e-7 and step["equilibrium"] < 1e-7 for step in steps) and open_["pairs"][0]["normal_force"] < 1e-7 and closed["pairs"][0]["normal_force"] > 0.01
+    print(name + ":", "open, then closed, in balance" if good else "NO, " + str([(s["balance"], s["equilibrium"], s["pairs"][0]["normal_force"]) for s in steps]))
+CHECK
