@@ -776,6 +776,7 @@ PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
 PETSC_INTERN PetscErrorCode IPGuardedSolve(Tao, KSP, Vec b, Vec x, PetscBool *failed);
 
 /* krylov.c */
+PETSC_INTERN PetscErrorCode IPKrylovReset(KSP);
 PETSC_INTERN PetscErrorCode IPKrylovRecord(Tao, PetscInt its);
 PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
 

@@ -287,4 +287,8 @@ int main(int argc, char **argv)
          suffix: direct
          args: -tao_ipfilter_direct
 
+      test:
+         suffix: flexible
+         args: -tao_ipfilter_subspace false -tao_ipfilter_ksp_type fcg
+
 TEST*/
