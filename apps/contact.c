@@ -457,6 +457,20 @@ static void AppLimitHeap(void)
 #endif
 }
 
+/* A crash is a fault of the program or of a library, and ends the other ranks, too; PETSc's handler would say a page about it, and exit with a code of its own */
+static PetscErrorCode AppCrash(int sig, void *ctx)
+{
+  const PetscBool fault = (PetscBool)(sig == SIGSEGV || sig == SIGBUS || sig == SIGFPE || sig == SIGILL || sig == SIGABRT);
+  PetscMPIInt     size;
+
+  if (!fault || ((AppError *)ctx)->traceback) return PetscSignalHandlerDefault(sig, NULL);
+  fprintf(stderr, "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it with the scene; -traceback says more\n", sig);
+  fflush(stderr);
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  if (size > 1) MPI_Abort(PETSC_COMM_WORLD, RUN_BROKEN);
+  _Exit(RUN_BROKEN);
+}
+
 int main(int argc, char **argv)
 {
   RunEnd         end   = RUN_CONVERGED;
@@ -468,6 +482,8 @@ int main(int argc, char **argv)
   if (word) argc = 1;
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return RUN_REFUSED;
+  ierr = PetscPushSignalHandler(AppCrash, &error);
+  if (ierr) return RUN_BROKEN;
   signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();

@@ -76,3 +76,18 @@ while [ "$(left)" -gt 0 ] && [ $SECONDS -le 60 ]; do sleep 0.5; done
 echo "one of three ranks killed
   exit $([ $code -eq 137 ] && echo 'of SIGKILL' || echo $code), ranks left after a minute: $(left)"
 written killed_0001.h5
+
+# A crash, on one rank and on two
+for ranks in 1 2; do
+  rm -f crash*
+  mpiexec --oversubscribe -n $ranks "$contact" press.yaml -load_steps 100000 -output crash > run.log 2> err &
+  pid=$!
+  for i in $(seq 900); do
+    [ -f crash_0002.h5 ] && break
+    sleep 0.1
+  done
+  kill -SEGV "$(tr ' ' '\n' < /proc/$pid/task/$pid/children | sed '/^$/d' | tail -n 1)" || kill $pid
+  wait $pid
+  echo "crash, ranks: $ranks
+  exit $?: $(grep -a 'contact: ' err)"
+done
