@@ -113,6 +113,7 @@ static PetscErrorCode ForecastCopyPressures(ContactMemory *m, PetscInt pair, Vec
     else {
       m->pressure[k] = PetscMax(PetscRealPart(a[3 * i]), 0.0);
       m->slack[k]    = 0.0;
+      m->open[k]     = PETSC_FALSE;
     }
   }
   PetscCall(VecRestoreArray(field, &a));

@@ -18,7 +18,7 @@ PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
   PetscCall(VecGetOwnershipRange(u, &m->first, &last));
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
-  PetscCall(PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->closed));
+  PetscCall(PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
   for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
   if (rubs) PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
@@ -40,7 +40,7 @@ PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, co
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
-  PetscCall(PetscArrayzero(m->closed, m->npairs * m->nowned));
+  PetscCall(PetscArrayzero(m->open, m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(slack, &s));
@@ -49,7 +49,7 @@ PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, co
 
     m->pressure[k] = PetscRealPart(z[i]);
     m->slack[k]    = PetscRealPart(s[i]);
-    m->closed[k]   = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) > open_share * stiffness * m->slack[k]);
+    m->open[k]     = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) <= open_share * stiffness * m->slack[k]);
   }
   PetscCall(VecRestoreArrayRead(slack, &s));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
@@ -82,10 +82,10 @@ PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization 
   PetscFunctionReturn(0);
 }
 
-/* The pressure of closed rows, 0 of others */
+/* The pressure, 0 of rows that are open */
 static PetscReal ContactMemoryPressure(const ContactMemory *m, PetscInt k)
 {
-  return m->closed[k] ? m->pressure[k] : 0.0;
+  return m->open[k] ? 0.0 : m->pressure[k];
 }
 
 static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm, PetscReal *largest)
@@ -172,7 +172,7 @@ PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool los
 PetscErrorCode ContactMemoryDestroy(ContactMemory *m)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(m->pressure, m->slack, m->closed));
+  PetscCall(PetscFree3(m->pressure, m->slack, m->open));
   PetscCall(PetscFree4(m->shear, m->settled, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

@@ -114,7 +114,7 @@ typedef struct {
   PetscInt     npairs, nowned;   /* nodes that this rank owns */
   PetscInt     first;            /* global row of the first */
   PetscReal   *pressure, *slack; /* npairs x nowned; pressure 0 where no row was */
-  PetscBool   *closed;           /* where the last solve has a pressure that is no barrier's */
+  PetscBool   *open;             /* where the pressure is a barrier's over an open gap */
   PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
   PetscReal   *settled;          /* that at the last state of equilibrium, */
   PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
