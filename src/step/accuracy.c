@@ -2,12 +2,12 @@
 #include <accuracy.h>
 #include <math.h>
 
-#define ACCURACY_RATE       4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
-#define ACCURACY_RAISED     16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
-#define ACCURACY_UPDATES    20
-#define ACCURACY_UNSEEN     2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
-#define ACCURACY_MINOR      1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
-#define ACCURACY_MARGIN     0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
+#define ACCURACY_RATE    4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
+#define ACCURACY_RAISED  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
+#define ACCURACY_UPDATES 20
+#define ACCURACY_UNSEEN  2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
+#define ACCURACY_MINOR   1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+#define ACCURACY_MARGIN  0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
 
 /* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
 typedef enum {
@@ -201,15 +201,31 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 }
 
 /* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the width of uniform cells */
-static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now, const AccuracyLevel *before)
+static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now)
 {
-  return acc->adaptive ? PetscCbrtReal(PetscMax((PetscReal)now->dofs / (PetscReal)before->dofs, 1.25)) : 2.0;
+  return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
+}
+
+/* The same by the energies of three meshes where that is less: of errors that go as unknowns^-p, a and b being the growths, the changes are as (a^p - 1) b^p : b^p - 1, the more the larger p */
+static PetscReal AccuracyRatioOfEnergies(const AccuracyLevel *now, const AccuracyLevel *before, PetscReal ratio)
+{
+  const PetscReal least = 1.0 / 3.0, grown = 1.05;
+  PetscReal       low = least, high;
+
+  if (!(before->growth > grown && now->growth > grown && ratio > PetscPowReal(now->growth, least))) return ratio; /* not a number: there is no third mesh */
+  high = PetscLogReal(ratio) / PetscLogReal(now->growth);
+  while (high - low > 1e-3) {
+    const PetscReal p = 0.5 * (low + high), a = PetscPowReal(before->growth, p), b = PetscPowReal(now->growth, p);
+
+    if ((a - 1.0) * b * now->energy_change > (b - 1.0) * before->energy_change) high = p;
+    else low = p;
+  }
+  return PetscPowReal(now->growth, high);
 }
 
 /*
    Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
-   than they can, though recovery does on meshes that are too coarse for it, and no faster than the differences of the energies of three
-   meshes. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it where it falls by less than
+   than they can, though recovery does on meshes that are too coarse for it, and no faster than the energies of three meshes tell. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it where it falls by less than
    elements of order 1 have it at best for so many unknowns: something singular is left; where results differ by more than recovery can tell,
    nothing of their difference is taken off. Pressures err with the stress, whose error is the root of that of the energy
 */
@@ -218,16 +234,17 @@ static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const Ac
   PetscReal ratio, pressure, least;
 
   now->error  = now->recovery;
-  now->change = now->gain = NAN;
+  now->change = now->energy_change = now->growth = NAN;
   if (!before) return;
-  now->change = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
-  now->gain   = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0);
-  now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
-  ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  least       = ratio < PetscPowReal((PetscReal)now->dofs / (PetscReal)before->dofs, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
-  if (before->gain < ratio * now->gain) ratio = before->gain / now->gain;
-  ratio      = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now, before), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
-  now->error = PetscMax(now->change / (ratio - 1.0), least);
+  now->change        = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
+  now->growth        = (PetscReal)now->dofs / (PetscReal)before->dofs;
+  now->energy_change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0);
+  now->unseen        = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
+  ratio              = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
+  least              = ratio < PetscPowReal(now->growth, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
+  ratio              = AccuracyRatioOfEnergies(now, before, ratio);
+  ratio              = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
+  now->error         = PetscMax(now->change / (ratio - 1.0), least);
   if (acc->of != ACCURACY_PRESSURE) return;
   pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
   now->change = PetscMax(now->change, pressure);
