@@ -23,7 +23,7 @@ static PetscErrorCode GuardReplacePC(Tao tao)
   for (PetscInt k = 0; k < 2; k++) {
     if (!ksp[k]) continue;
     PetscCall(KSPSetPC(ksp[k], fresh));
-    PetscCall(IPKrylovReset(ksp[k]));
+    PetscCall(IPKSPReset(ksp[k]));
   }
   PetscCall(PCDestroy(&fresh));
   PetscFunctionReturn(0);

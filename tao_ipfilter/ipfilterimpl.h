@@ -775,8 +775,10 @@ PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
 /* guard.c */
 PETSC_INTERN PetscErrorCode IPGuardedSolve(Tao, KSP, Vec b, Vec x, PetscBool *failed);
 
+/* kspreset.c */
+PETSC_INTERN PetscErrorCode IPKSPReset(KSP);
+
 /* krylov.c */
-PETSC_INTERN PetscErrorCode IPKrylovReset(KSP);
 PETSC_INTERN PetscErrorCode IPKrylovRecord(Tao, PetscInt its);
 PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
 

@@ -100,25 +100,6 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* KSPReset(). PETSc's flexible CG would go on with directions that are no longer there: it is made anew */
-PetscErrorCode IPKrylovReset(KSP ksp)
-{
-  PetscBool flexible;
-  PetscInt  directions, preallocated;
-
-  PetscFunctionBegin;
-  PetscCall(KSPReset(ksp));
-  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPFCG, &flexible));
-  if (!flexible) PetscFunctionReturn(0);
-  PetscCall(KSPFCGGetMmax(ksp, &directions));
-  PetscCall(KSPFCGGetNprealloc(ksp, &preallocated));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetType(ksp, KSPFCG));
-  PetscCall(KSPFCGSetMmax(ksp, directions));
-  PetscCall(KSPFCGSetNprealloc(ksp, preallocated));
-  PetscFunctionReturn(0);
-}
-
 /*
   KrylovRun() for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries rounding errors that these
   terms make large: relative to the residual they are the same at every step, so that the preconditioner is not quite linear. CG's
@@ -256,6 +237,6 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
     ip->lin.ndirect = 0;
   } else PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
   /* a factorization that failed is not to be reused */
-  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKrylovReset(tao->ksp));
+  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
   PetscFunctionReturn(0);
 }

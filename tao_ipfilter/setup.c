@@ -175,7 +175,7 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscCall(SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&tao->gradient));
-  PetscCall(IPKrylovReset(tao->ksp));
+  PetscCall(IPKSPReset(tao->ksp));
   PetscCall(TaoSetUp_IPFilter(tao));
   PetscFunctionReturn(0);
 }
