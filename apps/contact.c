@@ -29,6 +29,7 @@ Exit code:\n\
   6  results could not be written\n\
   7  no memory, or a fault of the program or of a library\n\n";
 
+#define _POSIX_C_SOURCE 200809L /* dup(), dprintf() */
 #include <petscamgf.h>
 #include <options.h>
 #include <scene.h>
@@ -41,6 +42,7 @@ Exit code:\n\
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #if defined(__GLIBC__)
   #include <malloc.h>
 #endif
@@ -54,6 +56,7 @@ typedef struct {
 /* What is known of an error by the time it reaches main() */
 typedef struct {
   MPI_Comm  meeting;   /* where the ranks that erred wait for each other */
+  int       said;      /* where errors are said, while files are written too, when stderr is mute */
   PetscBool traceback; /* PETSc's own is asked for */
   PetscBool silent;    /* another rank says it */
   int       end;       /* the exit code */
@@ -464,8 +467,7 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   PetscMPIInt     size;
 
   if (!fault || ((AppError *)ctx)->traceback) return PetscSignalHandlerDefault(sig, NULL);
-  fprintf(stderr, "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it with the scene; -traceback says more\n", sig);
-  fflush(stderr);
+  dprintf(((AppError *)ctx)->said, "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it with the scene; -traceback says more\n", sig);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   if (size > 1) MPI_Abort(PETSC_COMM_WORLD, RUN_BROKEN);
   _Exit(RUN_BROKEN);
@@ -482,7 +484,8 @@ int main(int argc, char **argv)
   if (word) argc = 1;
   ierr = PetscInitialize(&argc, &argv, NULL, help);
   if (ierr) return RUN_REFUSED;
-  ierr = PetscPushSignalHandler(AppCrash, &error);
+  error.said = dup(STDERR_FILENO);
+  ierr       = PetscPushSignalHandler(AppCrash, &error);
   if (ierr) return RUN_BROKEN;
   signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
