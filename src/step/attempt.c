@@ -253,8 +253,9 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 
 /*
    Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end. again: the same one is solved further, for what the loose solve
-   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too. Weak springs alone would carry that. A foreseen start is as near as
-   a loose solve comes. A gap that is to be true to rounding is for answers that repeat, which loose solves alone would leave apart.
+   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too, and with friction what is found last depends the more on what
+   was found first. Weak springs alone would carry what is left. A foreseen start is as near as a loose solve comes. A gap that is to be true to rounding is for answers that repeat, which loose
+   solves alone would leave apart.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u, const StepReport *report)
 {
