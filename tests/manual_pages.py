@@ -53,7 +53,7 @@ def wrong_default(expected, printed):
 
 
 def check(top, folder):
-    text = "".join(open(name).read() for name in sorted(glob.glob(os.path.join(top, folder, "*.[ch]"))))
+    text = "".join(open(name).read() for name in sorted(glob.glob(os.path.join(top, folder, "**", "*.[ch]"), recursive=True)))
     code = strip_comments(text)
     options = asked(code)
     listed = [item for page in pages(text) for item in documented(page)]

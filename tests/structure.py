@@ -7,8 +7,9 @@ import statistics
 import subprocess
 
 TOP = os.environ["AMGF_DIR"]
-FOLDERS = ("pc_amgf", "tao_ipfilter", "src/*", "apps")
+FOLDERS = ("pc_amgf", "tao_ipfilter", "tao_ipfilter/*", "src/*", "apps")
 LONGEST, MEDIAN = 60, 12  # lines between the braces of a function
+LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "space", "step", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
 MEMBERS = 40  # of the solver's object, a structure in it is one
 
 DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n(?P<body>.*?)^\}", re.M | re.S)
@@ -79,6 +80,14 @@ def circles(graph):
             yield from (f"  {a} -> {b}: {', '.join(sorted(graph[a][b]))}" for b in group if b in graph[a])
 
 
+def calls_upwards(graph):
+    """Calls from a layer of the optimizer to one above it, and files of it in none"""
+    layer = {path: LAYERS.index(os.path.dirname(path)) for path in graph if os.path.dirname(path) in LAYERS}
+    yield from (f"{path} is in no layer" for path in sorted(graph) if path.startswith("tao_ipfilter/") and path not in layer)
+    for path in sorted(layer):
+        yield from (f"{path} -> {other}: {', '.join(sorted(names))}" for other, names in graph[path].items() if layer.get(other, -1) > layer[path])
+
+
 def long_functions():
     for path in sources("c"):
         for name, _, line, length in functions(path):
@@ -147,8 +156,10 @@ def misplaced_declarations(defined):
 
 def main():
     defined, taken = symbols()
+    graph = calls(defined, taken)
     rules = {
-        "no files call each other in a circle": circles(calls(defined, taken)),
+        "no files call each other in a circle": circles(graph),
+        "no layer of the optimizer calls one above it": calls_upwards(graph),
         f"no function is longer than {LONGEST} lines": long_functions(),
         f"half of the functions have {MEDIAN} lines at most": median_function(),
         "no two static functions have one name": repeated_statics(),

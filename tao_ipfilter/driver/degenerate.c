@@ -1,0 +1,102 @@
+/* Signs that a solution has no bounded multipliers: the KKT error, which is measured by them, means nothing then. */
+#include "../ipfilterimpl.h"
+
+/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
+static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
+{
+  const PetscScalar *z;
+  PetscInt           rstart, rend;
+  Vec                force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, space, &force));
+  PetscCall(VecCopy(multiplier, force));
+  if (weights) PetscCall(VecPointwiseMult(force, force, weights));
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  PetscCall(VecGetArrayRead(force, &z));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscScalar *v;
+    const PetscInt    *column;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(J, i, &n, &column, &v));
+    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
+    PetscCall(MatRestoreRow(J, i, &n, &column, &v));
+  }
+  PetscCall(VecRestoreArrayRead(force, &z));
+  PetscCall(IPRestoreWork(tao, space, &force));
+  PetscCall(VecAssemblyBegin(r));
+  PetscCall(VecAssemblyEnd(r));
+  PetscFunctionReturn(0);
+}
+
+/* Largest force of all the constraints at an unknown, as if none cancelled another */
+static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           sum, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sum));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(VecSet(sum, 0.0));
+  if (ip->mi) PetscCall(DegenerateAddForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
+  if (ip->me) PetscCall(DegenerateAddForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecPointwiseMult(force, ip->pair[b].w, ip->pair[b].z));
+    PetscCall(VecAXPY(sum, 1.0, force));
+  }
+  PetscCall(VecNorm(sum, NORM_INFINITY, largest));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sum));
+  PetscFunctionReturn(0);
+}
+
+/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they cancel one
+   another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
+PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
+{
+  const PetscReal vanishing = 1e-3; /* of the first gradient */
+  PetscReal       force, gradient;
+
+  PetscFunctionBegin;
+  PetscCall(DegenerateForce(tao, &force));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  gradient = PetscMax(gradient, vanishing * ((TAO_IPFILTER *)tao->data)->first.gradient);
+  *times   = gradient > 0.0 ? force / gradient : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* What the multipliers would transmit through the gradients that the constraints had at the start */
+static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+
+  PetscFunctionBegin;
+  *force = 0.0;
+  if (ip->me) {
+    PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &size));
+    *force = size * ip->first.equality_jacobian;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether the conditions of Fritz John hold without the objective: the gradients of equality constraints that are met vanish, so that their multipliers
+   outgrow all there is to balance. To that size the stationarity residual is nothing. */
+PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const IPKKT    *k    = &ip->kkt;
+  const PetscReal huge = 1e6; /* times the gradient */
+  PetscReal       force, gradient;
+
+  PetscFunctionBegin;
+  *holds = PETSC_FALSE;
+  if (!ip->me || ip->opt.scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol || k->complementarity > ip->tol) PetscFunctionReturn(0);
+  PetscCall(DegenerateForceAtStart(tao, &force));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first.gradient) && k->dual_norm <= ip->tol * force);
+  PetscFunctionReturn(0);
+}

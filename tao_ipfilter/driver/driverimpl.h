@@ -1,0 +1,35 @@
+/*
+   The map of tao_ipfilter/driver: the iteration: set up, solve, convergence, reasons.
+   Every file builds on those before it, and on the folders below.
+*/
+#ifndef IPFILTER_DRIVERIMPL_H
+#define IPFILTER_DRIVERIMPL_H
+
+#include "../step/stepimpl.h"
+
+/* reason.c */
+PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+
+/* degenerate.c */
+PETSC_INTERN PetscErrorCode IPDegenerateCancellation(Tao, PetscReal *times);
+PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
+
+/* convergence.c */
+PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);
+PETSC_INTERN PetscErrorCode IPTestNumbers(Tao);
+PETSC_INTERN PetscBool      IPConstraintsMet(Tao);
+PETSC_INTERN PetscErrorCode IPTestConvergence(Tao);
+PETSC_INTERN PetscBool      IPAcceptable(const TAO_IPFILTER *);
+
+/* monitor.c */
+PETSC_INTERN PetscErrorCode IPMonitor(Tao);
+
+/* setup.c */
+PETSC_INTERN PetscErrorCode TaoSetUp_IPFilter(Tao);
+PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
+PETSC_INTERN PetscErrorCode TaoDestroy_IPFilter(Tao);
+
+/* solve.c */
+PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
+
+#endif

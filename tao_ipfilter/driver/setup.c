@@ -1,0 +1,204 @@
+/* Memory: vectors of the problem's sizes, made in TaoSetUp(), made anew when the sizes change, and freed. */
+#include "../ipfilterimpl.h"
+
+static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(v));
+  PetscCall(VecDuplicate(layout, v));
+  PetscCall(VecSet(*v, 0.0));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpInequalities(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
+  Vec           c    = tao->constraints_inequality;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(c, &ip->mi));
+  PetscCall(DuplicateAfresh(c, &tao->DI));
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
+  if (ip->given.slack_mass) {
+    PetscInt n;
+
+    PetscCall(VecGetSize(ip->given.slack_mass, &n));
+    PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ, "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
+  }
+  PetscCall(DuplicateAfresh(c, &ip->rc));
+  PetscCall(DuplicateAfresh(c, &ip->at.lambda));
+  PetscCall(DuplicateAfresh(c, &ip->best.lambda));
+  PetscCall(DuplicateAfresh(c, &ip->stiff.rho));
+  PetscCall(IPPairCreate(c, ip->given.slack_mass, 1.0, &ip->pair[IP_SLACK]));
+  PetscFunctionReturn(0);
+}
+
+/* The caller's equality constraints, and behind them on each rank the rows of c_I with equal bounds: a vector of that layout, or NULL */
+static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  PetscInt      own = 0, local = 0;
+
+  PetscFunctionBegin;
+  *layout = NULL;
+  if (tao->eq_constrained) {
+    PetscCall(VecGetSize(tao->constraints_equality, &own));
+    PetscCall(VecGetLocalSize(tao->constraints_equality, &local));
+    PetscCall(DuplicateAfresh(tao->constraints_equality, &tao->DE));
+  }
+  ip->me = own + ip->sides.nall;
+  if (!ip->me) PetscFunctionReturn(0);
+  PetscCheck(!own || tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
+  PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), layout));
+  PetscCall(VecSetSizes(*layout, local + ip->sides.nequal, PETSC_DETERMINE));
+  PetscCall(VecSetType(*layout, VECSTANDARD));
+  PetscCall(DuplicateAfresh(*layout, &ip->at.y));
+  PetscCall(DuplicateAfresh(*layout, &ip->best.y));
+  PetscFunctionReturn(0);
+}
+
+/* All that has the sizes of the problem; what the caller gave and chose stays */
+static PetscErrorCode FreeSizes(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPWorkDestroy(&ip->work));
+  PetscCall(IPIterateDestroy(&ip->at));
+  PetscCall(IPIterateDestroy(&ip->best));
+  PetscCall(IPIterateDestroy(&ip->trial));
+  PetscCall(IPDirectionDestroy(&ip->dir));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
+  PetscCall(VecDestroy(&ip->rx));
+  PetscCall(VecDestroy(&ip->rc));
+  PetscCall(VecDestroy(&ip->stiff.rho));
+  PetscCall(VecDestroy(&ip->stiff.hdiag));
+  PetscCall(VecDestroy(&ip->lin.residual));
+  PetscCall(VecDestroy(&ip->rows.inequality));
+  PetscCall(VecDestroy(&ip->rows.equality));
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscCall(IPHessianDestroy(&ip->hess));
+  PetscCall(IPAugmentedDestroy(&ip->aug));
+  PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPFilteredDestroy(&ip->filtered));
+  PetscCall(KSPDestroy(&ip->lin.flexible));
+  PetscCall(ISDestroy(&ip->fixed));
+  PetscCall(IPSidesDestroy(&ip->sides));
+  PetscFunctionReturn(0);
+}
+
+/* Without TaoSetHessian(): differences of gradients for a small problem, a limited-memory approximation for a large one. Either is made
+   anew with other sizes. */
+static PetscErrorCode SetUpHessian(Tao tao)
+{
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscInt large = 1000;
+  PetscInt       n;
+
+  PetscFunctionBegin;
+  if (tao->hessian && !ip->qn.B) PetscFunctionReturn(0);
+  PetscCall(VecGetSize(tao->solution, &n));
+  PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT " unknowns, more than %" PetscInt_FMT ", it does not difference gradients", n, large);
+  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
+  if (n <= large) PetscCall(IPDifferenceHessian(tao));
+  else PetscCall(IPQuasiNewtonSetUp(tao));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoSetUp_IPFilter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           x  = tao->solution, c, ce;
+
+  PetscFunctionBegin;
+  PetscCall(FreeSizes(tao));
+  ip->mi = ip->me = 0;
+  if (!tao->gradient) PetscCall(VecDuplicate(x, &tao->gradient));
+  if (tao->ineq_constrained) PetscCall(SetUpInequalities(tao));
+  PetscCall(IPSidesSetUp(tao));
+  PetscCall(SetUpEqualities(tao, &ce));
+  c = ip->mi ? tao->constraints_inequality : NULL;
+  PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
+  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* the constraints are evaluated anew on return to it */
+  PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
+  PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
+  PetscCall(VecDestroy(&ce));
+  PetscCall(DuplicateAfresh(x, &ip->rx));
+  PetscCall(DuplicateAfresh(x, &ip->stiff.hdiag));
+  PetscCall(DuplicateAfresh(x, &ip->lin.residual));
+  PetscCall(SetUpHessian(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Whether v, made in TaoSetUp(), still has as many entries on all ranks as a vector of the caller's and some more; either may be NULL */
+static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
+{
+  PetscInt  local[2] = {0, 0};
+  PetscBool equal;
+
+  PetscFunctionBegin;
+  if (v) PetscCall(VecGetLocalSize(v, &local[0]));
+  if (model) PetscCall(VecGetLocalSize(model, &local[1]));
+  equal = (PetscBool)(local[0] == local[1] + more);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
+  *same = (PetscBool)(*same && equal);
+  PetscFunctionReturn(0);
+}
+
+/* Rows of c_I by the bounds that they have now; what was made of their Jacobian is dropped where any is, or was, no plain one */
+static PetscErrorCode SetUpSides(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  PetscBool     had = (PetscBool)(ip->sides.sign != NULL);
+
+  PetscFunctionBegin;
+  PetscCall(IPSidesSetUp(tao));
+  if (!had && !ip->sides.sign) PetscFunctionReturn(0);
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscFunctionReturn(0);
+}
+
+/* Sets up again where the caller has replaced the solution or the constraints by others of another size since */
+PetscErrorCode IPSetUpSizes(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscBool     same = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(SetUpSides(tao));
+  PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
+  PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
+  PetscCall(SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
+  if (same) PetscFunctionReturn(0);
+  PetscCall(VecDestroy(&tao->gradient));
+  PetscCall(IPKSPReset(tao->ksp));
+  PetscCall(TaoSetUp_IPFilter(tao));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoDestroy_IPFilter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(FreeSizes(tao));
+  PetscCall(PetscContainerDestroy(&ip->filtered.kept));
+  PetscCall(VecDestroy(&ip->given.slack_mass));
+  PetscCall(VecDestroy(&ip->given.primal_mass));
+  PetscCall(VecDestroy(&ip->given.warm_s));
+  PetscCall(VecDestroy(&ip->given.warm_z));
+  PetscCall(VecDestroy(&ip->given.warm_y));
+  PetscCall(VecDestroy(&ip->given.warm_lower));
+  PetscCall(VecDestroy(&ip->given.warm_upper));
+  PetscCall(IPTermsDestroy(&ip->terms));
+  PetscCall(IPFilterSetDestroy(&ip->filter));
+  PetscCall(PetscFree(ip->rec.ksp_iterations));
+  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
+  PetscCall(KSPDestroy(&tao->ksp));
+  PetscCall(PetscFree(tao->data));
+  PetscFunctionReturn(0);
+}

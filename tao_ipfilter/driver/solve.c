@@ -1,0 +1,428 @@
+/* The outer iteration. */
+#include "../ipfilterimpl.h"
+
+/* Objective, constraints and derivatives at the starting point; without them where the objective is not a number */
+static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     alone;
+
+  PetscFunctionBegin;
+  PetscCall(TaoIsGradientDefined(tao, &alone));
+  if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
+  *defined = (PetscBool) !(alone && IPUndefined(ip->at.f));
+  if (!*defined) PetscFunctionReturn(0);
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Drops what was made from another set of fixed variables or with other scales of the rows */
+static PetscErrorCode ForgetSystem(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPCondensedDestroy(&ip->cond));
+  PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscFunctionReturn(0);
+}
+
+/* Chooses the scales of the rows, and sees constraints and derivatives through them */
+static PetscErrorCode ScaleRows(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     scaled;
+
+  PetscFunctionBegin;
+  PetscCall(IPRowScaleSetUp(tao, &scaled));
+  if (!scaled) PetscFunctionReturn(0);
+  PetscCall(ForgetSystem(tao));
+  PetscCall(IPSidesUpdateWidth(tao));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Sizes at the starting point; *finite is false where one is not a number */
+static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFirst      *first = &ip->first;
+  PetscReal     largest;
+
+  PetscFunctionBegin;
+  first->f = ip->at.f;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
+  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0 ? PetscMax(1.0, largest / ip->opt.gradient_max) : 1.0;
+  if (ip->mi) {
+    PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
+    PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
+  }
+  if (ip->me) {
+    PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
+    PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &first->equality_jacobian));
+  }
+  *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) && !IPUndefined(first->equality));
+  PetscFunctionReturn(0);
+}
+
+/* The starting point, pushed inside its bounds, and everything there; *finite is false where something is not a number */
+static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     other_fixed, other_scales;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeVariableBounds(tao));
+  PetscCall(IPFixedSetUp(tao, &other_fixed));
+  PetscCall(IPRowScaleReset(tao, &other_scales));
+  if (other_fixed || other_scales) PetscCall(ForgetSystem(tao));
+  PetscCall(IPSidesSetUpPairs(tao));
+  PetscCall(IPSidesUpdateWidth(tao));
+  PetscCall(IPBoundsSetUp(tao));
+  PetscCall(IPIterateBind(tao));
+  PetscCall(IPBoundsPush(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->first.x));
+  PetscCall(EvaluateFirst(tao, finite));
+  if (!*finite) PetscFunctionReturn(0);
+  PetscCall(ScaleRows(tao));
+  PetscCall(MeasureFirst(tao, finite));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the last solve, but for what the next one may reuse: matrices, scratch vectors, and room for records */
+static PetscErrorCode ResetSolve(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPRecord     *rec = &ip->rec;
+
+  PetscFunctionBegin;
+  *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY, .best_violation = PETSC_INFINITY};
+  ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
+  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B), .curved = (PetscBool)(ip->qn.B != NULL)};
+  ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
+  ip->shift        = (IPShift){.delta = 0.0};
+  ip->first        = (IPFirst){.f = 0.0, .energy = -1.0};
+  ip->dir.norm     = 0.0;
+  tao->ksp_its     = 0;
+  tao->ksp_tot_its = 0;
+  tao->reason      = TAO_CONTINUE_ITERATING;
+  IPQuasiNewtonReset(&ip->qn);
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than the tolerance and its
+   KKT error is no larger, which is all that counts where one of them is acceptable; of two that differ in no digit the later one is better */
+static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
+{
+  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
+  const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol), same = 1.01;
+
+  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol) return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
+  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
+}
+
+/* Keeps the best iterate */
+static PetscErrorCode KeepBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!BetterThanBest(ip)) PetscFunctionReturn(0);
+  ip->rec.best_error     = IPBothErrors(ip);
+  ip->rec.best_violation = ip->kkt.violation;
+  PetscCall(IPIterateCopy(&ip->at, &ip->best));
+  if (ip->terms.n) PetscCall(VecCopy(ip->terms.force, ip->terms.best));
+  PetscFunctionReturn(0);
+}
+
+/* Returns to the best iterate where the last one is worse, and is not the one that a test has chosen */
+static PetscErrorCode RestoreBest(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error) PetscFunctionReturn(0);
+  if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
+  PetscCall(IPIterateCopy(&ip->best, &ip->at));
+  if (ip->terms.n) PetscCall(VecCopy(ip->terms.best, ip->terms.force));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPSlackDistance(tao, ip->at.s, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* KKT error at the new iterate, its record, the monitors and the convergence test */
+static PetscErrorCode AssessIterate(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPComputeKKT(tao));
+  PetscCall(IPTestNumbers(tao));
+  if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
+  PetscCall(KeepBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, tao->ksp_tot_its));
+  PetscCall(IPMonitor(tao));
+  PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, ip->search.alpha));
+  PetscCall(IPTestConvergence(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The reason where no solver gave a direction */
+static PetscErrorCode EndLinear(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm; /* no direction, no reduction */
+
+  PetscFunctionBegin;
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s", KSPConvergedReasons[ip->lin.reason], (double)residual, (double)ip->lin.rhs, ip->lin.why[0] ? "; " : "", ip->lin.why));
+  PetscFunctionReturn(0);
+}
+
+/* The reason where no restoration helped, either */
+static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+  else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
+  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s", (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
+  else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
+  PetscFunctionReturn(0);
+}
+
+/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then constraints without an interior are
+   relaxed, then the violation is reduced by itself. */
+static PetscErrorCode Recover(Tao tao, PetscBool solved)
+{
+  TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
+  const PetscInt  iterations = 10;
+  const PetscBool violated   = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
+
+  PetscFunctionBegin;
+  if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)IPBothErrors(ip), (double)ip->tol));
+    PetscFunctionReturn(0);
+  }
+  if (!solved && ip->lin.failed) {
+    PetscCall(EndLinear(tao));
+    PetscFunctionReturn(0);
+  }
+  if (ip->bar.free) {
+    PetscCall(IPBarrierHold(tao, iterations));
+    PetscFunctionReturn(0);
+  }
+  if (!violated) {
+    PetscCall(IPRelaxInstead(tao, &relaxed));
+    if (relaxed) PetscFunctionReturn(0);
+  } else {
+    PetscCall(IPMeritMeasure(tao)); /* no line search has where there was no direction */
+    PetscCall(IPRestore(tao, &ok, &infeasible));
+    if (!ok) PetscCall(IPComputeKKT(tao));
+  }
+  if (ok) {
+    ip->search.tag = 'R';
+    tao->niter++;
+  } else PetscCall(EndUnrestored(tao, solved, violated, infeasible));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of equality constraints whose forces have outgrown the gradient they balance, as those of constraints that cannot be met do,
+   drown the objective in the Hessian: they are estimated anew */
+static PetscErrorCode RenewMultipliers(Tao tao)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal huge = 1e8;
+  PetscReal       force, gradient;
+  Vec             v;
+
+  PetscFunctionBegin;
+  if (!ip->me) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(MatMultTranspose(ip->jac.equality, ip->at.y, v));
+  PetscCall(VecNorm(v, NORM_2, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
+  if (force <= huge * PetscMax(gradient, ip->first.gradient)) PetscFunctionReturn(0);
+  PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
+static PetscErrorCode TakeNewtonStep(Tao tao)
+{
+  PetscBool solved = PETSC_FALSE, ok = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  tao->ksp_its = 0;
+  PetscCall(RenewMultipliers(tao));
+  PetscCall(IPRelax(tao));
+  PetscCall(IPBarrierUpdate(tao));
+  PetscCall(IPHessianEvaluate(tao));
+  PetscCall(IPStiffnessUpdate(tao));
+  PetscCall(IPComputeDirection(tao, &solved));
+  if (solved) PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) {
+    PetscCall(Recover(tao, solved));
+    PetscFunctionReturn(0);
+  }
+  tao->niter++;
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Goes on from the best iterate by the interior point method, where the filtered subspace does not lead to the end */
+static PetscErrorCode LeaveSubspace(Tao tao)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const IPGiven   given  = ip->given;
+  const PetscBool newton = ip->filtered.newton; /* whose first multipliers are none that it has found */
+  Vec             s = NULL, z = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n", (double)ip->rec.best_error));
+  PetscCall(IPFilteredEnd(tao));
+  ip->rec.fallbacks.subspaces++;
+  PetscCall(RestoreBest(tao));
+  if (ip->rec.best_error < PETSC_INFINITY && (tao->niter || !newton)) {
+    PetscCall(VecDuplicate(ip->best.s, &s));
+    PetscCall(VecDuplicate(ip->best.s, &z));
+    PetscCall(VecCopy(ip->best.s, s));
+    PetscCall(VecCopy(ip->best.z[IP_SLACK], z));
+    PetscCall(IPRowScalePair(tao, s, z, PETSC_TRUE));
+    ip->given.warm_s = s;
+    ip->given.warm_z = z;
+  }
+  PetscCall(IPStartPoint(tao));
+  ip->given = given;
+  PetscCall(VecDestroy(&s));
+  PetscCall(VecDestroy(&z));
+  PetscFunctionReturn(0);
+}
+
+/* The filtered subspace method is the only one for norm terms */
+static PetscErrorCode EndTerms(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec.best_error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for", (double)ip->rec.best_error, (double)ip->tol));
+  else if (ip->rec.best_error < PETSC_INFINITY) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws: KKT error %g", (double)ip->rec.best_error));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws; they take inequality constraints and no others, and a Hessian that is positive definite on what they touch"));
+  PetscFunctionReturn(0);
+}
+
+/* One step of the method that is on */
+static PetscErrorCode TakeStep(Tao tao)
+{
+  PetscBool done = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (((TAO_IPFILTER *)tao->data)->filtered.on) {
+    if (((TAO_IPFILTER *)tao->data)->filtered.newton) PetscCall(IPNewtonSubspaceStep(tao, &done));
+    else PetscCall(IPFilteredStep(tao, &done));
+    if (!done && ((TAO_IPFILTER *)tao->data)->terms.n) PetscCall(EndTerms(tao));
+    else if (!done) PetscCall(LeaveSubspace(tao));
+  } else PetscCall(TakeNewtonStep(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Which Hessian and inequality Jacobian the caller's matrices hold */
+static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
+{
+  PetscFunctionBegin;
+  states[0] = states[1] = 0;
+  PetscCall(PetscObjectStateGet((PetscObject)tao->hessian, &states[0]));
+  if (((TAO_IPFILTER *)tao->data)->mi) PetscCall(PetscObjectStateGet((PetscObject)tao->jacobian_inequality, &states[1]));
+  PetscFunctionReturn(0);
+}
+
+/* The starting point; *finite is false where it is none. Ends the solve there and where it is stationary. */
+static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  PetscObjectState before[2], after[2];
+  PetscBool        begun;
+
+  PetscFunctionBegin;
+  PetscCall(GetStates(tao, before));
+  PetscCall(FirstPoint(tao, finite));
+  if (!*finite) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPTestFirstPoint(tao));
+  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
+  PetscCall(IPHessianEvaluate(tao));
+  PetscCall(GetStates(tao, after));
+  ip->filtered.linear   = (PetscBool)(before[1] == after[1]);
+  ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
+  PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPEqualityChoose(tao));
+  PetscCall(IPTermsSetUp(tao));
+  PetscCall(IPTermsResistance(tao));
+  PetscCall(IPFilteredBegin(tao, &begun));
+  if (!begun && ip->terms.n) {
+    PetscCall(EndTerms(tao));
+    PetscFunctionReturn(0);
+  }
+  if (!begun) PetscCall(IPStartPoint(tao));
+  PetscCall(AssessIterate(tao));
+  PetscFunctionReturn(0);
+}
+
+/* What the caller sees: the best iterate, in its units */
+static PetscErrorCode EndSolve(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPFilteredEnd(tao));
+  PetscCall(RestoreBest(tao));
+  PetscCall(IPSetMultipliers(tao));
+  if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
+  if (ip->mi) PetscCall(IPSidesReturnPairs(tao));
+  tao->fc       = ip->at.f;
+  tao->residual = ip->kkt.error;
+  tao->cnorm    = ip->kkt.inf_pr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoSolve_IPFilter(Tao tao)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscBool     finite = PETSC_TRUE, other_operator;
+
+  PetscFunctionBegin;
+  PetscCall(IPSetUpSizes(tao));
+  PetscCall(IPMatricesCheck(tao, &other_operator));
+  if (other_operator) PetscCall(ForgetSystem(tao));
+  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
+  PetscCall(ResetSolve(tao));
+  PetscCall(BeginSolve(tao, &finite));
+  if (!finite) PetscFunctionReturn(0);
+  while (tao->reason == TAO_CONTINUE_ITERATING) {
+    PetscTryTypeMethod(tao, update, tao->niter, tao->user_update);
+    PetscCall(TakeStep(tao));
+    if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(AssessIterate(tao));
+  }
+  PetscCall(EndSolve(tao));
+  PetscFunctionReturn(0);
+}

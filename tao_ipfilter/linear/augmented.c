@@ -1,0 +1,447 @@
+/*
+   Equality constraints. Their multipliers are not eliminated: the symmetric indefinite system
+
+     [ A    J_E^T    ] [ dx     ]   [  b             ]
+     [ J_E  -delta   ] [ y + dy ] = [ -c_E - delta y ]
+
+   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last block is switched on
+   where the system is singular (dependent constraints).
+*/
+#include "../ipfilterimpl.h"
+#include "../../pc_amgf/mumps.h"
+
+PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPDestroy(&aug->ksp));
+  PetscCall(MatDestroy(&aug->K));
+  PetscCall(MatDestroy(&aug->shift));
+  PetscCall(VecDestroy(&aug->rhs));
+  PetscCall(VecDestroy(&aug->sol));
+  PetscCall(VecDestroy(&aug->residual));
+  PetscCall(VecDestroy(&aug->correction));
+  PetscFunctionReturn(0);
+}
+
+/* The factorization's KSP, prefix -tao_ipfilter_augmented_, and its diagonal block */
+static PetscErrorCode AugmentedCreate(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug  = &ip->aug;
+  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
+  PC            pc;
+  PetscInt      m;
+  PetscBool     mumps;
+
+  PetscFunctionBegin;
+  if (aug->ksp) PetscFunctionReturn(0);
+  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
+  PetscCheck(mumps, comm, PETSC_ERR_SUP, "TAOIPFILTER needs a PETSc with MUMPS for equality constraints");
+  PetscCall(KSPCreate(comm, &aug->ksp));
+  PetscCall(PetscObjectIncrementTabLevel((PetscObject)aug->ksp, (PetscObject)tao, 1));
+  PetscCall(KSPSetOptionsPrefix(aug->ksp, ((PetscObject)tao)->prefix));
+  PetscCall(KSPAppendOptionsPrefix(aug->ksp, "tao_ipfilter_augmented_"));
+  PetscCall(KSPSetType(aug->ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(KSPSetFromOptions(aug->ksp));
+  PetscCall(VecGetLocalSize(ip->at.ce, &m));
+  PetscCall(MatCreateAIJ(comm, m, m, ip->me, ip->me, 1, NULL, 0, NULL, &aug->shift));
+  PetscFunctionReturn(0);
+}
+
+/* On any rank */
+static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  *misses = PETSC_FALSE;
+  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend && !*misses; i++) {
+    PetscInt        n, k = 0;
+    const PetscInt *cols;
+
+    PetscCall(MatGetRow(A, i, &n, &cols, NULL));
+    while (k < n && cols[k] != i) k++;
+    *misses = (PetscBool)(k == n);
+    PetscCall(MatRestoreRow(A, i, &n, &cols, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, misses, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)A)));
+  PetscFunctionReturn(0);
+}
+
+/* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper triangle */
+static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
+{
+  PetscBool missing;
+  PetscInt  rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, block));
+  PetscCall(AugmentedMissesDiagonal(*block, &missing));
+  if (!missing) PetscFunctionReturn(0);
+  PetscCall(MatSetOption(*block, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  PetscCall(MatGetOwnershipRange(*block, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(MatSetValue(*block, i, i, 0.0, ADD_VALUES));
+  PetscCall(MatAssemblyBegin(*block, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*block, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else the matrix itself */
+static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
+{
+  PetscBool same = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (aug->K) PetscCall(IPMatrixSamePattern(aug->K, *K, &same));
+  if (same) {
+    PetscCall(MatCopy(*K, aug->K, SAME_NONZERO_PATTERN));
+    PetscCall(MatDestroy(K));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(KSPReset(aug->ksp)); /* else the factor would be made anew without its settings */
+  PetscCall(MatDestroy(&aug->K));
+  PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
+  aug->K = *K;
+  PetscFunctionReturn(0);
+}
+
+/* K with A in its first block */
+static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug = &ip->aug;
+  Mat           blocks[4], nest, K;
+  Vec           diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &diagonal));
+  PetscCall(VecSet(diagonal, -aug->delta));
+  PetscCall(MatDiagonalSet(aug->shift, diagonal, INSERT_VALUES));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &diagonal));
+  PetscCall(AugmentedFirstBlock(A, &blocks[0]));
+  PetscCall(MatTranspose(ip->jac.equality, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = ip->jac.equality;
+  blocks[3] = aug->shift;
+  PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
+  PetscCall(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, &K));
+  PetscCall(MatDestroy(&nest));
+  PetscCall(MatDestroy(&blocks[0]));
+  PetscCall(MatDestroy(&blocks[1]));
+  PetscCall(AugmentedTake(aug, &K));
+  if (!aug->rhs) {
+    PetscCall(MatCreateVecs(aug->K, &aug->sol, &aug->rhs));
+    PetscCall(VecDuplicate(aug->rhs, &aug->residual));
+    PetscCall(VecDuplicate(aug->rhs, &aug->correction));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Set-up of the KSP, with an ordering unless the user has chosen one: PETSc takes that of MUMPS from the options data base alone */
+static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
+{
+  PetscOptions options;
+  const char  *prefix;
+  char         name[PETSC_MAX_OPTION_NAME];
+  PetscBool    given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetOptions((PetscObject)ksp, &options));
+  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "-%smat_mumps_icntl_7", prefix));
+  PetscCall(PetscOptionsHasName(options, NULL, name, &given));
+  if (!given) PetscCall(PetscOptionsSetValue(options, name, "2"));
+  PetscCall(KSPSetUp(ksp));
+  if (!given) PetscCall(PetscOptionsClearValue(options, name));
+  PetscFunctionReturn(0);
+}
+
+/*
+  One factorization. Approximate minimum fill: where there is no METIS, MUMPS's own choice is PORD, whose analysis of the blocks of zeros takes longer than
+  some factorizations, and gains little in them. Pivots are taken by as small a threshold as IPOPT's: rows that wait for a better one cost work space.
+*/
+static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
+{
+  PC          pc;
+  Mat         F;
+  const char *prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored anew, be it with more work space alone */
+  PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(MatSetOptionsPrefixFactor(aug->K, prefix)); /* as PCSetUp() does, too late for a factor that is made before */
+  PetscCall(PCFactorSetUpMatSolverType(pc));
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatFactorClearError(F));
+  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* nothing of the analysis is to depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
+  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
+  PetscCall(AMGFMumpsSetCntl(F, 1, aug->pivot));
+  PetscCall(AugmentedSetUpOrdered(aug->ksp));
+  PetscCall(PCGetFailedReason(pc, failed));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors, with more work space each time that MUMPS finds it too small */
+static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
+{
+  const PetscInt  first = 100; /* per cent of work space beyond the estimate */
+  const PetscReal pivot = 1e-6;
+
+  PetscFunctionBegin;
+  if (!aug->relaxation) (void)AMGFMumpsMoreSpace(first, &aug->relaxation);
+  if (aug->pivot == 0.0) aug->pivot = pivot;
+  PetscCall(AugmentedFactorOnce(aug, failed));
+  while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
+    PetscCall(KSPReset(aug->ksp)); /* PETSc takes an error of MUMPS for one of its analysis from then on */
+    PetscCall(AugmentedFactorOnce(aug, failed));
+  }
+  /* a factorization that failed is not to be reused */
+  if (*failed != PC_NOERROR) PetscCall(KSPReset(aug->ksp));
+  PetscFunctionReturn(0);
+}
+
+/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails for want of
+   memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
+static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
+{
+  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented   *aug = &ip->aug;
+  PC             pc;
+  PCFailedReason failed;
+  Mat            F;
+  PetscInt       negative, zero, positive, n;
+  PetscReal      norm;
+
+  PetscFunctionBegin;
+  *singular = *inertia = PETSC_FALSE;
+  PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
+  if (PetscIsInfOrNanReal(norm)) { /* MUMPS takes none */
+    PetscCall(IPResidualNotANumber(tao));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(AugmentedFactorWithin(aug, &failed));
+  *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
+  if (*singular) PetscFunctionReturn(0);
+  if (failed != PC_NOERROR) {
+    PetscCall(PetscStrncpy(ip->lin.why, failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system" : "MUMPS failed on the augmented system", sizeof(ip->lin.why)));
+    ip->rec.fallbacks.failures++;
+    ip->lin.failed = PETSC_TRUE;
+    ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(KSPGetPC(aug->ksp, &pc));
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatGetInertia(F, &negative, &zero, &positive));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *singular = (PetscBool)(zero > 0 || negative + positive < n + ip->me);
+  *inertia  = (PetscBool)(!*singular && negative == ip->me);
+  PetscFunctionReturn(0);
+}
+
+/* Copies the local parts of (top, bottom) into v, or back */
+static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
+{
+  Vec          part[2] = {top, bottom};
+  PetscScalar *a, *p;
+  PetscInt     offset = 0, n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(VecGetLocalSize(part[k], &n));
+    PetscCall(VecGetArray(part[k], &p));
+    PetscCall(back ? PetscArraycpy(p, a + offset, n) : PetscArraycpy(a + offset, p, n));
+    PetscCall(VecRestoreArray(part[k], &p));
+    offset += n;
+  }
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* residual = rhs - K sol, and its norm; *needless: it is far below what convergence asks of forces and of constraints, or, while that is far off,
+   as far below the present KKT error and next to nothing of the right-hand side */
+static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug      = &ip->aug;
+  const PetscReal fraction = 0.01, precise = 1e-8;
+  PetscReal       forces, constraints, rhs, asked = fraction * ip->tol;
+  Vec             top, bottom;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(aug->K, aug->sol, aug->residual));
+  PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
+  PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
+  PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
+  if (ip->lin.norm <= precise * rhs && IPBothErrors(ip) <= 1.0) asked = PetscMax(asked, PetscSqr(fraction) * IPBothErrors(ip));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &top));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &bottom));
+  PetscCall(AugmentedJoin(aug->residual, top, bottom, PETSC_TRUE));
+  PetscCall(VecNorm(top, NORM_2, &forces));
+  PetscCall(VecNorm(bottom, NORM_INFINITY, &constraints));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &bottom));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &top));
+  *needless = (PetscBool)(forces <= asked * IPWorthForceUnit(ip) && constraints <= asked * ip->scale.equality);
+  PetscFunctionReturn(0);
+}
+
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of the right-hand side, or needless */
+static PetscErrorCode AugmentedRefine(Tao tao)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug   = &ip->aug;
+  const PetscInt  limit = 3;
+  const PetscReal exact = 1e-12;
+  PetscReal       rhs, before = PETSC_INFINITY;
+  PetscBool       needless;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
+  for (PetscInt k = 0; k <= limit; k++) {
+    PetscCall(AugmentedMeasure(tao, &needless));
+    if (!(ip->lin.norm <= before)) {
+      PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
+      ip->lin.norm = before;
+    }
+    if (needless || !(ip->lin.norm > exact * rhs) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
+    before = ip->lin.norm;
+    PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
+    PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
+    ip->rec.fallbacks.refinements++;
+  }
+  ip->lin.backward_error           = rhs > 0.0 ? ip->lin.norm / rhs : 0.0;
+  ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
+  PetscFunctionReturn(0);
+}
+
+/* The unit of delta: that of a row of J_E A^-1 J_E^T, beside which it stands */
+static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  *unit = 1.0;
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &norm));
+  if (norm > 0.0) *unit = PetscSqr(norm) / ip->me / ip->stiff.hscale;
+  PetscFunctionReturn(0);
+}
+
+/* Assembles K and factors it, with a regularization of dependent constraints where it is singular without */
+static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  PetscBool     singular = PETSC_FALSE;
+  PetscReal     unit;
+
+  PetscFunctionBegin;
+  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  PetscCall(AugmentedFactor(tao, inertia, &singular));
+  if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
+  PetscCall(AugmentedUnit(tao, &unit));
+  ip->aug.delta    = ip->opt.delta_equality * unit;
+  ip->aug.centered = PETSC_TRUE;
+  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  PetscCall(AugmentedFactor(tao, inertia, &singular));
+  PetscFunctionReturn(0);
+}
+
+/* K sol = rhs, refined; factored again with a larger threshold of pivots where that leaves too much */
+static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug  = &ip->aug;
+  const PetscReal safe = 1e-2, coarse = 1e-6;
+  PCFailedReason  failed = PC_NOERROR;
+  PetscBool       again  = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  do {
+    if (again) PetscCall(AugmentedFactorWithin(aug, &failed));
+    if (failed == PC_NOERROR) {
+      PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
+      PetscCall(KSPGetConvergedReason(aug->ksp, &ip->lin.reason));
+    } else ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+    *usable = (PetscBool)(ip->lin.reason > 0);
+    if (*usable) PetscCall(AugmentedRefine(tao));
+    again = (PetscBool)(*usable && aug->pivot < safe && ip->lin.backward_error > coarse);
+    if (again) aug->pivot = safe;
+  } while (again);
+  PetscFunctionReturn(0);
+}
+
+/* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is left of it at a solution */
+static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPAugmented  *aug = &ip->aug;
+  Vec           negative;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &negative));
+  PetscCall(VecAXPBY(negative, -1.0, 0.0, ce));
+  if (aug->centered) PetscCall(VecAXPY(negative, -aug->delta, ip->at.y));
+  PetscCall(AugmentedJoin(aug->rhs, b, negative, PETSC_FALSE));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &negative));
+  PetscCall(AugmentedSolveRefined(tao, usable));
+  PetscCall(AugmentedJoin(aug->sol, top, bottom, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+/* Solves for dx and the new multipliers with the matrix cond.A; ce is the residual of the equality constraints.
+   matrix tells whether A is new since the last call. *usable is false where the inertia is wrong. */
+PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
+  ip->lin.failed = PETSC_FALSE;
+  ip->lin.why[0] = '\0';
+  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
+  PetscCall(AugmentedCreate(tao));
+  *usable = PETSC_TRUE;
+  if (matrix) PetscCall(AugmentedFactorRegular(tao, usable));
+  if (*usable) {
+    PetscCall(AugmentedApply(tao, b, ce, dx, ip->dir.y, usable));
+    PetscCall(VecAXPY(ip->dir.y, -1.0, ip->at.y));
+  }
+  PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, dx, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); zero where that is singular */
+PetscErrorCode IPAugmentedMultipliers(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Mat           identity;
+  PetscBool     inertia, singular;
+  PetscInt      n, N;
+
+  PetscFunctionBegin;
+  PetscCall(AugmentedCreate(tao));
+  PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
+  PetscCall(VecGetLocalSize(ip->rx, &n));
+  PetscCall(VecGetSize(ip->rx, &N));
+  PetscCall(MatCreateConstantDiagonal(PetscObjectComm((PetscObject)tao), n, n, N, N, 1.0, &identity));
+  ip->aug.delta    = 0.0;
+  ip->aug.centered = PETSC_FALSE;
+  PetscCall(AugmentedAssemble(tao, identity));
+  PetscCall(MatDestroy(&identity));
+  PetscCall(AugmentedFactor(tao, &inertia, &singular));
+  if (!inertia) PetscFunctionReturn(0);
+  PetscCall(VecScale(ip->rx, -1.0));
+  PetscCall(AugmentedJoin(ip->aug.rhs, ip->rx, ip->at.y, PETSC_FALSE));
+  PetscCall(KSPSolve(ip->aug.ksp, ip->aug.rhs, ip->aug.sol));
+  PetscCall(AugmentedJoin(ip->aug.sol, ip->rx, ip->at.y, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}

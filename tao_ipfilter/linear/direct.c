@@ -1,0 +1,189 @@
+/*
+   The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether the matrix is
+   positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates the memory before anything large is allocated.
+*/
+#include "../ipfilterimpl.h"
+#include "../../pc_amgf/mumps.h"
+
+PetscErrorCode IPDirectDestroy(IPDirect *direct)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&direct->F));
+  PetscCall(MatDestroy(&direct->A));
+  direct->system = 0;
+  PetscFunctionReturn(0);
+}
+
+/* The present matrix as MUMPS takes a symmetric one, AIJ or SBAIJ: direct.A, NULL where PETSc has no MUMPS for it. The factor, whose analysis serves as long as
+   the pattern stays, goes where it is another one. */
+static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
+{
+  PetscBool        baij, mumps;
+  MatType          type;
+  PetscObjectState state;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  if (!baij || !direct->converted) {
+    if (!baij) PetscCall(PetscObjectReference((PetscObject)A));
+    PetscCall(MatDestroy(&direct->A));
+    direct->A = baij ? NULL : A;
+  }
+  if (baij) PetscCall(IPMatrixConvert(A, &direct->A));
+  direct->converted = baij;
+  PetscCall(MatGetType(direct->A, &type));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_CHOLESKY, &mumps));
+  if (!mumps) {
+    PetscCall(IPDirectDestroy(direct));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(MatSetOption(direct->A, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatGetNonzeroState(direct->A, &state));
+  if (direct->pattern_id != ((PetscObject)direct->A)->id || direct->pattern_state != state) PetscCall(MatDestroy(&direct->F));
+  direct->pattern_id    = ((PetscObject)direct->A)->id;
+  direct->pattern_state = state;
+  PetscFunctionReturn(0);
+}
+
+/* Analysis, and what the factors will take by it; no factor where it failed */
+static PetscErrorCode DirectAnalyse(Tao tao)
+{
+  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct = &ip->direct;
+  MatFactorError error;
+  MatFactorInfo  info;
+  const char    *prefix;
+  char           own[PETSC_MAX_PATH_LEN];
+  PetscInt       estimate;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetFactor(direct->A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &direct->F));
+  PetscCall(TaoGetOptionsPrefix(tao, &prefix));
+  PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
+  PetscCall(MatSetOptionsPrefix(direct->F, own));
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* nothing of the analysis is to depend on values, which change: */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scaled by the diagonal of the matrix that is factored */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
+  PetscCall(MatFactorGetError(direct->F, &error));
+  if (error == MAT_FACTOR_NOERROR) {
+    PetscCall(AMGFMumpsGetInfog(direct->F, 17, &estimate));
+    direct->memory = (PetscReal)estimate;
+  } else PetscCall(MatDestroy(&direct->F));
+  PetscFunctionReturn(0);
+}
+
+/* What the matrix itself takes, which the factors exceed, in 1e6 bytes: too much of that needs no analysis */
+static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
+{
+  MatInfo info;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  *memory = 0.5 * info.nz_used * sizeof(PetscScalar) / 1e6;
+  PetscFunctionReturn(0);
+}
+
+/* Whether factors of that many 1e6 bytes are allowed, for which the record else has a reason */
+static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
+{
+  PetscFunctionBegin;
+  *allows = (PetscBool)(memory <= ip->opt.direct_memory);
+  if (!*allows) PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
+  PetscFunctionReturn(0);
+}
+
+/* The factors of the matrix that was taken; more work space each time that MUMPS finds its own estimate too small, with which the next matrix begins.
+   A factorization that failed is not to be reused. */
+static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect     *direct = &ip->direct;
+  MatFactorInfo info;
+  PetscBool     again, allows;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  if (!direct->relaxation) (void)AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation);
+  do {
+    *error = MAT_FACTOR_OTHER;
+    PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
+    if (!direct->F) PetscCall(DirectAnalyse(tao));
+    if (!direct->F) break;
+    PetscCall(DirectAllows(ip, direct->memory, &allows));
+    if (!allows) break;
+    PetscCall(MatCholeskyFactorNumeric(direct->F, direct->A, &info));
+    PetscCall(MatFactorGetError(direct->F, error));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
+    PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)direct->memory, (int)*error));
+    again = (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation));
+    if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&direct->F));
+  } while (again);
+  PetscFunctionReturn(0);
+}
+
+/* Factors the present matrix; *factored is false where it cannot be, for which the record then has a reason */
+static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
+{
+  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
+  IPDirect      *direct = &ip->direct;
+  PetscReal      least  = 0.0;
+  MatFactorError error  = MAT_FACTOR_OTHER;
+  PetscBool      allows;
+
+  PetscFunctionBegin;
+  *factored = *singular = PETSC_FALSE;
+  if (ip->hess.products) {
+    PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor", sizeof(ip->lin.why)));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(DirectLeastMemory(ip->cond.A, &least));
+  PetscCall(DirectAllows(ip, least, &allows));
+  if (!allows) PetscFunctionReturn(0);
+  PetscCall(DirectTakeMatrix(ip->cond.A, direct));
+  if (direct->A) PetscCall(DirectFactorWithin(tao, &error));
+  else PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
+  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
+  if (*factored) {
+    direct->system = ip->rec.nsystems;
+    ip->lin.why[0] = '\0';
+  } else PetscCall(IPDirectDestroy(direct));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
+{
+  PetscFunctionBegin;
+  PetscCall(MatSolve(((TAO_IPFILTER *)tao->data)->direct.F, r, e));
+  PetscFunctionReturn(0);
+}
+
+/* A d = b by L D L^T, refined to rounding; failed where that takes more memory than allowed or MUMPS fails */
+PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPDirect     *direct   = &ip->direct;
+  PetscBool     factored = PETSC_TRUE, singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *verdict = IP_LINEAR_FAILED;
+  if (ip->qn.npairs) {
+    PetscCall(PetscStrncpy(ip->lin.why, "the Hessian is a limited-memory approximation, which MUMPS does not take", sizeof(ip->lin.why)));
+    PetscFunctionReturn(0);
+  }
+  if (!direct->F || direct->system != ip->rec.nsystems) {
+    PetscCall(DirectFactor(tao, &factored, &singular));
+    if (factored) PetscCall(MatGetInertia(direct->F, &direct->negative, NULL, NULL));
+  }
+  if (singular || (factored && direct->negative)) *verdict = IP_LINEAR_INDEFINITE;
+  if (!factored || direct->negative) PetscFunctionReturn(0);
+  PetscCall(DirectApply(tao, b, d));
+  PetscCall(IPResidualMeasure(tao, b, d));
+  PetscCall(IPResidualRefine(tao, b, d, PETSC_TRUE, DirectApply, KSP_CONVERGED_ITS));
+  if (IPResidualReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
+  else PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->lin.backward_error));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,134 @@
+/*
+   How equality constraints enter the Newton system: condensed with proximal updates where their rows touch few unknowns, else in the augmented system that
+   MUMPS factors. The first gives way to the second for the rest of a solve where it does not reach the constraints.
+*/
+#include "../ipfilterimpl.h"
+#include "../../pc_amgf/mumps.h"
+
+/* Whether the solver of the condensed system is one for stiff rows, and the rows are few and the unknowns many enough for it */
+static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 0.1;
+  const PetscInt  many     = 1000;
+  PetscInt        n, ntouched;
+  PC              pc;
+  IS              touched;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, fits));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *fits = (PetscBool)(*fits && !ip->opt.direct_always && n >= many);
+  if (!*fits) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceOf(tao, ip->jac.equality, &touched));
+  PetscCall(ISGetSize(touched, &ntouched));
+  PetscCall(ISDestroy(&touched));
+  *fits = (PetscBool)(ntouched <= fraction * n);
+  PetscFunctionReturn(0);
+}
+
+/* Chooses for this solve, whose Jacobian and Hessian at the start are at hand */
+PetscErrorCode IPEqualityChoose(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->prox = (IPProximal){.condensed = PETSC_FALSE};
+  if (!ip->me) PetscFunctionReturn(0);
+  if (ip->opt.equality == IP_EQUALITY_AUTO) PetscCall(EqualityFitsFilter(tao, &ip->prox.condensed));
+  else ip->prox.condensed = (PetscBool)(ip->opt.equality == IP_EQUALITY_CONDENSED);
+  PetscFunctionReturn(0);
+}
+
+/* Gives the proximal method up: the matrix loses the equality constraints' rows. *possible is false where MUMPS is not to factor the whole matrix. */
+static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, possible));
+  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && !ip->hess.products && ip->lin.reason != KSP_DIVERGED_NANORINF);
+  if (!*possible) PetscFunctionReturn(0);
+  ip->prox.condensed = PETSC_FALSE;
+  ip->rec.fallbacks.direct++;
+  PetscCall(PetscInfo(tao, "Equality constraints are not reached by proximal updates: the augmented system takes over\n"));
+  PetscCall(IPCondenseMatrix(tao, ip->cond.rows.inequality));
+  PetscFunctionReturn(0);
+}
+
+/* Solves for dx and the multipliers' direction with the matrix cond.A, from the guesses that stand there; ce is the residual of the equality
+   constraints, target the residual of forces asked for. matrix tells whether A is new since the last call. */
+PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscReal target, PetscBool *usable)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscBool     exact = PETSC_FALSE, possible = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  if (ip->prox.condensed) {
+    PetscCall(IPProximalSolve(tao, b, ce, dx, target, usable, &exact));
+    if (exact || (!*usable && !ip->lin.failed)) PetscFunctionReturn(0);
+    PetscCall(EqualityGiveUpProximal(tao, &possible));
+    if (!possible) PetscFunctionReturn(0);
+    matrix = PETSC_TRUE;
+  }
+  PetscCall(IPAugmentedSolve(tao, b, ce, dx, matrix, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The step of a restoration */
+PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  if (((TAO_IPFILTER *)tao->data)->prox.condensed) PetscCall(IPProximalRestore(tao, b, ce, dx, usable));
+  else PetscCall(IPAugmentedSolve(tao, b, ce, dx, PETSC_TRUE, usable));
+  PetscFunctionReturn(0);
+}
+
+/* y that brings the stationarity residual nearest to zero, by LSQR: a guess, which needs no more than a few digits */
+static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
+{
+  TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
+  const PetscReal accuracy   = 1e-6;
+  const PetscInt  iterations = 100;
+  KSP             ksp;
+  PC              pc;
+  Mat             forces;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
+  PetscCall(VecScale(ip->rx, -1.0));
+  PetscCall(MatCreateTranspose(ip->jac.equality, &forces));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ksp));
+  PetscCall(KSPSetType(ksp, KSPLSQR));
+  PetscCall(KSPSetOperators(ksp, forces, forces));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCNONE));
+  PetscCall(KSPSetTolerances(ksp, accuracy, PETSC_DEFAULT, PETSC_DEFAULT, iterations));
+  PetscCall(KSPSolve(ksp, ip->rx, ip->at.y));
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(MatDestroy(&forces));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers for the present point, by a factorization of their own in small problems. None where the gradients of the constraints are so nearly dependent that they would be huge (Waechter and
+   Biegler 2006, section 3.6). */
+PetscErrorCode IPEqualityMultipliers(Tao tao)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal huge = 1e3; /* times the gradient */
+  const PetscInt  few  = 10000;
+  PetscReal       y, g, j;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(tao->solution, &n));
+  if (ip->prox.condensed || n + ip->me > few) PetscCall(EqualityMultipliersByLSQR(tao));
+  else PetscCall(IPAugmentedMultipliers(tao));
+  PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &y));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &g));
+  PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &j));
+  if (!(y * j <= huge * g)) PetscCall(VecSet(ip->at.y, 0.0));
+  PetscFunctionReturn(0);
+}

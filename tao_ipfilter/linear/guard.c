@@ -1,0 +1,70 @@
+/* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it ends no program. */
+#include "../ipfilterimpl.h"
+#include "../../pc_amgf/guard.h"
+
+/* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can neither use again nor
+   take apart: that one is left alone, with a reference that nobody gives back */
+static PetscErrorCode GuardReplacePC(Tao tao)
+{
+  KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin.flexible};
+  PC          broken, fresh;
+  PCType      type;
+  const char *prefix;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &broken));
+  PetscCall(PetscObjectReference((PetscObject)broken));
+  PetscCall(PCGetType(broken, &type));
+  PetscCall(PCGetOptionsPrefix(broken, &prefix));
+  PetscCall(PCCreate(PetscObjectComm((PetscObject)tao), &fresh));
+  PetscCall(PCSetOptionsPrefix(fresh, prefix));
+  PetscCall(PCSetType(fresh, type));
+  PetscCall(PCSetFromOptions(fresh));
+  for (PetscInt k = 0; k < 2; k++) {
+    if (!ksp[k]) continue;
+    PetscCall(KSPSetPC(ksp[k], fresh));
+    PetscCall(IPKSPReset(ksp[k]));
+  }
+  PetscCall(PCDestroy(&fresh));
+  PetscFunctionReturn(0);
+}
+
+/* Whether PCAMGF met the error inside, on any rank: it says so of itself, and the KSP has ended with that on all */
+static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
+{
+  PC             pc;
+  PCFailedReason why;
+  PetscBool      amgf;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  PetscCall(PCGetFailedReason(pc, &why));
+  *failed = (PetscBool)(amgf && why == PC_SUBPC_ERROR);
+  PetscFunctionReturn(0);
+}
+
+/* KSPSolve(). *failed: a library inside it met an error; x is zero. Errors that PCAMGF has not taken, those of a set-up say, all ranks are taken to have met. */
+PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  AMGFGuard          guard;
+  KSPConvergedReason reason;
+  PetscErrorCode     error;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGuardBegin_Private(&guard, b));
+  error = KSPSolve(ksp, b, x);
+  PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
+  if (*failed) PetscCall(PetscStrncpy(ip->lin.why, guard.why, sizeof(ip->lin.why)));
+  else {
+    PetscCall(KSPGetConvergedReason(ksp, &reason));
+    if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(GuardAskPC(ksp, failed));
+    if (!*failed) PetscFunctionReturn(0);
+    PetscCall(PetscStrncpy(ip->lin.why, "an error inside the multigrid", sizeof(ip->lin.why)));
+  }
+  PetscCall(PetscInfo(tao, "An error inside the linear solver: %s\n", ip->lin.why));
+  PetscCall(GuardReplacePC(tao));
+  PetscCall(VecSet(x, 0.0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,242 @@
+/* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the record of iterations. */
+#include "../ipfilterimpl.h"
+
+/* The KSP's own convergence test, and what tells that a run is not worth going on with */
+typedef struct {
+  PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
+  PetscErrorCode (*destroy)(void *);
+  void     *ctx;
+  PetscReal close;   /* residual from which on it is looked at */
+  PetscReal least;   /* the last residual that was a progress, */
+  PetscInt  reached; /* and when */
+} StallTest;
+
+/* Counts a linear solve of so many iterations */
+PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec.nksp == ip->rec.max_nksp) {
+    ip->rec.max_nksp = 2 * ip->rec.max_nksp + 32;
+    PetscCall(PetscRealloc(ip->rec.max_nksp * sizeof(PetscInt), &ip->rec.ksp_iterations));
+  }
+  ip->rec.ksp_iterations[ip->rec.nksp++] = its;
+  tao->ksp_its += its;
+  tao->ksp_tot_its += its;
+  PetscFunctionReturn(0);
+}
+
+/* Limit of the next solve: an indefinite matrix may keep a Krylov method busy for long without showing a
+   negative product. Ten times the longest successful solve is taken as a sign of it. */
+static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
+{
+  const PetscInt factor = 10;
+
+  return ip->lin.longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin.longest)) : given;
+}
+
+/* Ends a run, too, that gains less than a digit in so many iterations close to the end */
+static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
+{
+  StallTest      *s        = (StallTest *)ctx;
+  const PetscInt  patience = 25;
+  const PetscReal gain     = 0.1;
+
+  PetscFunctionBegin;
+  PetscCall((*s->test)(ksp, it, norm, reason, s->ctx));
+  if (!it || norm <= gain * s->least) {
+    s->least   = norm;
+    s->reached = it;
+  }
+  if (*reason == KSP_CONVERGED_ITERATING && norm <= s->close && it - s->reached >= patience) *reason = KSP_CONVERGED_ITS;
+  PetscFunctionReturn(0);
+}
+
+/* IPGuardedSolve() with the test for stalling */
+static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscBool *failed)
+{
+  KSPNormType type;
+  StallTest   stall = {.least = 0.0};
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetNormType(ksp, &type));
+  if (type == KSP_NORM_UNPRECONDITIONED) PetscCall(VecNorm(b, NORM_2, &stall.close));
+  stall.close *= IP_CLOSE;
+  PetscCall(KSPGetAndClearConvergenceTest(ksp, &stall.test, &stall.ctx, &stall.destroy));
+  PetscCall(KSPSetConvergenceTest(ksp, KrylovTestStalled, &stall, NULL));
+  PetscCall(IPGuardedSolve(tao, ksp, b, d, failed));
+  PetscCall(KSPSetConvergenceTest(ksp, stall.test, stall.ctx, stall.destroy));
+  PetscFunctionReturn(0);
+}
+
+/* One run of the KSP for A d = b, with adaptive forcing from the guess d to the present target */
+static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     rtol, abstol, dtol;
+  PetscInt      maxits, its;
+  PetscBool     guess, direct, failed;
+
+  PetscFunctionBegin;
+  PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond.A));
+  PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
+  PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* takes no guess */
+  ip->lin.limit = maxits;
+  if (ip->opt.forcing == IP_FORCING_ADAPTIVE) {
+    ip->lin.limit = KrylovLimit(ip, maxits);
+    PetscCall(KSPSetInitialGuessNonzero(ksp, direct ? PETSC_FALSE : PETSC_TRUE));
+    PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->lin.target, dtol, ip->lin.limit));
+  }
+  PetscCall(KrylovUnlessStalled(tao, ksp, b, d, &failed));
+  PetscCall(KSPSetTolerances(ksp, rtol, abstol, dtol, maxits));
+  PetscCall(KSPSetInitialGuessNonzero(ksp, guess));
+  PetscCall(KSPGetIterationNumber(ksp, &its));
+  PetscCall(KSPGetConvergedReason(ksp, &ip->lin.reason));
+  if (failed) ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+  PetscCall(IPKrylovRecord(tao, its));
+  ip->lin.its = its;
+  PetscFunctionReturn(0);
+}
+
+/*
+  KrylovRun() for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries rounding errors that these
+  terms make large: relative to the residual they are the same at every step, so that the preconditioner is not quite linear. CG's
+  recurrence does not bear that; flexible CG does, but is blind to negative curvature.
+*/
+static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
+{
+  TAO_IPFILTER  *ip         = (TAO_IPFILTER *)tao->data;
+  const PetscInt directions = 3;
+  PetscReal      rtol, abstol, dtol;
+  PetscInt       maxits;
+  PetscBool      cg;
+  PC             pc;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(e, 0.0));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPCG, &cg));
+  if (!cg) {
+    PetscCall(KrylovRun(tao, tao->ksp, r, e));
+    PetscFunctionReturn(0);
+  }
+  if (!ip->lin.flexible) {
+    PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ip->lin.flexible));
+    PetscCall(KSPSetType(ip->lin.flexible, KSPFCG));
+    PetscCall(KSPFCGSetMmax(ip->lin.flexible, directions));
+    PetscCall(KSPFCGSetNprealloc(ip->lin.flexible, directions + 1));
+    PetscCall(KSPSetNormType(ip->lin.flexible, KSP_NORM_UNPRECONDITIONED));
+  }
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(KSPSetPC(ip->lin.flexible, pc));
+  PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
+  PetscCall(KSPSetTolerances(ip->lin.flexible, rtol, abstol, dtol, maxits));
+  PetscCall(KrylovRun(tao, ip->lin.flexible, r, e));
+  PetscFunctionReturn(0);
+}
+
+/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter or the
+   first iterations correct does no harm. */
+static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size, dtol;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(d, NORM_INFINITY, &size));
+  if (size == 0.0) PetscFunctionReturn(0);
+  PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, &dtol, NULL));
+  PetscCall(IPResidualMeasure(tao, b, d));
+  if (!(ip->lin.norm < 0.1 * dtol * ip->lin.rhs)) PetscCall(VecSet(d, 0.0));
+  PetscFunctionReturn(0);
+}
+
+/* The PC could not be set up because the matrix has a pivot of zero, not because something else failed */
+static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
+{
+  PC             pc;
+  PCFailedReason failed;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  *zero = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, zero, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* Whether J^T D J is so large beside the Hessian that rounding may have changed the signs of pivots */
+static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal ratio = 1e10;
+  PetscReal       a, h;
+  PetscBool       has;
+  Vec             diagonal;
+
+  PetscFunctionBegin;
+  *drowned = PETSC_TRUE;
+  PetscCall(MatHasOperation(ip->hess.H, MATOP_NORM, &has));
+  if (!has) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_INFINITY, &a));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(MatNorm(ip->hess.H, NORM_FROBENIUS, &h));
+  *drowned = (PetscBool) !(a <= ratio * h);
+  PetscFunctionReturn(0);
+}
+
+/* Whether the factors of the filter's matrix, a principal part of A, have negative pivots: then A is indefinite, which a Krylov method
+   that the filter leaves few iterations may not meet. Looked at only where the problem has shown that it is not convex, and its constraints have an interior. */
+static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt      negative;
+  PetscBool     amgf, drowned;
+  PC            pc;
+
+  PetscFunctionBegin;
+  *indefinite = PETSC_FALSE;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (!amgf || !ip->lin.filtered || !ip->bar.curved || ip->relax.times) PetscFunctionReturn(0);
+  PetscCall(KrylovDrowned(tao, &drowned));
+  if (drowned) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFilterPivots(pc, &negative));
+  *indefinite = (PetscBool)(negative > 0);
+  PetscFunctionReturn(0);
+}
+
+/* A d = b by the KSP, refined */
+PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  KSPConvergedReason reason;
+  PetscInt           its;
+  PetscBool          direct, indefinite, zero = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (ip->opt.forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
+  PetscCall(KrylovRun(tao, tao->ksp, b, d));
+  reason = ip->lin.reason;
+  its    = ip->lin.its;
+  PetscCall(IPResidualMeasure(tao, b, d));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct));
+  PetscCall(IPResidualRefine(tao, b, d, direct, KrylovCorrect, reason));
+  ip->lin.reason = reason;
+  ip->lin.its    = its;
+  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
+  PetscCall(KrylovFilterIndefinite(tao, &indefinite));
+  if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
+  else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
+  else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
+  if (*verdict == IP_LINEAR_SOLVED) {
+    ip->lin.longest = PetscMax(ip->lin.longest, its);
+    ip->lin.ndirect = 0;
+  } else PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
+  /* a factorization that failed is not to be reused */
+  if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,196 @@
+/*
+   The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other. None of them shifts
+   the Hessian: a solver that fails is not negative curvature.
+*/
+#include "../ipfilterimpl.h"
+
+/* The PC, if it is a PCAMGF, else NULL */
+static PetscErrorCode GetAMGF(Tao tao, PC *pc)
+{
+  PetscBool amgf;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)*pc, PCAMGF, &amgf));
+  if (!amgf) *pc = NULL;
+  PetscFunctionReturn(0);
+}
+
+/* Rebuilds an AMG that was kept from an older matrix */
+static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
+{
+  PC       pc;
+  PetscInt age = 0;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  if (pc) PetscCall(PCAMGFGetAMGAge(pc, &age));
+  *done = (PetscBool)(age > 0);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCall(PCReset(pc));
+  ((TAO_IPFILTER *)tao->data)->rec.fallbacks.amg_rebuilds++;
+  PetscFunctionReturn(0);
+}
+
+/* Filters, where the constraints were left to the AMG */
+static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PC            pc;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  *done = (PetscBool)(pc && ip->cond.filter && !ip->lin.filtered);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
+  ip->lin.filter_forced = ip->lin.filtered = PETSC_TRUE;
+  ip->rec.nfiltered++;
+  ip->rec.fallbacks.filters++;
+  PetscFunctionReturn(0);
+}
+
+/* Takes the neighbours into the subspace of this matrix, as long as that stays a small part of it */
+static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 0.25;
+  PetscInt        before, after, n;
+  PC              pc;
+  IS              wide;
+
+  PetscFunctionBegin;
+  PetscCall(GetAMGF(tao, &pc));
+  *done = PETSC_FALSE;
+  if (!pc || !ip->cond.filter || !ip->lin.filtered) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceGrow(tao, ip->cond.A, ip->cond.filter, &wide));
+  PetscCall(ISGetSize(ip->cond.filter, &before));
+  PetscCall(ISGetSize(wide, &after));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *done = (PetscBool)(after > before && after <= fraction * n);
+  if (*done) {
+    PetscCall(PetscObjectCompose((PetscObject)ip->cond.A, PCAMGF_FILTER_KEY, (PetscObject)wide));
+    /* the switch makes it look for its subspace */
+    PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
+    PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
+    ip->rec.fallbacks.filters++;
+  }
+  PetscCall(ISDestroy(&wide));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the Krylov method failed as it does on indefinite matrices, where nothing tells for certain. A limit of few iterations is
+   the caller's choice and tells nothing. */
+static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
+{
+  switch (ip->lin.reason) {
+  case KSP_DIVERGED_ITS:
+    return (PetscBool)(ip->lin.limit >= IP_MANY_ITERATIONS);
+  case KSP_DIVERGED_INDEFINITE_PC:
+  case KSP_DIVERGED_BREAKDOWN:
+  case KSP_DIVERGED_DTOL:
+  case KSP_DIVERGED_NANORINF:
+    return PETSC_TRUE;
+  default:
+    return PETSC_FALSE;
+  }
+}
+
+/* Where nothing helped, a direction that reduces the residual tenfold is still one for an inexact Newton method */
+static PetscBool Coarse(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(!IPUndefined(ip->lin.norm) && ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
+}
+
+/* In the order in which they are tried: what is changed first, if anything can be, and who solves then */
+static const struct {
+  PetscErrorCode (*prepare)(Tao, PetscBool *);
+  PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
+} remedies[] = {
+  {NULL, IPKrylovSolve},
+  {RebuildAMG, IPKrylovSolve},
+  {SwitchFilterOn, IPKrylovSolve},
+  {EnlargeFilter, IPKrylovSolve},
+  {NULL, IPDirectSolve},
+};
+
+/* Whether only MUMPS is tried: by the user's choice, or since the last solves all had to be done by it */
+static PetscBool DirectOnly(const TAO_IPFILTER *ip)
+{
+  const PetscInt in_vain = 2;
+
+  return (PetscBool)(ip->opt.direct_always || ip->lin.ndirect >= in_vain);
+}
+
+/* A matrix or right-hand side that is not made of numbers ends the search for a solver */
+static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  if (ip->hess.products) PetscCall(VecNorm(ip->cond.hdiag, NORM_2, &norm));
+  else PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
+  *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin.rhs));
+  if (!*sound) PetscCall(IPResidualNotANumber(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The record of MUMPS on the whole matrix, and the verdict where it failed, too */
+static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (*verdict == IP_LINEAR_SOLVED) {
+    ip->rec.fallbacks.direct += !ip->opt.direct_always;
+    ip->lin.ndirect++;
+  } else if (*verdict == IP_LINEAR_FAILED) {
+    ip->lin.ndirect = 0;
+    if (LooksIndefinite(ip)) *verdict = IP_LINEAR_INDEFINITE;
+    else if (Coarse(ip)) *verdict = IP_LINEAR_SOLVED;
+    else ip->rec.fallbacks.failures++;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Goes through the remedies until one gives a verdict on the matrix */
+static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  const size_t n     = PETSC_STATIC_ARRAY_LENGTH(remedies);
+  const size_t first = DirectOnly((TAO_IPFILTER *)tao->data) ? n - 1 : 0;
+  PetscBool    sound = PETSC_TRUE, possible;
+
+  PetscFunctionBegin;
+  for (size_t k = first; k < n && *verdict == IP_LINEAR_FAILED; k++) {
+    if (k == PetscMax(first, 1)) PetscCall(CheckNumbers(tao, &sound));
+    if (!sound) PetscFunctionReturn(0);
+    possible = PETSC_TRUE;
+    if (remedies[k].prepare) PetscCall((*remedies[k].prepare)(tao, &possible));
+    if (possible) PetscCall((*remedies[k].solve)(tao, b, d, verdict));
+    if (k == n - 1) PetscCall(ConcludeDirect(tao, verdict));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold.
+  *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having: ip->lin.failed
+  tells that, which no shift of the Hessian cures.
+*/
+PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  IPLinearVerdict verdict = IP_LINEAR_FAILED;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, d, NULL));
+  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
+  ip->lin.target = target;
+  ip->lin.why[0] = '\0';
+  PetscCall(TryRemedies(tao, b, d, &verdict));
+  *usable        = (PetscBool)(verdict == IP_LINEAR_SOLVED);
+  ip->lin.failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
+  if (*usable) ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
+  PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, d, NULL));
+  PetscFunctionReturn(0);
+}

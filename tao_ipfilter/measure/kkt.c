@@ -1,0 +1,161 @@
+/* Residuals of the optimality conditions. */
+#include "../ipfilterimpl.h"
+
+/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z of the slacks */
+PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(tao->gradient, r));
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(VecPointwiseMult(force, multiplier, ip->pair[IP_SLACK].w));
+    PetscCall(VecScale(force, -1.0));
+    PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  }
+  if (ip->me) PetscCall(MatMultTransposeAdd(ip->jac.equality, ip->at.y, r, r));
+  PetscCall(IPTermsSubtractForces(tao, r));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(VecPointwiseMult(force, p->w, p->z));
+    PetscCall(VecAXPY(r, -p->sign, force));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(IPFixedZero(tao, r));
+  PetscFunctionReturn(0);
+}
+
+/* sum m (lambda - z)^2, z being that of both sides: the stationarity residual of the slacks in the norm of the weights, squared */
+static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           difference;
+
+  PetscFunctionBegin;
+  *square = 0.0;
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &difference));
+  PetscCall(IPSlackPressure(tao, difference));
+  PetscCall(VecAYPX(difference, -1.0, ip->at.lambda));
+  PetscCall(IPPairWeightedSquare(tao, difference, square));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &difference));
+  PetscFunctionReturn(0);
+}
+
+/* sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s), with r_s = M_s (lambda - z) */
+static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           scaled;
+  PetscScalar   uu;
+  PetscReal     ss;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &scaled));
+  if (ip->given.primal_mass) PetscCall(VecPointwiseDivide(scaled, ip->rx, ip->given.primal_mass));
+  else PetscCall(VecCopy(ip->rx, scaled));
+  PetscCall(VecDot(ip->rx, scaled, &uu));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &scaled));
+  PetscCall(SlackStationarity(tao, &ss));
+  *norm = PetscSqrtReal(PetscRealPart(uu) + ss);
+  PetscFunctionReturn(0);
+}
+
+/* The stationarity residual: mass-weighted, or each part per unit of its scale */
+static PetscErrorCode DualError(Tao tao, PetscReal *dual)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     slacks;
+
+  PetscFunctionBegin;
+  if (ip->opt.measure == IP_KKT_MASS) {
+    PetscCall(DualMassNorm(tao, dual));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SlackStationarity(tao, &slacks));
+  if (ip->mi) slacks = PetscSqrtReal(slacks / ip->pair[IP_SLACK].weight);
+  *dual = PetscMax(slacks / ip->scale.pressure, ip->kkt.dual_norm / ip->scale.dual);
+  PetscFunctionReturn(0);
+}
+
+/* What violations are compared by from one iterate to the next: the constraints' first values, or what their gradients made of x then */
+static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
+{
+  const PetscReal size = PetscMax(values, jacobian * ip->first.x);
+
+  return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
+}
+
+/* c_I - s into ip->rc, and how far the constraints and the laws of norm terms are from being met: per unit of their scales, and in the caller's units */
+static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  *primal = *largest = ip->kkt.violation = 0.0;
+  if (ip->mi) {
+    PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
+    ip->kkt.violation = norm / FirstSize(ip, ip->first.length, ip->first.jacobian);
+    PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->at.c));
+    PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
+    *primal = norm / ip->scale.length;
+    PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, ip->rc, largest));
+  }
+  if (ip->me) {
+    PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
+    *primal           = PetscMax(*primal, norm / ip->scale.equality);
+    ip->kkt.violation = PetscMax(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
+    PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
+    *largest = PetscMax(*largest, norm);
+  }
+  PetscCall(IPTermsViolation(tao, &norm));
+  *primal  = PetscMax(*primal, norm / ip->scale.length);
+  *largest = PetscMax(*largest, norm);
+  PetscFunctionReturn(0);
+}
+
+/* The larger one of the KKT error's two measures */
+PetscReal IPBothErrors(const TAO_IPFILTER *ip)
+{
+  return PetscMax(ip->kkt.error, ip->kkt.work);
+}
+
+/* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
+PetscErrorCode IPComputeKKT(Tao tao)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPKKT        *k        = &ip->kkt;
+  PetscReal     products = 0.0, deviation = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPComputeScale(tao));
+  if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE) PetscCall(IPWorthEnergy(tao, &ip->scale.energy));
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
+  PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
+  PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
+  PetscCall(DualError(tao, &k->dual));
+  PetscCall(PrimalError(tao, &k->primal, &k->inf_pr));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal zero, central;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, &zero, NULL));
+    PetscCall(IPPairProducts(&ip->pair[b], ip->mu, &central, NULL));
+    products  = PetscMax(products, zero);
+    deviation = PetscMax(deviation, central);
+  }
+  k->inf_compl       = products;
+  k->complementarity = products / ip->scale.product;
+  k->centrality      = deviation / ip->scale.product;
+  k->error           = PetscMax(PetscMax(k->dual, k->primal), k->complementarity);
+  PetscCall(IPWorthOfResiduals(tao));
+  k->unscaled = PetscMax(PetscMax(k->inf_du, k->inf_pr), products);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,112 @@
+/* Magnitudes that residuals are measured by. */
+#include "../ipfilterimpl.h"
+
+#define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
+#define IP_AMPLE     30.0  /* a gradient is small that moves the unknowns by no more than so many times the tolerance */
+#define IP_RUNAWAY   100.0 /* an iterate counts for no more than so many times its first size */
+
+/* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
+   residuals look small */
+static PetscReal Within(PetscReal size, PetscReal limit)
+{
+  return limit > 0.0 ? PetscMin(size, limit) : size;
+}
+
+/* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
+   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. Where none is active,
+   a small fraction of the pressure that would balance the objective's gradient is one that matters. */
+static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPScale      *s  = &ip->scale;
+  PetscReal     c, t, gradient, upper = 0.0, transmitted = ip->first.jacobian * ip->pair[IP_SLACK].weight / ip->mi;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &c));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
+  PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
+  if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
+  s->pressure = PetscMax(s->pressure, upper);
+  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length), 10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
+  s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  if (transmitted > 0.0) s->balance = gradient / transmitted;
+  s->pressure = PetscMax(s->pressure, IP_VANISHING * s->balance);
+  s->product  = s->length * s->pressure;
+  PetscFunctionReturn(0);
+}
+
+/* Values of the equality constraints: the first, or those of their linear parts */
+static PetscErrorCode EqualityScale(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           linear;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &linear));
+  PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
+  PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
+  ip->scale.equality = PetscMax(ip->first.equality, Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
+  PetscFunctionReturn(0);
+}
+
+/* Forces: those that cancel in the gradient; where none do, what the gradient was at the start, but no more than its terms are now, lest
+   a start far off make every gradient look small. Below ten roundings of its terms no gradient is of any meaning. */
+static PetscErrorCode DualScale(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscBool limited  = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+  const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       norm, terms, stiffness;
+  const PetscReal least = PetscSqr(PETSC_MACHINE_EPSILON); /* of the first gradient: smaller ones are no gain, be it that the unknowns run off */
+  const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  PetscCall(IPStiffnessTerms(tao, &terms));
+  PetscCall(VecNorm(ip->stiff.hdiag, NORM_2, &stiffness));
+  ip->scale.dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
+  if (limited) ip->scale.dual = PetscMax(ip->scale.dual, norm);
+  ip->scale.dual = PetscMax(ip->scale.dual, PetscMax(rounding * terms, least * ip->first.gradient) / ip->tol);
+  PetscFunctionReturn(0);
+}
+
+/* An absolute limit as it was given, or what the scaling has */
+PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
+{
+  if (given >= 0.0) return given;
+  return ip->opt.scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
+}
+
+/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
+   forces against the forces that cancel, constraints against their largest value, products t z against length times
+   pressure. Where these vanish, small fractions of first values, and of the stiffness's pressure, take their place. */
+PetscErrorCode IPComputeScale(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     xsize, z;
+  IPScale      *s = &ip->scale;
+
+  PetscFunctionBegin;
+  *s = (IPScale){ip->first.unit, 1.0, 1.0, ip->first.unit, 0.0, ip->first.unit, PETSC_INFINITY};
+  if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  *s = (IPScale){.dual = 0.0};
+  PetscCall(DualScale(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first.x), ip->first.x);
+  if (ip->mi) PetscCall(InequalityScale(tao, xsize));
+  if (ip->me) PetscCall(EqualityScale(tao));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
+    s->product = PetscMax(s->product, xsize * PetscMax(z, IP_VANISHING * ip->stiff.hscale * xsize));
+  }
+  if (!(s->dual > 0.0)) s->dual = 1.0;
+  if (!(s->length > 0.0)) s->length = 1.0;
+  if (!(s->equality > 0.0)) s->equality = 1.0;
+  if (!(s->pressure > 0.0)) s->pressure = 1.0;
+  if (!(s->product > 0.0)) s->product = 1.0;
+  PetscFunctionReturn(0);
+}

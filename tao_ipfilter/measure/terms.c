@@ -1,0 +1,398 @@
+/*
+   Terms sum_i b_i |v_i|, v_i = T_i x + t_i of two components, beside the objective: those of a minimization where b_i is given, friction
+   where it follows the force of an inequality constraint. Optimality has grad f - J^T M lambda - T^T tau = 0 with |tau_i| <= b_i, and
+   tau_i = -b_i v_i / |v_i| where v_i is not zero: tau_i is the projection of tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
+*/
+#include "../ipfilterimpl.h"
+
+#define IP_HARD 1e3 /* times a term's resistance: as stiff as what sticks counts in a sum of terms */
+
+PetscErrorCode IPTermsDestroy(IPTerms *terms)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&terms->given));
+  PetscCall(MatDestroy(&terms->T));
+  PetscCall(VecDestroy(&terms->t));
+  PetscCall(VecDestroy(&terms->limit));
+  PetscCall(VecDestroy(&terms->coefficient));
+  PetscCall(VecDestroy(&terms->warm));
+  PetscCall(VecDestroy(&terms->force));
+  PetscCall(VecDestroy(&terms->best));
+  PetscCall(VecDestroy(&terms->last));
+  PetscCall(VecDestroy(&terms->rho));
+  PetscCall(VecDestroy(&terms->dead));
+  PetscCall(PetscMemzero(terms, sizeof(*terms)));
+  PetscFunctionReturn(0);
+}
+
+/* A copy of T without the columns of fixed variables; T itself where there are none */
+static PetscErrorCode TermsTakeMatrix(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPTerms      *terms = &ip->terms;
+  Vec           mask;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&terms->T));
+  if (ip->fixed) {
+    PetscCall(MatDuplicate(terms->given, MAT_COPY_VALUES, &terms->T));
+    PetscCall(IPGetWork(tao, IP_UNKNOWNS, &mask));
+    PetscCall(VecSet(mask, 1.0));
+    PetscCall(IPFixedZero(tao, mask));
+    PetscCall(MatDiagonalScale(terms->T, NULL, mask));
+    PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &mask));
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)terms->given));
+    terms->T = terms->given;
+  }
+  terms->stamp.value_id = terms->stamp.pattern_id = ((PetscObject)terms->T)->id;
+  PetscCall(PetscObjectStateGet((PetscObject)terms->T, &terms->stamp.value_state));
+  PetscCall(MatGetNonzeroState(terms->T, &terms->stamp.pattern_state));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TermsCheckSizes(Tao tao)
+{
+  const IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  MPI_Comm       comm  = PetscObjectComm((PetscObject)tao);
+  PetscInt       n, nt, columns, rows, constraints = 0;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(terms->given, &rows, &columns));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(VecGetLocalSize(terms->t, &nt));
+  PetscCheck(columns == n && nt == rows && rows % 2 == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "T of the norm terms has %" PetscInt_FMT " rows and %" PetscInt_FMT " columns here, t %" PetscInt_FMT " entries; wanted: two rows a term, as many columns as the solution has entries, %" PetscInt_FMT, rows, columns, nt, n);
+  if (terms->limit) {
+    PetscCall(VecGetLocalSize(terms->limit, &nt));
+    PetscCheck(2 * nt == rows, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The limits of %" PetscInt_FMT " norm terms are %" PetscInt_FMT, rows / 2, nt);
+  }
+  if (terms->coefficient) {
+    PetscCall(VecGetLocalSize(terms->coefficient, &nt));
+    if (tao->ineq_constrained) PetscCall(VecGetLocalSize(tao->constraints_inequality, &constraints));
+    PetscCheck(2 * nt == rows && nt == constraints, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "There are %" PetscInt_FMT " coefficients of %" PetscInt_FMT " norm terms and %" PetscInt_FMT " inequality constraints; with coefficients there is one term a constraint", nt, rows / 2, constraints);
+  }
+  PetscCheck(terms->limit || terms->coefficient, comm, PETSC_ERR_ARG_WRONG, "Norm terms have limits, coefficients, or both");
+  PetscFunctionReturn(0);
+}
+
+/* Takes from the two components what they have along a dead direction, of length 1 or 0 */
+void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
+{
+  const PetscScalar along = dead[0] * v[0] + dead[1] * v[1];
+
+  for (PetscInt a = 0; a < 2; a++) v[a] -= along * dead[a];
+}
+
+/* v = T x + t, without what it has along dead directions */
+PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
+{
+  IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  const PetscScalar *dead;
+  PetscScalar       *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MatMultAdd(terms->given, x, terms->t, v));
+  PetscCall(VecGetLocalSize(terms->rho, &n));
+  PetscCall(VecGetArrayRead(terms->dead, &dead));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i++) IPTermRemoveDead(dead + 2 * i, a + 2 * i);
+  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(VecRestoreArrayRead(terms->dead, &dead));
+  PetscFunctionReturn(0);
+}
+
+/* What a solve begins with, but for the resistances */
+PetscErrorCode IPTermsSetUp(Tao tao)
+{
+  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  terms->n = 0;
+  if (!terms->given) PetscFunctionReturn(0);
+  PetscCall(TermsCheckSizes(tao));
+  PetscCall(MatGetSize(terms->given, &terms->n, NULL));
+  terms->n /= 2;
+  PetscCall(TermsTakeMatrix(tao));
+  if (!terms->force) {
+    PetscCall(VecDuplicate(terms->t, &terms->force));
+    PetscCall(VecDuplicate(terms->t, &terms->best));
+    PetscCall(VecDuplicate(terms->t, &terms->last));
+    PetscCall(VecDuplicate(terms->t, &terms->dead));
+    PetscCall(VecGetLocalSize(terms->t, &n));
+    PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), &terms->rho));
+    PetscCall(VecSetSizes(terms->rho, n / 2, PETSC_DETERMINE));
+    PetscCall(VecSetType(terms->rho, VECSTANDARD));
+  }
+  if (terms->warm) PetscCall(VecCopy(terms->warm, terms->force));
+  else PetscCall(VecSet(terms->force, 0.0));
+  PetscCall(VecZeroEntries(terms->dead));
+  PetscFunctionReturn(0);
+}
+
+/* r -= T^T tau */
+PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
+{
+  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  Vec      force;
+
+  PetscFunctionBegin;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(MatMultTranspose(terms->T, terms->force, force));
+  PetscCall(VecAXPY(r, -1.0, force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscFunctionReturn(0);
+}
+
+PetscReal IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force)
+{
+  if (coefficient < 0.0) return limit; /* it follows no constraint */
+  if (!(force > 0.0) || coefficient == 0.0) return 0.0;
+  return coefficient >= PETSC_INFINITY ? limit : PetscMin(limit, coefficient * force);
+}
+
+/* |tau - P(tau - rho v)| / rho of the two components */
+PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho, PetscReal bound)
+{
+  PetscReal b[2], size, square = 0.0;
+
+  for (PetscInt a = 0; a < 2; a++) b[a] = PetscRealPart(tau[a] - rho * v[a]);
+  size = PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
+  for (PetscInt a = 0; a < 2; a++) square += PetscSqr(PetscRealPart(tau[a]) - (size > bound ? bound * b[a] / size : b[a]));
+  return PetscSqrtReal(square) / rho;
+}
+
+/* b of each term, for forces M lambda of the constraints */
+static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
+{
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
+  IPTerms           *terms = &ip->terms;
+  const PetscScalar *limit = NULL, *coefficient = NULL, *scale = NULL, *f;
+  PetscScalar       *b;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(bounds, &n));
+  PetscCall(VecGetArrayWrite(bounds, &b));
+  PetscCall(VecGetArrayRead(force, &f));
+  if (terms->limit) PetscCall(VecGetArrayRead(terms->limit, &limit));
+  if (terms->coefficient) PetscCall(VecGetArrayRead(terms->coefficient, &coefficient));
+  if (ip->rows.inequality) PetscCall(VecGetArrayRead(ip->rows.inequality, &scale));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal most = limit ? PetscRealPart(limit[i]) : PETSC_INFINITY;
+
+    b[i] = coefficient ? IPTermBound(most, PetscRealPart(coefficient[i]), PetscRealPart(f[i]) * (scale ? PetscRealPart(scale[i]) : 1.0)) : most;
+  }
+  if (ip->rows.inequality) PetscCall(VecRestoreArrayRead(ip->rows.inequality, &scale));
+  if (terms->coefficient) PetscCall(VecRestoreArrayRead(terms->coefficient, &coefficient));
+  if (terms->limit) PetscCall(VecRestoreArrayRead(terms->limit, &limit));
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCall(VecRestoreArrayWrite(bounds, &b));
+  PetscFunctionReturn(0);
+}
+
+/* sum_i b_i |v_i(x)|, b for forces M lambda of the constraints; those that nothing moves, which are the same anywhere, are left out */
+PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
+{
+  IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  const PetscScalar *b, *v, *rho;
+  PetscInt           n;
+  Vec                bounds, value;
+
+  PetscFunctionBegin;
+  *sum = 0.0;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(terms->rho, &bounds));
+  PetscCall(VecDuplicate(terms->t, &value));
+  PetscCall(TermsGetBounds(tao, force, bounds));
+  PetscCall(IPTermsValue(tao, x, value));
+  PetscCall(VecGetLocalSize(bounds, &n));
+  PetscCall(VecGetArrayRead(bounds, &b));
+  PetscCall(VecGetArrayRead(value, &v));
+  PetscCall(VecGetArrayRead(terms->rho, &rho));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal size = PetscSqrtReal(PetscSqr(PetscAbsScalar(v[2 * i])) + PetscSqr(PetscAbsScalar(v[2 * i + 1])));
+
+    if (size > 0.0 && PetscRealPart(rho[i]) > 0.0) *sum += PetscMin(PetscRealPart(b[i]), IP_HARD * PetscRealPart(rho[i]) * size) * size;
+  }
+  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
+  PetscCall(VecRestoreArrayRead(value, &v));
+  PetscCall(VecRestoreArrayRead(bounds, &b));
+  PetscCall(VecDestroy(&value));
+  PetscCall(VecDestroy(&bounds));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* The largest length by which a term's law is missed: slip that its force does not oppose, or a force out of its disc over the resistance */
+PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
+{
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
+  IPTerms           *terms = &ip->terms;
+  const PetscScalar *tau, *value, *rho, *b;
+  PetscReal          local = 0.0;
+  PetscInt           n;
+  Vec                v, force, bounds;
+
+  PetscFunctionBegin;
+  *largest = 0.0;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(terms->t, &v));
+  PetscCall(VecDuplicate(terms->rho, &bounds));
+  PetscCall(IPTermsValue(tao, tao->solution, v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+  PetscCall(TermsGetBounds(tao, force, bounds));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecGetLocalSize(terms->rho, &n));
+  PetscCall(VecGetArrayRead(v, &value));
+  PetscCall(VecGetArrayRead(bounds, &b));
+  PetscCall(VecGetArrayRead(terms->force, &tau));
+  PetscCall(VecGetArrayRead(terms->rho, &rho));
+  for (PetscInt i = 0; i < n; i++) {
+    if (PetscRealPart(rho[i]) > 0.0) local = PetscMax(local, IPTermViolation(tau + 2 * i, value + 2 * i, PetscRealPart(rho[i]), PetscRealPart(b[i])));
+  }
+  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
+  PetscCall(VecRestoreArrayRead(terms->force, &tau));
+  PetscCall(VecRestoreArrayRead(bounds, &b));
+  PetscCall(VecRestoreArrayRead(v, &value));
+  PetscCall(VecDestroy(&bounds));
+  PetscCall(VecDestroy(&v));
+  PetscCallMPI(MPI_Allreduce(&local, largest, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TermsReference(Vec given, Vec *own)
+{
+  PetscFunctionBegin;
+  if (given) PetscCall(PetscObjectReference((PetscObject)given));
+  *own = given;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao tao, Mat T, Vec t, Vec limit, Vec coefficient)
+{
+  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+
+  PetscFunctionBegin;
+  if (T) PetscCall(PetscObjectReference((PetscObject)T));
+  PetscCall(IPTermsDestroy(terms));
+  terms->given = T;
+  if (!T) PetscFunctionReturn(0);
+  PetscCall(TermsReference(t, &terms->t));
+  PetscCall(TermsReference(limit, &terms->limit));
+  PetscCall(TermsReference(coefficient, &terms->coefficient));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao tao, Vec force)
+{
+  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+
+  PetscFunctionBegin;
+  if (!terms->warm) PetscCall(VecDuplicate(force, &terms->warm));
+  PetscCall(VecCopy(force, terms->warm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
+{
+  PetscFunctionBegin;
+  *force = ((TAO_IPFILTER *)tao->data)->terms.force;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, whose weights may follow the multipliers of inequality constraints: friction
+
+  Collective
+
+  Input Parameters:
++ tao         - the `TAOIPFILTER`
+. T           - two rows a term, `MATAIJ`, its columns laid out as the solution; NULL: no terms any longer
+. t           - two entries a term, laid out as the rows of T
+. limit       - largest weight of each term, not negative; NULL: none
+- coefficient - of each term, not negative: its weight follows the force of the inequality constraint of the same number on this rank; NULL: weights are the limits
+
+  Level: intermediate
+
+  Notes:
+  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives it; `PETSC_INFINITY` is no limit,
+  as a coefficient one with any force of the constraint whatever. With coefficients there are as many terms as constraints.
+
+  With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law, which is none: the solution x, y, tau has
+  grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
+
+  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method, whose reduced problem, of the size of what T and the constraints touch,
+  holds all that is not smooth; where the objective is not quadratic by Newton's method on it. Residuals of the laws
+  are part of the KKT error: the largest length by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
+
+  Matrix and vectors are referenced: they must not change during `TaoSolve()`.
+
+  Errors if sizes do not fit. Ends with `TAO_DIVERGED_USER` where the problem is of another kind, or no solution of the laws is found.
+
+  References:
++ * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods, Comput. Methods Appl. Mech. Engrg. 92 (1991)
+- * - M. Yuan and Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Statist. Soc. B 68 (2006)
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetNormTermForces()`, `TaoIPFilterSetNormTermForces()`, `TaoIPFilterSetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterSetNormTerms(Tao tao, Mat T, Vec t, Vec limit, Vec coefficient)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (T) PetscValidHeaderSpecific(T, MAT_CLASSID, 2);
+  if (T) PetscValidHeaderSpecific(t, VEC_CLASSID, 3);
+  if (limit) PetscValidHeaderSpecific(limit, VEC_CLASSID, 4);
+  if (coefficient) PetscValidHeaderSpecific(coefficient, VEC_CLASSID, 5);
+  PetscTryMethod(tao, "TaoIPFilterSetNormTerms_C", (Tao, Mat, Vec, Vec, Vec), (tao, T, t, limit, coefficient));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetNormTermForces - Sets the forces of norm terms that a solve begins with
+
+  Logically Collective
+
+  Input Parameters:
++ tao   - the `TAOIPFILTER`, after `TaoIPFilterSetNormTerms()`
+- force - two entries a term, laid out as the rows of T; copied
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetNormTermForces()`, `TaoIPFilterSetWarmStart()`
+@*/
+PetscErrorCode TaoIPFilterSetNormTermForces(Tao tao, Vec force)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidHeaderSpecific(force, VEC_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetNormTermForces_C", (Tao, Vec), (tao, force));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterGetNormTermForces - Gets the forces tau of the norm terms, with grad f = J^T y + T^T tau
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. force - two entries a term, laid out as the rows of T; owned by `tao`; NULL before a solve with norm terms
+
+  Level: intermediate
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`, `TaoIPFilterSetNormTermForces()`
+@*/
+PetscErrorCode TaoIPFilterGetNormTermForces(Tao tao, Vec *force)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscAssertPointer(force, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetNormTermForces_C", (Tao, Vec *), (tao, force));
+  PetscFunctionReturn(0);
+}

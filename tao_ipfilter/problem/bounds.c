@@ -1,0 +1,199 @@
+/* Variable bounds x_l <= x <= x_u as complementarity pairs. */
+#include "../ipfilterimpl.h"
+
+/* Whether an entry of a bound makes a pair: finite, and not of a fixed variable; other: its counterpart, or NULL */
+static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
+{
+  return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
+}
+
+/* x - b, or b - x, that rounding has not made zero or negative */
+static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign)
+{
+  return PetscMax(sign * (x - b), PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
+}
+
+/* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
+static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, Vec t)
+{
+  const PetscScalar *xa, *ba, *oa = NULL;
+  PetscScalar       *ta;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetArrayRead(x, &xa));
+  PetscCall(VecGetArrayRead(bound, &ba));
+  if (other) PetscCall(VecGetArrayRead(other, &oa));
+  PetscCall(VecGetArrayWrite(t, &ta));
+  for (PetscInt i = 0; i < n; i++) ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign) : PETSC_INFINITY;
+  PetscCall(VecRestoreArrayWrite(t, &ta));
+  if (other) PetscCall(VecRestoreArrayRead(other, &oa));
+  PetscCall(VecRestoreArrayRead(bound, &ba));
+  PetscCall(VecRestoreArrayRead(x, &xa));
+  PetscFunctionReturn(0);
+}
+
+/* Distances of x from its bounds, into t of the pairs or into their trial vectors */
+PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
+
+  PetscFunctionBegin;
+  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, lower->sign, trial ? lower->trial : lower->t));
+  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, upper->sign, trial ? upper->trial : upper->t));
+  PetscFunctionReturn(0);
+}
+
+/* Entries of a bound vector that make pairs, over all ranks */
+static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
+{
+  const PetscScalar *b, *o    = NULL;
+  PetscInt           n, local = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(bound, &n));
+  PetscCall(VecGetArrayRead(bound, &b));
+  if (other) PetscCall(VecGetArrayRead(other, &o));
+  for (PetscInt i = 0; i < n; i++) local += Bounds(b[i], o ? &o[i] : NULL);
+  if (other) PetscCall(VecRestoreArrayRead(other, &o));
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCallMPI(MPI_Allreduce(&local, count, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)bound)));
+  PetscFunctionReturn(0);
+}
+
+/* Pairs for the finite bounds. Their weight is the mean of M_s, so that t z has one unit, that of mu, in all pairs. */
+PetscErrorCode IPBoundsSetUp(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     w  = ip->mi ? ip->pair[IP_SLACK].weight / ip->mi : 1.0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair  *p     = &ip->pair[b];
+    Vec      bound = b == IP_LOWER ? tao->XL : tao->XU;
+    PetscInt count = 0;
+
+    if (bound) PetscCall(BoundCount(bound, b == IP_LOWER ? tao->XU : tao->XL, &count));
+    if (count && !p->t) PetscCall(IPPairCreate(tao->solution, NULL, b == IP_LOWER ? 1.0 : -1.0, p));
+    if (!count) PetscCall(IPPairDestroy(p));
+    p->n      = count;
+    p->weight = w * count;
+    if (count) PetscCall(VecSet(p->w, w));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether this solve begins with multipliers of the bounds that the caller gave; without those of the rows they are of no use */
+PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) && (!ip->mi || ip->given.warm_s));
+}
+
+/* Size of an unknown and its bound; all: of all unknowns */
+static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
+{
+  const PetscReal size = PetscMax(PetscAbsReal(bound), PetscAbsReal(x));
+
+  return size > 0.0 ? size : (all > 0.0 ? all : 1.0);
+}
+
+/* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances.
+   The margin is a fraction of the bound's or of the unknown's own size, or, where both are zero, of that of all unknowns, and of the
+   distance between the bounds where that is less: a far bound that means none pushes nothing away from the other one. Next to nothing
+   of it where multipliers are given that tell how near to its bounds x belongs. */
+PetscErrorCode IPBoundsPush(Tao tao)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : ip->opt.bound_push;
+  Vec                v[2] = {tao->XL, tao->XU};
+  const PetscScalar *b[2] = {NULL, NULL};
+  PetscScalar       *x;
+  PetscReal          size;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  if (!ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n) PetscFunctionReturn(0);
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecGetArrayRead(v[k], &b[k]));
+  PetscCall(VecGetArray(tao->solution, &x));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
+    const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
+    const PetscReal distance = hasl && hasu ? u - l : PETSC_INFINITY;
+
+    if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
+    if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), l, size)));
+    if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), u, size)));
+  }
+  PetscCall(VecRestoreArray(tao->solution, &x));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* dt = dx for lower bounds, -dx for upper ones */
+PetscErrorCode IPBoundsDirection(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (p->n) PetscCall(VecAXPBY(p->dt, p->sign, 0.0, ip->dir.x));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* v += the forces w target / t of the bounds, towards the interior */
+PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(IPPairGetForce(p, force));
+    PetscCall(VecAXPY(v, p->sign, force));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of the bounds on the central path of the present mu */
+PetscErrorCode IPBoundsCenter(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of the bounds in TAO's convention, which has the gradient of f + DE^T c_E - DI^T c_I be DL + DU: those of upper bounds are
+   negative */
+PetscErrorCode IPBoundsMultipliers(Tao tao, Vec DL, Vec DU)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    const IPPair *p = &ip->pair[b];
+    Vec           D = b == IP_LOWER ? DL : DU;
+
+    if (p->n) {
+      PetscCall(VecPointwiseMult(D, p->w, p->z));
+      PetscCall(VecScale(D, p->sign));
+    } else PetscCall(VecSet(D, 0.0));
+  }
+  PetscFunctionReturn(0);
+}

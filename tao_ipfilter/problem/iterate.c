@@ -1,0 +1,122 @@
+/* Iterates and directions: made, copied and destroyed as wholes, so that no part of one is left behind. */
+#include "../ipfilterimpl.h"
+
+static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
+{
+  PetscFunctionBegin;
+  if (!layout) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(layout, v));
+  PetscCall(VecSet(*v, 0.0));
+  PetscFunctionReturn(0);
+}
+
+/* The point and the values of the constraints there; a layout of NULL: none. Slacks and multipliers are the caller's to make. */
+PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *it)
+{
+  PetscFunctionBegin;
+  PetscCall(DuplicateUnlessNull(x, &it->x));
+  PetscCall(DuplicateUnlessNull(c, &it->c));
+  PetscCall(DuplicateUnlessNull(ce, &it->ce));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReferenceInto(Vec from, Vec *to)
+{
+  PetscFunctionBegin;
+  if (from) PetscCall(PetscObjectReference((PetscObject)from));
+  PetscCall(VecDestroy(to));
+  *to = from;
+  PetscFunctionReturn(0);
+}
+
+/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the trial slacks: called
+   where any of them may have been made anew. The best iterate gets room for what the current one has. */
+PetscErrorCode IPIterateBind(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  IPIterate    *best = &ip->best;
+
+  PetscFunctionBegin;
+  PetscCall(ReferenceInto(tao->solution, &ip->at.x));
+  PetscCall(ReferenceInto(ip->pair[IP_SLACK].t, &ip->at.s));
+  PetscCall(ReferenceInto(ip->pair[IP_SLACK].trial, &ip->trial.s));
+  if (!best->s) PetscCall(DuplicateUnlessNull(ip->at.s, &best->s));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscCall(ReferenceInto(ip->pair[b].z, &ip->at.z[b]));
+    if (!ip->at.z[b]) PetscCall(VecDestroy(&best->z[b]));
+    else if (!best->z[b]) PetscCall(DuplicateUnlessNull(ip->at.z[b], &best->z[b]));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CopyUnlessNull(Vec from, Vec to)
+{
+  PetscFunctionBegin;
+  if (from && to) PetscCall(VecCopy(from, to));
+  PetscFunctionReturn(0);
+}
+
+/* The point and the values of the caller's functions there */
+PetscErrorCode IPIterateCopyPoint(const IPIterate *from, IPIterate *to)
+{
+  PetscFunctionBegin;
+  PetscCall(CopyUnlessNull(from->x, to->x));
+  PetscCall(CopyUnlessNull(from->c, to->c));
+  PetscCall(CopyUnlessNull(from->ce, to->ce));
+  to->f = from->f;
+  PetscFunctionReturn(0);
+}
+
+/* All that both have */
+PetscErrorCode IPIterateCopy(const IPIterate *from, IPIterate *to)
+{
+  PetscFunctionBegin;
+  PetscCall(IPIterateCopyPoint(from, to));
+  PetscCall(CopyUnlessNull(from->s, to->s));
+  PetscCall(CopyUnlessNull(from->lambda, to->lambda));
+  PetscCall(CopyUnlessNull(from->y, to->y));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(CopyUnlessNull(from->z[b], to->z[b]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPIterateDestroy(IPIterate *it)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&it->x));
+  PetscCall(VecDestroy(&it->c));
+  PetscCall(VecDestroy(&it->ce));
+  PetscCall(VecDestroy(&it->s));
+  PetscCall(VecDestroy(&it->lambda));
+  PetscCall(VecDestroy(&it->y));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(VecDestroy(&it->z[b]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPDirectionCreate(Vec x, Vec c, Vec ce, IPDirection *d)
+{
+  PetscFunctionBegin;
+  PetscCall(DuplicateUnlessNull(x, &d->x));
+  PetscCall(DuplicateUnlessNull(c, &d->lambda));
+  PetscCall(DuplicateUnlessNull(ce, &d->y));
+  PetscFunctionReturn(0);
+}
+
+/* All that both have */
+PetscErrorCode IPDirectionCopy(const IPDirection *from, IPDirection *to)
+{
+  PetscFunctionBegin;
+  PetscCall(CopyUnlessNull(from->x, to->x));
+  PetscCall(CopyUnlessNull(from->lambda, to->lambda));
+  PetscCall(CopyUnlessNull(from->y, to->y));
+  to->norm = from->norm;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPDirectionDestroy(IPDirection *d)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&d->x));
+  PetscCall(VecDestroy(&d->lambda));
+  PetscCall(VecDestroy(&d->y));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,168 @@
+/* The constraints' Jacobians as the iteration sees them: as AIJ, rows scaled, columns of fixed variables zeroed. */
+#include "../ipfilterimpl.h"
+
+PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&jac->inequality));
+  PetscCall(MatDestroy(&jac->equality));
+  PetscCall(MatDestroy(&jac->converted[0]));
+  PetscCall(MatDestroy(&jac->converted[1]));
+  PetscCall(PetscMemzero(jac, sizeof(*jac)));
+  PetscFunctionReturn(0);
+}
+
+/* A copy with rows scaled and the columns of fixed variables zeroed, or the Jacobian itself where nothing is to be done */
+static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
+{
+  Vec mask;
+
+  PetscFunctionBegin;
+  if (!scale && !((TAO_IPFILTER *)tao->data)->fixed) {
+    PetscCall(PetscObjectReference((PetscObject)J));
+    *scaled = J;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, scaled));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &mask));
+  PetscCall(VecSet(mask, 1.0));
+  PetscCall(IPFixedZero(tao, mask));
+  PetscCall(MatDiagonalScale(*scaled, scale, mask));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &mask));
+  PetscFunctionReturn(0);
+}
+
+/* A Jacobian of the caller's as AIJ: itself, or converted; converted may be NULL for one that is AIJ */
+static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
+{
+  PetscBool aij;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)user, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  if (aij && converted) PetscCall(MatDestroy(converted));
+  if (!aij) PetscCall(IPMatrixConvert(user, converted));
+  *J = aij ? user : *converted;
+  PetscFunctionReturn(0);
+}
+
+/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or of products does not tell whether it
+   is, nor does its conversion have a pattern of its own: zeros may be dropped. */
+static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
+{
+  PetscObjectState state;
+  Mat              J;
+
+  PetscFunctionBegin;
+  PetscCall(JacobianAsAIJ(user, converted, &J));
+  PetscCall(PetscObjectStateGet((PetscObject)J, &state));
+  if (*taken && state == stamp->value_state && stamp->value_id == ((PetscObject)J)->id) PetscFunctionReturn(0);
+  PetscCall(MatDestroy(taken));
+  stamp->value_state = state;
+  stamp->value_id = stamp->pattern_id = ((PetscObject)J)->id;
+  PetscCall(MatGetNonzeroState(J, &stamp->pattern_state));
+  PetscCall(JacobianScale(tao, J, scale, taken));
+  PetscFunctionReturn(0);
+}
+
+/* Rows of a matrix of this rank, by their numbers from its first one, or all of them: into another one from the row at on */
+static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows[], Mat to, PetscInt at)
+{
+  PetscInt rstart;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(from, &rstart, NULL));
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscInt     row = rstart + (rows ? rows[k] : k), target = at + k;
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           nc;
+
+    PetscCall(MatGetRow(from, row, &nc, &columns, &values));
+    PetscCall(MatSetValues(to, 1, &target, nc, columns, values, INSERT_VALUES));
+    PetscCall(MatRestoreRow(from, row, &nc, &columns, &values));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Longest row of this rank */
+static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; i++) {
+    PetscInt nc;
+
+    PetscCall(MatGetRow(J, i, &nc, NULL, NULL));
+    *longest = PetscMax(*longest, nc);
+    PetscCall(MatRestoreRow(J, i, &nc, NULL, NULL));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The caller's equality Jacobian, if it has one, with the rows of the inequality Jacobian that have equal bounds behind it on each rank */
+static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
+{
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  const IPSides *sides = &ip->sides;
+  PetscInt       nown = 0, m, n, rstart, longest = 0;
+
+  PetscFunctionBegin;
+  if (own) PetscCall(MatGetLocalSize(own, &nown, NULL));
+  if (own) PetscCall(JacobianLongestRow(own, &longest));
+  PetscCall(JacobianLongestRow(all, &longest));
+  PetscCall(VecGetLocalSize(ip->at.ce, &m));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)tao), m, n, PETSC_DETERMINE, PETSC_DETERMINE, PetscMin(longest, n), NULL, longest, NULL, stack));
+  PetscCall(MatSetOption(*stack, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  PetscCall(MatGetOwnershipRange(*stack, &rstart, NULL));
+  if (own) PetscCall(JacobianCopyRows(own, nown, NULL, *stack, rstart));
+  PetscCall(JacobianCopyRows(all, sides->nequal, sides->equal, *stack, rstart + nown));
+  PetscCall(MatAssemblyBegin(*stack, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*stack, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* The same where rows have equal bounds, kept as converted matrices are. The inequality Jacobian has been taken over, and converted if need be. */
+static PetscErrorCode JacobianTakeStack(Tao tao)
+{
+  TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  IPJacobian   *jac = &ip->jac;
+  Mat           own = NULL, fresh, converted = NULL;
+
+  PetscFunctionBegin;
+  if (ip->me > ip->sides.nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted, &own));
+  PetscCall(JacobianStack(tao, own, jac->converted[0] ? jac->converted[0] : tao->jacobian_inequality, &fresh));
+  PetscCall(IPMatrixKeep(&fresh, &jac->converted[1]));
+  PetscCall(MatDestroy(&converted));
+  PetscCall(JacobianTake(tao, jac->converted[1], ip->rows.equality, NULL, &jac->equality, &jac->equality_stamp));
+  PetscFunctionReturn(0);
+}
+
+/* Takes over the equality Jacobian at tao->solution, after that of the inequalities */
+PetscErrorCode IPJacobianEquality(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->sides.nall) PetscCall(JacobianTakeStack(tao));
+  else PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality, &ip->jac.equality_stamp));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPJacobianInequality(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  Vec           scale = NULL;
+
+  PetscFunctionBegin;
+  if (ip->sides.sign) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &scale));
+    if (ip->rows.inequality) PetscCall(VecPointwiseMult(scale, ip->sides.sign, ip->rows.inequality));
+    else PetscCall(VecCopy(ip->sides.sign, scale));
+  }
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows.inequality, &ip->jac.converted[0], &ip->jac.inequality, &ip->jac.inequality_stamp));
+  if (scale) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &scale));
+  PetscFunctionReturn(0);
+}

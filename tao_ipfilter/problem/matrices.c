@@ -1,0 +1,185 @@
+/*
+   The caller's matrices by type. AIJ, and Hessians that are BAIJ, SBAIJ or dense, are taken as they are; what MatConvert() makes AIJ of is converted at every
+   evaluation; what gives products alone serves as a Hessian to solvers that need no more, and is read column by column where there are few.
+*/
+#include "../ipfilterimpl.h"
+
+#define IP_COLUMNS_MAX 1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */
+
+/* Types that MatConvert() has a way for without rows at hand */
+static const char *const converted_types[] = {MATNEST, MATIS, MATHYPRE, MATTRANSPOSEVIRTUAL, NULL};
+
+/* Preconditioners that read the entries of their matrix. A type that is not here may be the caller's own. */
+static const char *const reading_pcs[] = {PCAMGF, PCHYPRE, PCGAMG, PCML, PCMG, PCHMG, PCBJACOBI, PCASM, PCGASM, PCSOR, PCEISENSTAT, PCLU, PCILU, PCCHOLESKY, PCICC, PCQR, PCSVD, PCREDUNDANT, PCTELESCOPE, PCPBJACOBI, PCVPBJACOBI, PCKACZMARZ, PCSPAI, PCBDDC, PCNN, PCFIELDSPLIT, PCTFS, PCDEFLATION, PCCP, NULL};
+
+static PetscErrorCode MatrixIsOneOf(PetscObject object, const char *const types[], PetscBool *is)
+{
+  PetscFunctionBegin;
+  *is = PETSC_FALSE;
+  for (PetscInt k = 0; types[k] && !*is; k++) PetscCall(PetscObjectTypeCompare(object, types[k], is));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatrixHasRows(Mat A, PetscBool *has)
+{
+  PetscBool half;
+
+  PetscFunctionBegin;
+  PetscCall(MatHasOperation(A, MATOP_GET_ROW, has));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &half, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  *has = (PetscBool)(*has || half);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatrixHasEntries(Mat, PetscBool *);
+
+/* Whether every block of a nest has entries */
+static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
+{
+  PetscInt m, n;
+  Mat    **blocks;
+
+  PetscFunctionBegin;
+  PetscCall(MatNestGetSubMats(A, &m, &n, &blocks));
+  for (PetscInt k = 0; k < m * n && *has; k++)
+    if (blocks[k / n][k % n]) PetscCall(MatrixHasEntries(blocks[k / n][k % n], has));
+  PetscFunctionReturn(0);
+}
+
+/* Whether a matrix can be read, as it is or converted */
+static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
+{
+  PetscBool nest;
+
+  PetscFunctionBegin;
+  PetscCall(MatrixHasRows(A, has));
+  if (*has) PetscFunctionReturn(0);
+  PetscCall(MatrixIsOneOf((PetscObject)A, converted_types, has));
+  PetscCall(PetscObjectTypeCompare((PetscObject)A, MATNEST, &nest));
+  if (nest) PetscCall(NestHasEntries(A, has));
+  PetscFunctionReturn(0);
+}
+
+/* Whether two matrices of one layout have the same nonzeros, on all ranks */
+PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  *same = PETSC_TRUE;
+  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend && *same; i++) {
+    PetscInt        na, nb;
+    const PetscInt *a, *b;
+
+    PetscCall(MatGetRow(A, i, &na, &a, NULL));
+    PetscCall(MatGetRow(B, i, &nb, &b, NULL));
+    *same = (PetscBool)(na == nb);
+    if (*same) PetscCall(PetscArraycmp(a, b, na, same));
+    PetscCall(MatRestoreRow(B, i, &nb, &b, NULL));
+    PetscCall(MatRestoreRow(A, i, &na, &a, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)A)));
+  PetscFunctionReturn(0);
+}
+
+/* A fresh matrix into the kept one where the pattern is the same, so that what was made from it serves again; else in its place */
+PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
+{
+  PetscBool same = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (*kept) PetscCall(IPMatrixSamePattern(*kept, *fresh, &same));
+  if (same) {
+    PetscCall(MatCopy(*fresh, *kept, SAME_NONZERO_PATTERN));
+    PetscCall(MatDestroy(fresh));
+  } else {
+    PetscCall(MatDestroy(kept));
+    *kept = *fresh;
+  }
+  *fresh = NULL;
+  PetscFunctionReturn(0);
+}
+
+/* A matrix as AIJ, kept */
+PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
+{
+  PetscBool has;
+  Mat       fresh;
+
+  PetscFunctionBegin;
+  PetscCall(MatrixHasEntries(A, &has));
+  if (has) PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &fresh));
+  else PetscCall(MatComputeOperator(A, MATAIJ, &fresh));
+  PetscCall(IPMatrixKeep(&fresh, kept));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the Hessian's entries are needed, what for, and what could be done without them */
+static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *reader[], const char *instead[])
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PC            pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PCGetType(pc, reader));
+  *instead = ", or choose -tao_ipfilter_pc_type none, jacobi, shell or a type of your own";
+  PetscCall(MatrixIsOneOf((PetscObject)pc, reading_pcs, needed));
+  if (ip->opt.direct_always || (ip->me && ip->opt.equality != IP_EQUALITY_CONDENSED)) {
+    *needed  = PETSC_TRUE;
+    *reader  = ip->opt.direct_always ? "-tao_ipfilter_direct" : "the augmented system of equality constraints";
+    *instead = "";
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A Jacobian is read by rows, whatever solves */
+static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
+{
+  MPI_Comm  comm = PetscObjectComm((PetscObject)tao);
+  PetscBool has;
+  PetscInt  n;
+  MatType   type;
+
+  PetscFunctionBegin;
+  PetscCall(MatrixHasEntries(J, &has));
+  PetscCall(MatGetSize(J, NULL, &n));
+  PetscCall(MatGetType(J, &type));
+  PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP, "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than %d unknowns, not %" PetscInt_FMT ": give it as AIJ", kind, type, IP_COLUMNS_MAX, n);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
+{
+  PetscBool nest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)v, VECNEST, &nest));
+  PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "TAOIPFILTER takes no %s of type nest, as MatCreateVecs() makes them for a MATNEST: a plain vector of the same layout will do", what);
+  PetscFunctionReturn(0);
+}
+
+/* Refuses what cannot be worked with, and finds out whether the Hessian is used by products alone. *changed: other than in the last solve. */
+PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
+  PetscBool     has, needed;
+  const char   *reader, *instead;
+  MatType       type;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(CheckVector(tao, tao->solution, "solution"));
+  if (ip->mi) PetscCall(CheckJacobian(tao, tao->jacobian_inequality, "inequality"));
+  if (ip->me > ip->sides.nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
+  PetscCall(MatrixHasEntries(tao->hessian, &has));
+  PetscCall(HessianReader(tao, &needed, &reader, &instead));
+  PetscCall(MatGetSize(tao->hessian, &n, NULL));
+  PetscCall(MatGetType(tao->hessian, &type));
+  PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP, "A Hessian of type %s gives products alone, but %s reads entries, for no more than %d unknowns, not %" PetscInt_FMT ": give it as AIJ%s", type, reader, IP_COLUMNS_MAX, n, instead);
+  *changed          = (PetscBool)(ip->hess.products != (PetscBool)(!has && !needed));
+  ip->hess.products = (PetscBool)(!has && !needed);
+  PetscFunctionReturn(0);
+}

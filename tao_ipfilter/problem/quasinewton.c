@@ -1,0 +1,251 @@
+/*
+   A limited-memory approximation of the Hessian of the Lagrangian, where the caller gives none and differences would cost too much:
+   damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank.
+
+   The matrix that is assembled, and preconditioned, has sigma I in the place of the Hessian. Products with the condensed matrix add the
+   rest, of rank twice the history's length, which costs a Krylov method a few iterations more.
+*/
+#include "../ipfilterimpl.h"
+
+PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *qn)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&qn->B));
+  PetscCall(MatDestroy(&qn->A));
+  PetscCall(MatDestroy(&qn->inequality));
+  PetscCall(MatDestroy(&qn->equality));
+  PetscCall(VecDestroy(&qn->x));
+  PetscCall(VecDestroy(&qn->gradient));
+  PetscCall(VecDestroy(&qn->sum));
+  PetscCall(PetscMemzero(qn, sizeof(*qn)));
+  PetscFunctionReturn(0);
+}
+
+/* y += (B - sigma I) x, on the variables that are not fixed; nothing with a Hessian of the caller's */
+PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           free, Bx;
+
+  PetscFunctionBegin;
+  if (!ip->qn.npairs) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &free));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Bx));
+  PetscCall(VecCopy(x, free));
+  PetscCall(IPFixedZero(tao, free));
+  PetscCall(MatMult(ip->qn.B, free, Bx));
+  PetscCall(VecAXPY(Bx, -ip->qn.sigma, free));
+  PetscCall(IPFixedZero(tao, Bx));
+  PetscCall(VecAXPY(y, 1.0, Bx));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Bx));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &free));
+  PetscFunctionReturn(0);
+}
+
+/* The condensed matrix with all of B */
+static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
+{
+  Tao tao;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(A, &tao));
+  PetscCall(MatMult(((TAO_IPFILTER *)tao->data)->cond.A, x, y));
+  PetscCall(IPQuasiNewtonAdd(tao, x, y));
+  PetscFunctionReturn(0);
+}
+
+/* What a Krylov method multiplies with: the condensed matrix, or one that adds what is not in it */
+Mat IPQuasiNewtonOperator(const TAO_IPFILTER *ip)
+{
+  return ip->qn.npairs ? ip->qn.A : ip->cond.A;
+}
+
+/* g += J^T force, or -J^T force */
+static PetscErrorCode AddTransposed(Mat J, Vec force, PetscReal sign, Vec g)
+{
+  Vec product;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(g, &product));
+  PetscCall(MatMultTranspose(J, force, product));
+  PetscCall(VecAXPY(g, sign, product));
+  PetscCall(VecDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
+/* g += (J - J_old)^T force for a Jacobian of the caller's, of which a copy is kept while it changes */
+static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *old, PetscObjectState *state, Vec g)
+{
+  PetscObjectState now;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)J, &now));
+  if (*old && now != *state && g) {
+    PetscCall(AddTransposed(J, force, sign, g));
+    PetscCall(AddTransposed(*old, force, -sign, g));
+  }
+  if (!*old || now != *state) {
+    PetscCall(MatDestroy(old));
+    PetscCall(MatDuplicate(J, MAT_COPY_VALUES, old));
+  }
+  *state = now;
+  PetscFunctionReturn(0);
+}
+
+/* The changes of x and of the gradient of f + DE^T c_E - DI^T c_I since the last call, for the present multipliers; the last point and the
+   last Jacobians become the present ones. Either may be NULL, for no change. */
+static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
+{
+  TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
+  IPQuasiNewton *qn = &ip->qn;
+
+  PetscFunctionBegin;
+  if (s) PetscCall(VecWAXPY(s, -1.0, qn->x, tao->solution));
+  if (y) PetscCall(VecWAXPY(y, -1.0, qn->gradient, tao->gradient));
+  if (ip->mi) PetscCall(AddJacobianChange(tao->jacobian_inequality, -1.0, tao->DI, &qn->inequality, &qn->inequality_state, y));
+  if (ip->me > ip->sides.nall) PetscCall(AddJacobianChange(tao->jacobian_equality, 1.0, tao->DE, &qn->equality, &qn->equality_state, y));
+  if (y) PetscCall(IPFixedZero(tao, y));
+  PetscCall(VecCopy(tao->solution, qn->x));
+  PetscCall(VecCopy(tao->gradient, qn->gradient));
+  PetscFunctionReturn(0);
+}
+
+/* B's part of full rank, in H, too */
+static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
+{
+  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+
+  PetscFunctionBegin;
+  qn->sigma = sigma;
+  PetscCall(MatLMVMSetJ0Scale(qn->B, sigma));
+  PetscCall(MatZeroEntries(H));
+  PetscCall(MatShift(H, sigma));
+  PetscFunctionReturn(0);
+}
+
+/* At the start: sigma is the curvature of the objective along its gradient, by a difference; 1 where that has none */
+static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
+{
+  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+  PetscReal      size, norm, step;
+  PetscScalar    curvature = 0.0;
+  Vec            near, g;
+
+  PetscFunctionBegin;
+  PetscCall(MatLMVMReset(qn->B, PETSC_FALSE));
+  PetscCall(QuasiNewtonChanges(tao, NULL, NULL));
+  PetscCall(VecSet(qn->sum, 0.0));
+  PetscCall(MatLMVMUpdate(qn->B, x, qn->sum));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &near));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &g));
+  PetscCall(VecNorm(x, NORM_2, &size));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
+  step = norm > 0.0 ? PETSC_SQRT_MACHINE_EPSILON * (size > 0.0 ? size : 1.0) / norm : 0.0;
+  if (step > 0.0) {
+    PetscCall(VecWAXPY(near, -step, tao->gradient, x));
+    PetscCall(TaoComputeGradient(tao, near, g));
+    PetscCall(IPFixedZero(tao, g));
+    PetscCall(VecAYPX(g, -1.0, tao->gradient));
+    PetscCall(VecDot(g, tao->gradient, &curvature));
+    curvature /= step * norm * norm;
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &g));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &near));
+  PetscCall(QuasiNewtonSetScale(tao, H, PetscRealPart(curvature) > 0.0 && !PetscIsInfOrNanScalar(curvature) ? PetscRealPart(curvature) : 1.0));
+  qn->begun = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* y is replaced by a mean of it and of B s that has curvature enough to keep B positive definite */
+static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
+{
+  const PetscReal least = 0.2;
+  PetscScalar     sBs, product;
+  Vec             Bs;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(s, &Bs));
+  PetscCall(MatMult(B, s, Bs));
+  PetscCall(VecDot(s, Bs, &sBs));
+  PetscCall(VecDot(s, y, &product));
+  *sy = PetscRealPart(product);
+  if (*sy < least * PetscRealPart(sBs)) {
+    const PetscReal theta = (1.0 - least) * PetscRealPart(sBs) / (PetscRealPart(sBs) - *sy);
+
+    PetscCall(VecAXPBY(y, 1.0 - theta, theta, Bs));
+    *sy = least * PetscRealPart(sBs);
+  }
+  PetscCall(VecDestroy(&Bs));
+  PetscFunctionReturn(0);
+}
+
+/* B at x, from the steps of this solve */
+static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *ctx)
+{
+  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+  PetscReal      step, sy = 0.0;
+  Vec            s, y;
+
+  PetscFunctionBegin;
+  (void)Hpre;
+  (void)ctx;
+  if (!qn->begun) {
+    PetscCall(QuasiNewtonBegin(tao, x, H));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &s));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &y));
+  PetscCall(QuasiNewtonChanges(tao, s, y));
+  PetscCall(VecNorm(s, NORM_2, &step));
+  if (step > 0.0) {
+    PetscCall(QuasiNewtonDamp(qn->B, s, y, &sy));
+    PetscCall(VecAXPY(qn->sum, 1.0, y));
+    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* which since PETSc 3.22 scales B anew, by another rule */
+    if (sy > 0.0) PetscCall(QuasiNewtonSetScale(tao, H, sy / (step * step)));
+    qn->npairs++;
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &y));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &s));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the steps of the last solve */
+void IPQuasiNewtonReset(IPQuasiNewton *qn)
+{
+  qn->begun  = PETSC_FALSE;
+  qn->npairs = 0;
+}
+
+/* Without TaoSetHessian(), for large problems: a diagonal matrix as tao->hessian, and B beside it */
+PetscErrorCode IPQuasiNewtonSetUp(Tao tao)
+{
+  IPQuasiNewton *qn   = &((TAO_IPFILTER *)tao->data)->qn;
+  MPI_Comm       comm = PetscObjectComm((PetscObject)tao);
+  Vec            x    = tao->solution;
+  PetscInt       n, N, rstart, rend;
+  Mat            H;
+
+  PetscFunctionBegin;
+  PetscCall(IPQuasiNewtonDestroy(qn));
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetSize(x, &N));
+  PetscCall(MatCreateAIJ(comm, n, n, N, N, 1, NULL, 0, NULL, &H));
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(MatSetValue(H, i, i, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(TaoSetHessian(tao, H, H, QuasiNewtonHessian, NULL));
+  PetscCall(MatDestroy(&H));
+  PetscCall(MatCreateLMVMBFGS(comm, n, N, &qn->B));
+  PetscCall(MatSetOptionsPrefix(qn->B, ((PetscObject)tao)->prefix));
+  PetscCall(MatAppendOptionsPrefix(qn->B, "tao_ipfilter_"));
+  PetscCall(MatSetFromOptions(qn->B));
+  PetscCall(MatLMVMAllocate(qn->B, x, x));
+  PetscCall(MatCreateShell(comm, n, n, N, N, tao, &qn->A));
+  PetscCall(MatShellSetOperation(qn->A, MATOP_MULT, (AMGFOperation *)QuasiNewtonMult));
+  PetscCall(MatSetOption(qn->A, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(VecDuplicate(x, &qn->x));
+  PetscCall(VecDuplicate(x, &qn->gradient));
+  PetscCall(VecDuplicate(x, &qn->sum));
+  PetscFunctionReturn(0);
+}

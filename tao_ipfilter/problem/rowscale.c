@@ -1,0 +1,107 @@
+/*
+   Scaling of the constraints by their gradients at the start: a row d_i c_i, with d_i so small that its gradient is at most
+   row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are, whatever the units. All of
+   the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
+*/
+#include "../ipfilterimpl.h"
+
+#define IP_LEAST_SCALE 1e-20
+
+/* Largest entry that a row may keep: a multiple of that of the smallest row, or one that is given */
+static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
+{
+  return opt->scaling == IP_SCALING_GRADIENT ? opt->gradient_max : opt->row_ratio * smallest;
+}
+
+/* d = NULL where no row is larger than the limit */
+static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
+{
+  PetscScalar *a;
+  PetscInt     rstart, rend;
+  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* -smallest and largest row, over all ranks */
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(layout, d));
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  PetscCall(VecGetArrayWrite(*d, &a));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscScalar *v;
+    PetscInt           nc;
+    PetscReal          largest = 0.0;
+
+    PetscCall(MatGetRow(J, i, &nc, NULL, &v));
+    for (PetscInt k = 0; k < nc; k++) largest = PetscMax(largest, PetscAbsScalar(v[k]));
+    PetscCall(MatRestoreRow(J, i, &nc, NULL, &v));
+    a[i - rstart] = largest;
+    if (largest > 0.0) extreme[0] = PetscMax(extreme[0], -largest);
+    extreme[1] = PetscMax(extreme[1], largest);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extreme, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
+  for (PetscInt i = 0; i < rend - rstart; i++) {
+    const PetscReal row = PetscRealPart(a[i]), limit = RowLimit(opt, -extreme[0]);
+
+    a[i] = row > limit ? PetscMax(limit / row, IP_LEAST_SCALE) : 1.0;
+  }
+  PetscCall(VecRestoreArrayWrite(*d, &a));
+  if (!(extreme[1] > RowLimit(opt, -extreme[0]))) PetscCall(VecDestroy(d));
+  PetscFunctionReturn(0);
+}
+
+/* Chooses the scales of this solve from the Jacobians just evaluated; tells whether there are any */
+PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *scaled = PETSC_FALSE;
+  if (ip->opt.scaling == IP_SCALING_NONE || (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0) PetscFunctionReturn(0);
+  if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
+  if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
+  *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the scales of the last solve. *changed: a Jacobian had been scaled by them. */
+PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *changed = (PetscBool)(ip->rows.inequality || ip->rows.equality);
+  PetscCall(VecDestroy(&ip->rows.inequality));
+  PetscCall(VecDestroy(&ip->rows.equality));
+  PetscFunctionReturn(0);
+}
+
+/* Slacks and multipliers of a pair of the inequalities from the caller's units, or back to them */
+PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!ip->rows.inequality) PetscFunctionReturn(0);
+  if (back) {
+    PetscCall(VecPointwiseDivide(s, s, ip->rows.inequality));
+    PetscCall(VecPointwiseMult(z, z, ip->rows.inequality));
+  } else {
+    PetscCall(VecPointwiseMult(s, s, ip->rows.inequality));
+    PetscCall(VecPointwiseDivide(z, z, ip->rows.inequality));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Largest entry of a residual of the constraints in the caller's units */
+PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  Vec           scale = space == IP_INEQUALITIES ? ip->rows.inequality : ip->rows.equality, unscaled = NULL;
+
+  PetscFunctionBegin;
+  if (scale) {
+    PetscCall(IPGetWork(tao, space, &unscaled));
+    PetscCall(VecPointwiseDivide(unscaled, r, scale));
+  }
+  PetscCall(VecNorm(scale ? unscaled : r, NORM_INFINITY, norm));
+  PetscCall(IPRestoreWork(tao, space, &unscaled));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,52 @@
+/* Scratch vectors: whoever needs one gets it, and gives it back before returning. None is made before it is needed. */
+#include "../ipfilterimpl.h"
+
+static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
+{
+  return space == IP_UNKNOWNS ? ip->rx : (space == IP_INEQUALITIES ? ip->at.c : ip->at.ce);
+}
+
+/* A vector of the given layout, whose entries are anything; NULL where there are no such constraints */
+PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  IPWork       *work   = &ip->work;
+  Vec           layout = WorkLayout(ip, space);
+  PetscInt      k      = 0;
+
+  PetscFunctionBegin;
+  *v = NULL;
+  if (!layout) PetscFunctionReturn(0);
+  while (k < IP_MAX_WORK && work->lent[space][k]) k++;
+  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are lent", IP_MAX_WORK);
+  if (!work->v[space][k]) PetscCall(VecDuplicate(layout, &work->v[space][k]));
+  work->lent[space][k] = PETSC_TRUE;
+  *v                   = work->v[space][k];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
+{
+  IPWork  *work = &((TAO_IPFILTER *)tao->data)->work;
+  PetscInt k    = 0;
+
+  PetscFunctionBegin;
+  if (!*v) PetscFunctionReturn(0);
+  while (k < IP_MAX_WORK && work->v[space][k] != *v) k++;
+  PetscCheck(k < IP_MAX_WORK && work->lent[space][k], PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "Not a scratch vector that is lent");
+  work->lent[space][k] = PETSC_FALSE;
+  *v                   = NULL;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPWorkDestroy(IPWork *work)
+{
+  PetscFunctionBegin;
+  for (PetscInt space = 0; space < IP_NSPACES; space++) {
+    for (PetscInt k = 0; k < IP_MAX_WORK; k++) {
+      PetscCall(VecDestroy(&work->v[space][k]));
+      work->lent[space][k] = PETSC_FALSE;
+    }
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,136 @@
+/* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
+#include "../ipfilterimpl.h"
+
+/* Weighted mean of t z over all pairs */
+PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     total = 0.0, weight = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal sum;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &sum));
+    total += sum;
+    if (ip->pair[b].n) weight += ip->pair[b].weight;
+  }
+  *average = weight > 0.0 ? total / weight : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need balance only
+   to the percents that the linear solves aim at: pairs, not forces, follow mu. */
+static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
+{
+  const IPKKT    *k     = &ip->kkt;
+  const PetscReal limit = ip->opt.kappa_epsilon * mu, balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
+
+  return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
+}
+
+/* mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
+static PetscErrorCode BarrierMonotone(Tao tao)
+{
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscInt limit = tao->niter ? ip->opt.max_mu_later : ip->opt.max_mu_first;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < limit; k++) {
+    const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
+    const PetscReal next = PetscMax(IPWorthLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+
+    if (!BarrierSolved(ip, mu) || next >= mu) break;
+    ip->mu = next * unit;
+    PetscCall(IPFilterSetReset(&ip->filter));
+    PetscCall(IPComputeKKT(tao));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it.
+   The second-order term counts for no more than a hundred times the mean product. */
+PetscErrorCode IPBarrierFromAffine(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     after = 0.0, before = 0.0, primal = 1.0, dual = 1.0, sigma;
+
+  PetscFunctionBegin;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, 1.0, &primal, &dual));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal now, next;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &now));
+    PetscCall(IPPairStepProducts(&ip->pair[b], primal, dual, NULL, &next));
+    before += now;
+    after += next;
+  }
+  ip->bar.corrector_max = 0.0;
+  if (!(before > 0.0)) PetscFunctionReturn(0);
+  sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
+  PetscCall(IPBarrierAverage(tao, &before));
+  ip->bar.corrector_max = 100.0 * before;
+  ip->mu                = PetscMax(sigma * before, IPWorthLeastMu(ip));
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the KKT error is below the worst of the last iterates in free mode, which it then replaces there
+   (Nocedal, Waechter and Waltz 2009, section 4) */
+static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
+{
+  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar.errors);
+  PetscReal      worst  = 0.0;
+
+  for (PetscInt k = 0; k < PetscMin(ip->bar.nerrors, length); k++) worst = PetscMax(worst, ip->bar.errors[k]);
+  if (ip->bar.nerrors >= length && ip->kkt.error > ip->opt.kappa_progress * worst) return PETSC_FALSE;
+  ip->bar.errors[ip->bar.nerrors++ % length] = ip->kkt.error;
+  return PETSC_TRUE;
+}
+
+/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no model foresaw has made of them: no more than a few times
+   those of the start */
+static PetscErrorCode BarrierTurnMonotone(Tao tao)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal growth = 3.0;
+
+  PetscFunctionBegin;
+  ip->bar.free = PETSC_FALSE;
+  PetscCall(IPBarrierAverage(tao, &ip->mu));
+  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar.first), IPWorthLeastMu(ip));
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The same for some iterations at least, whatever progress there is */
+PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
+{
+  PetscFunctionBegin;
+  ((TAO_IPFILTER *)tao->data)->bar.hold = iterations;
+  PetscCall(BarrierTurnMonotone(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives and linear
+   constraints, whose affine step tells what mu can become: it is left for the monotone one where they show themselves as
+   something else, and while the KKT error does not fall. */
+PetscErrorCode IPBarrierUpdate(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     was_free;
+
+  PetscFunctionBegin;
+  if (ip->opt.barrier == IP_BARRIER_MONOTONE) {
+    PetscCall(BarrierMonotone(tao));
+    PetscFunctionReturn(0);
+  }
+  was_free     = ip->bar.free;
+  ip->bar.free = (PetscBool)(BarrierProgresses(ip) && ip->bar.hold == 0 && !ip->bar.curved);
+  if (ip->bar.hold > 0) ip->bar.hold--;
+  if (ip->bar.free) PetscFunctionReturn(0);
+  if (was_free) PetscCall(BarrierTurnMonotone(tao));
+  else PetscCall(BarrierMonotone(tao));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,267 @@
+/* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough curvature. */
+#include "../ipfilterimpl.h"
+
+/* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than d^T |diag(H)| d, in
+   which an unknown of another unit counts no more than the others do. */
+static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           d  = ip->dir.x, hd;
+  PetscScalar   dd, dhd;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(d, d, &dd));
+  *square = PetscRealPart(dd);
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hd));
+  PetscCall(VecPointwiseMult(hd, ip->stiff.hdiag, d));
+  PetscCall(VecDot(hd, d, &dhd));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &hd));
+  *square = PetscMin(ip->stiff.hscale * *square, PetscRealPart(dhd));
+  PetscFunctionReturn(0);
+}
+
+/* d^T (H + Sigma + delta M_u) d */
+static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           d  = ip->dir.x, Wd;
+  PetscScalar   dHd, dSd = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
+  PetscCall(MatMult(ip->hess.H, d, Wd));
+  PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
+  PetscCall(VecDot(d, Wd, &dHd));
+  if (ip->cond.shifted) {
+    PetscCall(VecPointwiseMult(Wd, ip->cond.shift, d));
+    PetscCall(VecDot(d, Wd, &dSd));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Wd));
+  *curvature = PetscRealPart(dHd) + PetscRealPart(dSd);
+  PetscFunctionReturn(0);
+}
+
+/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) and, with constants in the problem's units, ds^T ds */
+static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscReal *square)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  Vec           v, ds2;
+  PetscScalar   sDs, ss, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ds2));
+  PetscCall(IPSlackSigma(tao, v));
+  PetscCall(VecPointwiseMult(ds2, slack->dt, slack->dt));
+  PetscCall(VecDot(v, ds2, &sDs));
+  PetscCall(VecSum(ds2, &ss));
+  PetscCall(VecWAXPY(v, 1.0, ip->at.lambda, ip->dir.lambda));
+  PetscCall(VecPointwiseMult(v, v, slack->w));
+  PetscCall(VecDot(v, ip->rc, &force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ds2));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
+  *curvature += PetscRealPart(sDs) + PetscMax(PetscRealPart(force), 0.0);
+  if (ip->opt.scaling == IP_SCALING_NONE) *square += PetscRealPart(ss);
+  PetscFunctionReturn(0);
+}
+
+/* Adds max(-y+^T c_E, 0): what a step towards the constraints takes from d^T W d */
+static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           y;
+  PetscScalar   force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &y));
+  PetscCall(VecWAXPY(y, 1.0, ip->at.y, ip->dir.y));
+  PetscCall(VecDot(y, ip->at.ce, &force));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
+  *curvature += PetscMax(-PetscRealPart(force), 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
+   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A step that rounding makes of x has no
+   curvature to speak of. */
+static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
+{
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal kappa     = ip->opt.kappa_curvature;
+  PetscReal       curvature = 0.0, square = 0.0, step, size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &step));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *passes = (PetscBool)(step <= IP_TINY_STEP * size);
+  if (*passes) PetscFunctionReturn(0);
+  PetscCall(CurvatureOfUnknowns(tao, &curvature));
+  PetscCall(CurvatureSquare(tao, &square));
+  if (ip->mi) PetscCall(CurvatureAddSlacks(tao, &curvature, &square));
+  if (ip->me) PetscCall(CurvatureAddEqualities(tao, &curvature));
+  *passes = (PetscBool)(curvature >= kappa * square);
+  if (!*passes) PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature, (double)(kappa * square)));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the whole step would end the solve but for the forces left out of balance: steps of one, well away from the
+   boundary, and all products (t + dt)(z + dz) within the tolerance */
+static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal margin  = 0.9;
+  PetscReal       largest = 0.0, total = 0.0, primal = 1.0, dual = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, margin, &primal, &dual));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal product, sum;
+
+    PetscCall(IPPairStepProducts(&ip->pair[b], 1.0, 1.0, &product, &sum));
+    largest = PetscMax(largest, product);
+    total += sum;
+  }
+  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product && IPWorthWithin(ip, total));
+  PetscFunctionReturn(0);
+}
+
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last. With bounds
+   alone also a few percent of b: those forces may be small against what the start had, and no direction at all would do. */
+static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
+{
+  PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
+
+  if (!ip->mi && !ip->me) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
+  return PetscMax(loose, last);
+}
+
+/* dx, and the direction of the equality constraints' multipliers, by whatever solves for them */
+static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->me) PetscCall(IPEqualitySolve(tao, rhs, ce, ip->dir.x, matrix, target, usable));
+  else PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the system of the last direction was the condensed one */
+static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(!ip->me || ip->prox.condensed);
+}
+
+/* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
+   balance only to a few percent, so that the multipliers are right to a few percent; a step that would finish is
+   continued to what convergence asks for. matrix tells that A is new. */
+static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal factor = ip->opt.forcing_last * ip->tol;
+  PetscReal       norm, last = factor * IPWorthForceUnit(ip);
+  PetscBool       finish = PETSC_FALSE;
+  Vec             rhs;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  PetscCall(IPCondenseRHS(tao, rc, rhs));
+  PetscCall(VecNorm(rhs, NORM_2, &norm));
+  PetscCall(DirectionSolveUnknowns(tao, rhs, ce, matrix, ForcingTarget(ip, last, norm), usable));
+  if (*usable) {
+    PetscCall(IPBackSubstitute(tao, rc));
+    PetscCall(IPWorthForceUnitAfter(tao, ip->dir.x, &last));
+    last *= factor;
+  }
+  if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
+  if (finish) {
+    PetscCall(DirectionSolveUnknowns(tao, rhs, ce, PETSC_FALSE, last, usable));
+    if (*usable) PetscCall(IPBackSubstitute(tao, rc));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+  PetscFunctionReturn(0);
+}
+
+/* Right-hand sides of the pairs */
+static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corrector_max)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairSetTarget(&ip->pair[b], mu, corrector_max));
+  PetscFunctionReturn(0);
+}
+
+/* The matrix with the present delta */
+static PetscErrorCode DirectionAssemble(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           D;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
+  if (ip->mi) PetscCall(IPSlackSigma(tao, D));
+  PetscCall(IPCondenseMatrix(tao, D));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  PetscFunctionReturn(0);
+}
+
+/* Whether there is anything that mu is for */
+static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
+}
+
+/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
+   guess of the direction proper. */
+static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscBool     matrix = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
+  if (ip->bar.free && DirectionHasPairs(ip)) {
+    PetscCall(DirectionSetTargets(tao, 0.0, 0.0));
+    PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, PETSC_TRUE, usable));
+    if (!*usable) PetscFunctionReturn(0);
+    PetscCall(IPBarrierFromAffine(tao));
+    matrix = PETSC_FALSE;
+  }
+  PetscCall(DirectionSetTargets(tao, ip->mu, ip->bar.free ? ip->bar.corrector_max : 0.0));
+  PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, matrix, usable));
+  PetscFunctionReturn(0);
+}
+
+/* Another direction with the matrix of the last one, for the residuals of a second-order correction */
+PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(DirectionSolve(tao, rc, ce, PETSC_FALSE, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The Newton direction, whose curvature (or, with equality constraints, whose matrix's inertia) is in order */
+static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
+{
+  PetscFunctionBegin;
+  PetscCall(DirectionSolveSystem(tao, usable));
+  if (*usable && DirectionIsCondensed((TAO_IPFILTER *)tao->data)) PetscCall(CurvatureTest(tao, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The direction of the next step; *ok is false where there is none of sufficient curvature, or no solver gives it */
+PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->aug.delta    = 0.0;
+  ip->aug.centered = PETSC_FALSE;
+  PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
+  if (*ok) IPRegularized(ip);
+  PetscFunctionReturn(0);
+}

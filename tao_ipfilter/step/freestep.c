@@ -1,0 +1,104 @@
+/* A step of the problem without its bounds, from which a start between them is predicted. */
+#include "../ipfilterimpl.h"
+
+/* The step, to a tenth of its residual; of no use where the Hessian is not convex along it, or has no positive diagonal that an AMG could be
+   built from */
+static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal coarse = 0.1, singular = 1e-8; /* shift of a Hessian that the bounds may have to hold */
+  PetscScalar     descent;
+  PetscReal       norm, least;
+  Vec             rhs;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  ip->shift.delta = ip->given.primal_mass ? 0.0 : singular * ip->stiff.hscale;
+  PetscCall(IPCondenseMatrix(tao, NULL));
+  ip->shift.delta = 0.0;
+  PetscCall(MatGetDiagonal(ip->cond.A, rhs));
+  PetscCall(VecMin(rhs, NULL, &least));
+  if (!(least > 10.0 * singular * ip->stiff.hscale)) {
+    PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecAXPBY(rhs, -1.0, 0.0, tao->gradient));
+  PetscCall(VecNorm(rhs, NORM_2, &norm));
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, coarse * norm, usable));
+  PetscCall(VecDot(rhs, ip->dir.x, &descent));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+  *usable = (PetscBool)(*usable && PetscRealPart(descent) > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* The trial point after the step, which leaves a margin to the bounds, but for no more than a part of the distance between two */
+static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
+{
+  TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal    part = 0.25;
+  Vec                v[2] = {tao->XL, tao->XU};
+  const PetscScalar *b[2] = {NULL, NULL};
+  PetscScalar       *x;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(ip->trial.x, 1.0, ip->dir.x, tao->solution));
+  PetscCall(VecGetLocalSize(ip->trial.x, &n));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecGetArrayRead(v[k], &b[k]));
+  PetscCall(VecGetArray(ip->trial.x, &x));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
+    const PetscReal m = PetscMin(margin, part * (u - l));
+
+    if (l > PETSC_NINFINITY) x[i] = PetscMax(PetscRealPart(x[i]), l + m);
+    if (u < PETSC_INFINITY) x[i] = PetscMin(PetscRealPart(x[i]), u - m);
+  }
+  PetscCall(VecRestoreArray(ip->trial.x, &x));
+  for (PetscInt k = 0; k < 2; k++)
+    if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Sizes at the point that the step has led to, in the place of those of a start that may have lain anywhere */
+static PetscErrorCode FreeMeasure(Tao tao)
+{
+  IPFirst *first = &((TAO_IPFILTER *)tao->data)->first;
+
+  PetscFunctionBegin;
+  first->f = ((TAO_IPFILTER *)tao->data)->at.f;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &first->x));
+  PetscFunctionReturn(0);
+}
+
+/* Moves x along the step, if that lowers the objective; *energy is the mean size of the step times that of the gradient there, per unknown */
+PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal margin = 0.1; /* of the mean step */
+  PetscReal       step, gradient;
+  PetscBool       usable = PETSC_FALSE;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  *moved = PETSC_FALSE;
+  PetscCall(FreeSolve(tao, &usable));
+  if (!usable) PetscFunctionReturn(0);
+  PetscCall(VecGetSize(ip->dir.x, &n));
+  PetscCall(VecNorm(ip->dir.x, NORM_1, &step));
+  step /= n;
+  PetscCall(FreeTrial(tao, margin * step));
+  PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
+  *moved = (PetscBool)(!IPUndefined(ip->trial.f) && ip->trial.f < ip->at.f);
+  PetscCall(PetscInfo(tao, "Step without bounds: mean size %g, objective from %g to %g\n", (double)step, (double)ip->at.f, (double)ip->trial.f));
+  if (!*moved) PetscFunctionReturn(0);
+  PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(FreeMeasure(tao));
+  PetscCall(VecNorm(tao->gradient, NORM_1, &gradient));
+  *energy = step * gradient / n;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,261 @@
+/*
+   Filter line search (Waechter and Biegler 2006, sections 2.3 and 2.4): fraction to the boundary, switching
+   condition, Armijo, and second-order correction.
+*/
+#include "../ipfilterimpl.h"
+
+/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the domain of
+   the objective nothing else is evaluated. */
+static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(ip->trial.x, alpha, ip->dir.x, tao->solution));
+  if (ip->mi) PetscCall(VecWAXPY(ip->trial.s, alpha, slack->dt, slack->t));
+  if (ceiling->n) PetscCall(VecWAXPY(ceiling->trial, alpha, ceiling->dt, ceiling->t));
+  PetscCall(IPBoundsDistance(tao, ip->trial.x, PETSC_TRUE));
+  PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
+  *finite = PETSC_FALSE;
+  if (IPUndefined(ip->trial.f)) PetscFunctionReturn(0);
+  PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
+  PetscCall(IPMeritMeasureTrial(tao, theta, phi));
+  *finite = (PetscBool)(!IPUndefined(*theta) && !IPUndefined(*phi));
+  PetscFunctionReturn(0);
+}
+
+/* (-slope)^s_phi alpha > delta theta^s_theta: the step promises more for the objective than for the constraints */
+static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
+{
+  if (slope >= 0.0) return PETSC_FALSE;
+  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) > ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
+}
+
+/* Violation that theta's limits are fractions and multiples of */
+static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
+{
+  return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
+}
+
+/* What the objective may rise by for a violation that falls: little, where there is hardly any violation left */
+static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
+{
+  const IPSearch *search = &ip->search;
+  const PetscReal trace = 1e-10, worth = 1e-2, factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
+
+  return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
+}
+
+/* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching condition promises, or that
+   there is no violation that could fall instead: the iterate left behind then stays out of the filter (equations (18) to (20) there) */
+static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi, PetscBool *accepted, PetscBool *objective)
+{
+  TAO_IPFILTER    *ip     = (TAO_IPFILTER *)tao->data;
+  IPSearch        *search = &ip->search;
+  const IPOptions *opt    = &ip->opt;
+  const PetscReal  first = SearchFirstViolation(ip), change = phi - search->phi;
+  const PetscBool  alone    = (PetscBool)(search->theta <= 0.0);
+  const PetscBool  switches = SearchSwitches(ip, alpha, slope);
+  const PetscBool  armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
+  PetscBool        descends;
+
+  PetscFunctionBegin;
+  *objective = (PetscBool)(alone || (switches && armijo));
+  if (theta > opt->theta_max_fact * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
+  else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
+  else *accepted = (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta || change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
+  descends = *accepted;
+  if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
+  if (!*accepted) search->blocked = descends;
+  PetscFunctionReturn(0);
+}
+
+/* Smallest step worth trying (equation (23) there) */
+static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
+{
+  const PetscReal theta = ip->search.theta / ip->search.theta_ref, descent = -slope / ip->search.phi_ref;
+  PetscReal       least = ip->opt.gamma_theta;
+
+  if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
+  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip)) least = PetscMin(least, ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
+  return PetscMax(ip->opt.gamma_alpha * least, 1e-12);
+}
+
+/* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own step. A slack so
+   small that J^T D J would drown the Hessian in rounding is lifted, by next to nothing. */
+static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPIterateCopy(&ip->trial, &ip->at));
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    if (b != IP_SLACK) PetscCall(VecCopy(p->trial, p->t));
+    PetscCall(VecAXPY(p->z, dual, p->dz));
+    PetscCall(IPPairSafeguard(p, ip->mu, ip->opt.kappa_sigma));
+  }
+  if (ip->mi) {
+    PetscCall(VecAXPY(ip->at.lambda, alpha, ip->dir.lambda));
+    PetscCall(VecMin(ip->at.s, NULL, &ip->relax.least_slack));
+    if (ip->opt.scaling == IP_SCALING_PROBLEM) PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiff.rho, ip->scale.length, IP_LEAST_SLACK));
+  }
+  if (ip->me) PetscCall(VecAXPY(ip->at.y, alpha, ip->dir.y));
+  ip->search.alpha      = alpha;
+  ip->search.alpha_dual = dual;
+  PetscFunctionReturn(0);
+}
+
+/* Whether residuals of the constraints at the trial point are other than the 1 - alpha times the present ones that linear
+   constraints leave */
+static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  IPPair         *slack  = &ip->pair[IP_SLACK];
+  const PetscReal linear = 1e-2;
+  PetscReal       error, change;
+  Vec             r;
+
+  PetscFunctionBegin;
+  if (ip->bar.curved) PetscFunctionReturn(0);
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
+    PetscCall(VecWAXPY(r, -1.0, ip->trial.s, ip->trial.c));
+    PetscCall(VecAXPY(r, alpha - 1.0, ip->rc));
+    PetscCall(VecNorm(r, NORM_INFINITY, &error));
+    PetscCall(VecNorm(slack->dt, NORM_INFINITY, &change));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
+    ip->bar.curved = (PetscBool)(error > linear * alpha * change);
+  }
+  if (ip->me) {
+    PetscCall(IPGetWork(tao, IP_EQUALITIES, &r));
+    PetscCall(VecWAXPY(r, alpha - 1.0, ip->at.ce, ip->trial.ce));
+    PetscCall(VecNorm(r, NORM_INFINITY, &error));
+    PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &r));
+    ip->bar.curved = (PetscBool)(ip->bar.curved || error > linear * ip->scale.equality);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Takes the step, and puts the iterate left behind into the filter, unless Armijo decided */
+static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, PetscBool objective, PetscBool corrected)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!objective) PetscCall(IPMeritFilterAdd(tao));
+  ip->search.tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
+  PetscCall(SearchTakeStep(tao, alpha, dual));
+  PetscFunctionReturn(0);
+}
+
+/* The corrections proper: the residuals rc and ce of the first trial point, and then of each correction's, with those of the iterate they
+   were made from, give another direction */
+static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau, Vec rc, Vec ce, PetscBool *ok)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     step = alpha, last = theta;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < ip->opt.max_soc && !*ok; k++) {
+    PetscReal phi = 0.0, dual = 1.0;
+    PetscBool usable = PETSC_FALSE, finite = PETSC_FALSE, objective = PETSC_FALSE;
+
+    if (ip->mi) {
+      PetscCall(VecScale(rc, step));
+      PetscCall(VecAXPY(rc, 1.0, ip->trial.c));
+      PetscCall(VecAXPY(rc, -1.0, ip->trial.s));
+    }
+    if (ip->me) PetscCall(VecAYPX(ce, step, ip->trial.ce));
+    PetscCall(IPCorrectDirection(tao, rc, ce, &usable));
+    if (!usable) break;
+    step = 1.0;
+    PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &step, &dual));
+    PetscCall(SearchTrial(tao, step, &theta, &phi, &finite));
+    ip->search.ntrials++;
+    if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
+    if (*ok) PetscCall(SearchAccept(tao, step, dual, objective, PETSC_TRUE));
+    else if (!finite || theta > ip->opt.kappa_soc * last) break;
+    last = theta;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Second-order correction (section 2.4 there), where the first trial point violates the constraints more than the iterate. The
+   direction is as it was where no correction is accepted. */
+static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau, PetscBool *ok)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPDirection   first = {.norm = 0.0};
+  Vec           rc, ce;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  if (theta < ip->search.theta || !ip->opt.max_soc) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &first.x));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &first.y));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &rc));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &ce));
+  PetscCall(IPDirectionCopy(&ip->dir, &first));
+  if (ip->mi) PetscCall(VecCopy(ip->rc, rc));
+  if (ip->me) PetscCall(VecCopy(ip->at.ce, ce));
+  PetscCall(SearchCorrections(tao, alpha, slope, theta, tau, rc, ce, ok));
+  if (!*ok) {
+    PetscCall(IPDirectionCopy(&first, &ip->dir));
+    PetscCall(IPBackSubstitute(tao, ip->rc));
+  }
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &ce));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &rc));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &first.y));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &first.x));
+  PetscFunctionReturn(0);
+}
+
+/* Steps that descend, and that the filter alone shortens several times in a row, creep along what iterates of another valley have left in it: it is cleared then, a few times
+   a solve (IPOPT's filter_reset_trigger and max_filter_resets) */
+static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
+{
+  const PetscInt patience = 5, limit = 5;
+
+  PetscFunctionBegin;
+  ip->search.nblocked = ip->search.blocked ? ip->search.nblocked + 1 : 0;
+  if (ip->search.nblocked < patience || ip->search.nunblocked >= limit) PetscFunctionReturn(0);
+  ip->search.nblocked = 0;
+  ip->search.nunblocked++;
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscFunctionReturn(0);
+}
+
+/* Backtracks along the direction until the filter accepts; *ok is false where no step is acceptable */
+PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal tau   = PetscMax(ip->opt.tau_min, 1.0 - ip->mu / ip->scale.product);
+  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
+
+  PetscFunctionBegin;
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(IPMeritSlope(tao, &slope));
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
+  least              = SearchSmallestStep(ip, slope);
+  ip->search.ntrials = 0;
+  ip->search.blocked = PETSC_FALSE;
+  *ok                = PETSC_FALSE;
+  for (; alpha >= least && !*ok; alpha *= 0.5) {
+    PetscReal theta = 0.0, phi = 0.0;
+    PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
+
+    ip->search.ntrials++;
+    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
+    if (finite && ip->search.ntrials == 1) PetscCall(SearchTestLinearity(tao, alpha));
+    if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
+    else if (finite && ip->search.ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
+  }
+  if (*ok) PetscCall(SearchUnblock(ip));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,187 @@
+/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the violations v. */
+#include "../ipfilterimpl.h"
+
+/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = -rho v */
+PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPSlackViolation(tao, c, z));
+  PetscCall(VecPointwiseMult(z, z, ip->stiff.rho));
+  PetscCall(VecScale(z, -1.0));
+  PetscFunctionReturn(0);
+}
+
+/* Their forces, m z */
+static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
+{
+  PetscFunctionBegin;
+  PetscCall(IPPenaltyPressure(tao, c, force));
+  PetscCall(VecPointwiseMult(force, force, ((TAO_IPFILTER *)tao->data)->pair[IP_SLACK].w));
+  PetscFunctionReturn(0);
+}
+
+/* Norm of the forces that the constraints transmit to the unknowns after the step dx, by the model */
+static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           c, force, transmitted;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &transmitted));
+  PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, ip->at.c, c));
+  PetscCall(PenaltyPairForce(tao, c, force));
+  PetscCall(MatMultTranspose(ip->jac.inequality, force, transmitted));
+  PetscCall(VecNorm(transmitted, NORM_2, norm));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &transmitted));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the penalized problem is convex along dx */
+static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   curvature;
+  PetscReal     size;
+  Vec           Ad;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Ad));
+  PetscCall(MatMult(IPQuasiNewtonOperator(ip), ip->dir.x, Ad));
+  PetscCall(VecDot(ip->dir.x, Ad, &curvature));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Ad));
+  PetscCall(VecNorm(ip->dir.x, NORM_2, &size));
+  *convex = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->stiff.hscale * PetscSqr(size));
+  PetscFunctionReturn(0);
+}
+
+/* The matrix and the right-hand side of the penalized problem */
+static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           v;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
+  PetscCall(VecPointwiseMult(v, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(IPCondenseMatrix(tao, v));
+  PetscCall(PenaltyPairForce(tao, ip->at.c, v));
+  PetscCall(VecAXPBY(rhs, -1.0, 0.0, tao->gradient));
+  PetscCall(MatMultTransposeAdd(ip->jac.inequality, v, rhs, rhs));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
+  PetscFunctionReturn(0);
+}
+
+/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of no use
+   along a direction in which it is not convex */
+static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     target;
+  Vec           rhs;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  PetscCall(PenaltyAssemble(tao, rhs));
+  PetscCall(VecNorm(rhs, NORM_2, &target));
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  *usable = (PetscBool)(target > 0.0);
+  for (PetscInt pass = 0; pass < 3 && *usable; pass++) {
+    PetscReal force;
+
+    target *= ip->opt.forcing_start;
+    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
+    PetscCall(PenaltyTransmitted(tao, &force));
+    if (ip->lin.norm <= ip->opt.forcing_start * force || force == 0.0) break;
+    target = force;
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+  if (*usable) PetscCall(PenaltyConvex(tao, usable));
+  PetscFunctionReturn(0);
+}
+
+/* The penalized objective at the point of an iterate, whose values of objective and constraints are set */
+static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal *value)
+{
+  PetscScalar penalty;
+  Vec         force, violation;
+
+  PetscFunctionBegin;
+  PetscCall(TaoComputeObjective(tao, x, &it->f));
+  *value = it->f;
+  if (IPUndefined(*value)) PetscFunctionReturn(0);
+  PetscCall(IPEvaluateConstraints(tao, x, it->c, it->ce));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+  PetscCall(PenaltyPairForce(tao, it->c, force));
+  PetscCall(IPSlackViolation(tao, it->c, violation));
+  PetscCall(VecDot(force, violation, &penalty));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  *value -= 0.5 * PetscRealPart(penalty);
+  PetscFunctionReturn(0);
+}
+
+/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic program always */
+static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
+{
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal tolerance = 0.1;
+  PetscScalar     gd, dHd;
+  PetscReal       change, error, f;
+  Vec             Hd, r;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hd));
+  PetscCall(MatMult(ip->hess.H, ip->dir.x, Hd));
+  PetscCall(IPQuasiNewtonAdd(tao, ip->dir.x, Hd));
+  PetscCall(VecDot(Hd, ip->dir.x, &dHd));
+  PetscCall(VecDot(tao->gradient, ip->dir.x, &gd));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hd));
+  f = alpha * (PetscRealPart(gd) + 0.5 * alpha * PetscRealPart(dHd));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
+  PetscCall(MatMult(ip->jac.inequality, ip->dir.x, r));
+  PetscCall(VecScale(r, alpha));
+  PetscCall(VecNorm(r, NORM_2, &change));
+  PetscCall(VecAXPY(r, 1.0, ip->at.c));
+  PetscCall(VecAXPY(r, -1.0, ip->trial.c));
+  PetscCall(VecNorm(r, NORM_2, &error));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
+  *hold = (PetscBool)(error <= tolerance * change && PetscAbsReal(ip->at.f + f - ip->trial.f) <= tolerance * (alpha * PetscAbsScalar(gd) + alpha * alpha * PetscAbsScalar(dHd)));
+  PetscFunctionReturn(0);
+}
+
+/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the penalized
+   objective; *moved is false where it does not, where the problem's models do not reach so far, or where equality constraints
+   stand against it */
+PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     before, after, alpha = 1.0;
+  PetscBool     usable = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *moved = PETSC_FALSE;
+  if (ip->me) PetscFunctionReturn(0);
+  PetscCall(PenaltySolve(tao, &usable));
+  if (!usable) PetscFunctionReturn(0);
+  PetscCall(IPBoundsDirection(tao));
+  PetscCall(IPFractionToBoundary(tao, IP_LOWER, 0.9, &alpha, NULL));
+  PetscCall(PenaltyObjective(tao, tao->solution, &ip->trial, &before));
+  for (PetscInt k = 0; k < 4 && !*moved; k++, alpha *= 0.5) {
+    PetscCall(VecWAXPY(ip->trial.x, alpha, ip->dir.x, tao->solution));
+    PetscCall(PenaltyObjective(tao, ip->trial.x, &ip->trial, &after));
+    *moved = (PetscBool)(!IPUndefined(after) && after <= before);
+    if (*moved) PetscCall(PenaltyModelsHold(tao, alpha, moved));
+  }
+  if (!*moved) PetscFunctionReturn(0);
+  PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}

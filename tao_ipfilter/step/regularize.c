@@ -1,0 +1,101 @@
+/*
+   Inertia-free regularization (Chiang and Zavala 2016): the direction must show enough curvature and the Krylov method must not meet a
+   negative one, else delta M_u is added to the Hessian and grows.
+*/
+#include "../ipfilterimpl.h"
+
+/* First delta after none: the last one shrunk; else grown, faster while none has worked yet */
+static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
+{
+  if (ip->shift.delta == 0.0) return ip->shift.last > 0.0 ? PetscMax(ip->opt.delta_shrink * ip->shift.last, PETSC_MACHINE_EPSILON * unit) : ip->opt.delta_first * unit;
+  return (ip->shift.last > 0.0 ? ip->opt.delta_grow : ip->opt.delta_grow_first) * ip->shift.delta;
+}
+
+/* The unit of delta: typical diagonal entry of H over typical mass */
+static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscScalar   mass = 1.0;
+  PetscInt      n    = 1;
+
+  PetscFunctionBegin;
+  *unit = 1.0;
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  if (ip->given.primal_mass) {
+    PetscCall(VecSum(ip->given.primal_mass, &mass));
+    PetscCall(VecGetSize(ip->given.primal_mass, &n));
+  }
+  *unit = ip->stiff.hscale / (PetscRealPart(mass) / n);
+  PetscFunctionReturn(0);
+}
+
+/* A delta where there was none, or a larger one */
+PetscErrorCode IPRegularizeMore(Tao tao)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     unit = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(DeltaUnit(tao, &unit));
+  ip->shift.delta = NextDelta(ip, unit);
+  ip->rec.nretried++;
+  PetscFunctionReturn(0);
+}
+
+/* Records that a step is taken with delta */
+void IPRegularized(TAO_IPFILTER *ip)
+{
+  if (ip->shift.delta == 0.0) return;
+  ip->shift.last        = ip->shift.delta;
+  ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
+  ip->rec.nregularized++;
+  ip->bar.curved = PETSC_TRUE;
+}
+
+/* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve
+   there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A matrix with an entry that is
+   not a number is a failure. */
+static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           diagonal;
+  PetscReal     smallest, size;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_2, &size));
+  if (PetscIsInfOrNanReal(size)) PetscCall(IPResidualNotANumber(tao));
+  if (ip->given.primal_mass) PetscCall(VecPointwiseDivide(diagonal, diagonal, ip->given.primal_mass));
+  PetscCall(VecMin(diagonal, NULL, &smallest));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  *least = ip->shift.delta - smallest;
+  PetscFunctionReturn(0);
+}
+
+/* Solves with delta raised, from first times its unit on, until the caller's solve calls its solution usable, and tells
+   whether that was reached. A solver that fails is not helped by a larger delta. */
+PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)(Tao), PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscReal     unit = 1.0, least = PETSC_NINFINITY;
+
+  PetscFunctionBegin;
+  PetscCall(DeltaUnit(tao, &unit));
+  *ok             = PETSC_FALSE;
+  ip->shift.delta = first * unit;
+  ip->lin.failed  = PETSC_FALSE;
+  while (ip->shift.delta <= ip->opt.delta_max * unit) {
+    PetscCall((*assemble)(tao));
+    if (least == PETSC_NINFINITY && (!ip->me || ip->prox.condensed)) PetscCall(LeastDelta(tao, &least));
+    if (ip->lin.failed) break;
+    if (ip->shift.delta > least) {
+      PetscCall((*solve)(tao, ok));
+      if (*ok || ip->lin.failed) break;
+      ip->rec.nretried++;
+    }
+    do ip->shift.delta = NextDelta(ip, unit);
+    while (ip->shift.delta <= least);
+  }
+  PetscFunctionReturn(0);
+}

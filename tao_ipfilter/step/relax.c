@@ -1,0 +1,87 @@
+/*
+   Constraints without an interior, as x >= 0, y >= 0, -x y >= 0 are: no central path leads to their solutions, and slacks vanish
+   before mu does. All inequality constraints are then relaxed, to c_I + r >= 0 with r a hundredth of the tolerance times their
+   size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by more).
+*/
+#include "../ipfilterimpl.h"
+
+#define IP_RELAX_FIRST 1e-2 /* of the tolerance */
+#define IP_RELAX_LARGE 1e4  /* a multiplier of so many times what balances the objective's gradient is a large one */
+
+/* Slacks moved by r, and pairs put back on the central path: multipliers of vanishing slacks are of no use */
+static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPPair       *p  = &ip->pair[IP_SLACK];
+
+  PetscFunctionBegin;
+  PetscCall(VecShift(ip->at.c, r));
+  PetscCall(VecShift(p->t, r));
+  PetscCall(IPPairCenter(p, ip->mu));
+  PetscCall(IPSidesUpdateWidth(tao));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the least slack is as small as rounding */
+static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->relax.least_slack <= IP_LEAST_SLACK * ip->scale.length);
+}
+
+/* The same, or its multiplier on the central path of a mu that does not fall is so much larger than what balances the objective's
+   gradient that no slack of a constraint with an interior would be so small. Far from feasible points that happens on the way. Without
+   scales nothing says what balances. */
+static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
+{
+  const PetscReal met = 1e-4;
+
+  if (ip->opt.scaling == IP_SCALING_NONE) return RelaxRounding(ip);
+  return (PetscBool)(RelaxRounding(ip) || (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
+}
+
+/* Relaxes the constraints by a fraction of the tolerance times their size, which is taken when they are relaxed first. mu becomes no
+   more than what the width that they have now admits at large multipliers. */
+static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal before = ip->relax.by;
+  PetscReal       size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &size));
+  if (!ip->relax.times) ip->relax.size = PetscMax(size, ip->first.length);
+  ip->relax.times++;
+  ip->relax.by = fraction * ip->tol * ip->relax.size;
+  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack, (double)ip->relax.by));
+  ip->mu = PetscMax(IPWorthLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * ip->relax.by * ip->scale.balance));
+  PetscCall(RelaxCenter(tao, ip->relax.by - before));
+  PetscCall(IPFilterSetReset(&ip->filter));
+  ip->rec.best_error = ip->rec.best_violation = PETSC_INFINITY;
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Relaxes the constraints where a slack has vanished for some steps in a row though the KKT error has not */
+PetscErrorCode IPRelax(Tao tao)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 3;
+
+  PetscFunctionBegin;
+  if (!ip->mi || ip->relax.times || ip->bar.free) PetscFunctionReturn(0);
+  ip->relax.nvanished = RelaxVanished(ip) ? ip->relax.nvanished + 1 : 0;
+  if (ip->relax.nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
+  PetscFunctionReturn(0);
+}
+
+/* The same where there is no next step, as soon as a slack has vanished, and once more by the tolerance itself */
+PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *relaxed = (PetscBool)(ip->mi && ip->relax.times < 2 && RelaxVanished(ip));
+  if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax.times ? 1.0 : IP_RELAX_FIRST));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,454 @@
+/*
+   Feasibility restoration, where the line search finds no step: Levenberg-Marquardt steps for the violation
+
+     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), beyond an upper side c_I,i - range,
+
+   each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to bounds. The Hessian as
+   metric lets an elastic body follow its surface. Its matrix is the condensed one with D = m/zeta in the violated rows, and
+   the augmented one with delta = zeta/w^2, so that the solvers of the iteration proper serve here too.
+*/
+#include "../ipfilterimpl.h"
+
+#define IP_RESTORE_MAX     200  /* steps */
+#define IP_RESTORE_METRIC  0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_SMALL   1e-3 /* relative gradient of a violation that may be a minimum */
+#define IP_RESTORE_DROWNED 1e8  /* growth of the Hessian, by multipliers, that leaves nothing of the objective's to steps */
+#define IP_RESTORE_LEAST   1e-6 /* of one that is, if it does not fall */
+
+/* psi at the point of an iterate */
+static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscReal     square = 0.0, equality = 0.0;
+  Vec           violation;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+    PetscCall(IPSlackViolation(tao, it->c, violation));
+    PetscCall(IPPairWeightedSquare(tao, violation, &square));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
+  }
+  if (ip->me) PetscCall(VecNorm(it->ce, NORM_2, &equality));
+  *psi = 0.5 * (square + PetscSqr(ip->search.equality_weight * equality));
+  PetscFunctionReturn(0);
+}
+
+/* Gradient of psi at the present point */
+static PetscErrorCode RestoreGradient(Tao tao, Vec g)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(g, 0.0));
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(IPSlackViolation(tao, ip->at.c, force));
+    PetscCall(VecPointwiseMult(force, force, ip->pair[IP_SLACK].w));
+    PetscCall(MatMultTranspose(ip->jac.inequality, force, g));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  }
+  if (ip->me) {
+    PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
+    PetscCall(VecAXPBY(force, PetscSqr(ip->search.equality_weight), 0.0, ip->at.ce));
+    PetscCall(MatMultTransposeAdd(ip->jac.equality, force, g, g));
+    PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &force));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The system's matrix: D = m/zeta in the violated rows, 0 in the others */
+static PetscErrorCode RestoreAssemble(Tao tao)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  Vec                D  = ip->restore.D, violation;
+  const PetscScalar *v;
+  PetscScalar       *d;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(VecAXPBY(D, 1.0 / ip->restore.zeta, 0.0, ip->pair[IP_SLACK].w));
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+    PetscCall(IPSlackViolation(tao, ip->at.c, violation));
+    PetscCall(VecGetLocalSize(violation, &n));
+    PetscCall(VecGetArrayRead(violation, &v));
+    PetscCall(VecGetArray(D, &d));
+    for (PetscInt i = 0; i < n; i++)
+      if (PetscRealPart(v[i]) == 0.0) d[i] = 0.0;
+    PetscCall(VecRestoreArray(D, &d));
+    PetscCall(VecRestoreArrayRead(violation, &v));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
+  }
+  ip->aug.delta    = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
+  ip->aug.centered = PETSC_FALSE;
+  PetscCall(IPCondenseMatrix(tao, D));
+  PetscFunctionReturn(0);
+}
+
+/* Its right-hand side: the forces -J^T D v of the violation and those of the bounds */
+static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(rhs, 0.0));
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(IPSlackViolation(tao, ip->at.c, force));
+    PetscCall(VecPointwiseMult(force, ip->restore.D, force));
+    PetscCall(VecScale(force, -1.0));
+    PetscCall(MatMultTranspose(ip->jac.inequality, force, rhs));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  }
+  PetscCall(IPBoundsAddForces(tao, rhs));
+  PetscFunctionReturn(0);
+}
+
+/* The step; usable where it descends on the violation or on the bounds' barrier */
+static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     norm;
+  PetscScalar   descent;
+  Vec           rhs;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
+  PetscCall(RestoreRHS(tao, rhs));
+  PetscCall(VecSet(ip->dir.x, 0.0));
+  if (ip->me) PetscCall(IPEqualityRestore(tao, rhs, ip->at.ce, ip->dir.x, usable));
+  else {
+    PetscCall(VecNorm(rhs, NORM_2, &norm));
+    PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, 1e-3 * norm, usable));
+    PetscCall(VecDot(rhs, ip->dir.x, &descent));
+    *usable = (PetscBool)(*usable && PetscRealPart(descent) > 0.0);
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
+  PetscFunctionReturn(0);
+}
+
+/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not. The next step's model gets more of the metric the
+   worse this one was, and less where a whole step gains as much as the model promises at least, but for a fraction: half of the slope */
+static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal armijo = 1e-4, fair = 0.5, rounding = 10.0 * PETSC_MACHINE_EPSILON * *psi;
+  const PetscInt  halvings = 12, max_halvings_of_a_fair_model = 1;
+
+  PetscFunctionBegin;
+  *alpha = 1.0;
+  PetscCall(IPBoundsDirection(tao));
+  PetscCall(IPFractionToBoundary(tao, IP_LOWER, ip->opt.tau_min, alpha, NULL));
+  for (PetscInt k = 0; k < halvings; k++, *alpha *= 0.5) {
+    PetscReal trial;
+
+    PetscCall(VecWAXPY(ip->trial.x, *alpha, ip->dir.x, tao->solution));
+    PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
+    if (IPUndefined(ip->trial.f)) continue;
+    PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
+    PetscCall(RestoreViolation(tao, &ip->trial, &trial));
+    if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
+    if (k > max_halvings_of_a_fair_model) ip->restore.zeta *= 10.0;
+    else if (k == 1) ip->restore.zeta *= 3.0;
+    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope - rounding) ip->restore.zeta *= 0.1;
+    *psi = trial;
+    PetscFunctionReturn(0);
+  }
+  *alpha = 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* x, its constraint values and derivatives from the trial point */
+static PetscErrorCode RestoreTakeTrial(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path, but no further from the
+   constraint's value than a violation well below theta0 allows */
+static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
+{
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal    limit = 0.1 * theta0 / PetscSqrtReal(ip->pair[IP_SLACK].weight);
+  const PetscScalar *c, *rho;
+  PetscScalar       *s;
+  PetscInt           n;
+  Vec                z;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->trial.s, z));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(VecGetLocalSize(ip->at.c, &n));
+  PetscCall(VecGetArrayRead(ip->at.c, &c));
+  PetscCall(VecGetArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecGetArray(ip->trial.s, &s));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal central = PetscMin(limit, PetscSqrtReal(ip->mu / PetscRealPart(rho[i])));
+
+    if (PetscRealPart(c[i]) >= 0.1 * central) s[i] = c[i];
+    else s[i] = PetscMin(PetscRealPart(s[i]), central);
+  }
+  PetscCall(VecRestoreArray(ip->trial.s, &s));
+  PetscCall(VecRestoreArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the filter accepts the present x with slacks that belong to it, at clearly less violation than at the start */
+static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accepted)
+{
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal reduction = 0.9;
+  PetscReal       theta, phi;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(RestoreChooseSlacks(tao, theta0));
+    PetscCall(IPSlackKeepInside(tao, ip->trial.s, 1e-3));
+    PetscCall(IPSlackDistance(tao, ip->trial.s, PETSC_TRUE));
+  }
+  PetscCall(IPIterateCopyPoint(&ip->at, &ip->trial));
+  PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_TRUE));
+  PetscCall(IPMeritMeasureTrial(tao, &theta, &phi));
+  *accepted = (PetscBool)(theta <= reduction * theta0);
+  if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi, accepted));
+  PetscFunctionReturn(0);
+}
+
+/* Slacks and multipliers to go on from */
+static PetscErrorCode RestoreLeave(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(VecCopy(ip->trial.s, ip->at.s));
+    PetscCall(IPPairCenter(&ip->pair[IP_SLACK], ip->mu));
+    PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  }
+  if (ip->me) PetscCall(IPEqualityMultipliers(tao));
+  ip->bar.nerrors       = 0;
+  ip->relax.least_slack = PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers that have grown without limit make a Hessian that is a multiple of the one at the start: how large */
+static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+  PetscInt      n;
+  Vec           diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscCall(IPHessianDiagonal(tao, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_1, &size));
+  PetscCall(VecGetSize(diagonal, &n));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  *growth = PetscMax(size / n / ip->stiff.hscale, 1.0);
+  PetscFunctionReturn(0);
+}
+
+/* The metric becomes the Hessian of the objective alone */
+static PetscErrorCode RestoreForgetMultipliers(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));
+  if (ip->me) PetscCall(VecSet(ip->at.y, 0.0));
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPHessianEvaluate(tao));
+  PetscFunctionReturn(0);
+}
+
+/* zeta at which the metric and the violation's model weigh alike, from the stiffness of the constraints */
+static PetscErrorCode RestoreFirstZeta(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     rho, growth = 1.0;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(VecMax(ip->stiff.rho, NULL, &rho));
+    ip->restore.zeta = 1.0 / rho;
+  } else ip->restore.zeta = PetscSqr(ip->search.equality_weight * ip->scale.equality) / ip->scale.product;
+  PetscCall(RestoreMetricGrowth(tao, &growth));
+  if (growth > IP_RESTORE_DROWNED) {
+    PetscCall(RestoreForgetMultipliers(tao));
+    PetscCall(RestoreMetricGrowth(tao, &growth));
+  }
+  ip->restore.zeta /= growth;
+  PetscFunctionReturn(0);
+}
+
+/* Zeroes the entries of psi's gradient whose descent a bound stops so soon that psi changes by no more than the given limit */
+static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal max_change)
+{
+  const PetscScalar *t;
+  PetscScalar       *g;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  if (!p->n) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(gradient, &n));
+  PetscCall(VecGetArrayRead(p->t, &t));
+  PetscCall(VecGetArray(gradient, &g));
+  for (PetscInt i = 0; i < n; i++)
+    if (p->sign * PetscRealPart(g[i]) > 0.0 && PetscRealPart(t[i]) * PetscAbsScalar(g[i]) <= max_change) g[i] = 0.0;
+  PetscCall(VecRestoreArray(gradient, &g));
+  PetscCall(VecRestoreArrayRead(p->t, &t));
+  PetscFunctionReturn(0);
+}
+
+/* |J^T r| / (|J| |r|), without what bounds stop, with the constraints' gradients J at the start of the restoration: 0 where psi is
+   stationary */
+static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 1e-4;
+  Vec             gradient;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
+  PetscCall(RestoreGradient(tao, gradient));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_LOWER], fraction * psi));
+  PetscCall(RestoreProject(gradient, &ip->pair[IP_UPPER], fraction * psi));
+  PetscCall(IPFixedZero(tao, gradient));
+  PetscCall(VecNorm(gradient, NORM_2, relative));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
+  *relative = size > 0.0 && psi > 0.0 ? *relative / (size * PetscSqrtReal(2.0 * psi)) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* |J| in the weights of psi, here or at the start of the solve: where it vanishes, its gradients are no measure of themselves */
+static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     w = 0.0, j = 0.0;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(VecMax(ip->pair[IP_SLACK].w, NULL, &w));
+    PetscCall(MatNorm(ip->jac.inequality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first.jacobian);
+  }
+  *size = PetscSqrtReal(w) * j;
+  if (ip->me) {
+    PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first.equality_jacobian);
+    *size += ip->search.equality_weight * j;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The slope of psi along dx */
+static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           gradient;
+  PetscScalar   gd;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
+  PetscCall(RestoreGradient(tao, gradient));
+  PetscCall(VecDot(gradient, ip->dir.x, &gd));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
+  *slope = PetscRealPart(gd);
+  PetscFunctionReturn(0);
+}
+
+/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before it. *descent is false
+   where the bounds' barrier turns the step away from less violation. */
+static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient, PetscBool *descent)
+{
+  const PetscReal stationary = 1e-12;
+  PetscBool       usable     = PETSC_FALSE;
+  PetscReal       slope      = 0.0;
+
+  PetscFunctionBegin;
+  *alpha   = 0.0;
+  *descent = PETSC_TRUE;
+  PetscCall(RestoreRelativeGradient(tao, size, *psi, gradient));
+  if (*gradient <= stationary) PetscFunctionReturn(0);
+  PetscCall(IPBoundsCenter(tao));
+  PetscCall(IPRegularize(tao, IP_RESTORE_METRIC, RestoreAssemble, RestoreSolve, &usable));
+  if (!usable) PetscFunctionReturn(0);
+  PetscCall(RestoreSlope(tao, &slope));
+  *descent = (PetscBool)(slope < 0.0);
+  if (*descent) PetscCall(RestoreSearch(tao, slope, psi, alpha));
+  PetscFunctionReturn(0);
+}
+
+/* Steps until the filter accepts the point, or the violation falls no longer: its relative gradient, which may fall for longer, then is
+   *gradient at least */
+static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck, PetscReal *least)
+{
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal no_change = 1e-8, falling = 0.9;
+  const PetscInt  patience = 10;
+  PetscReal       size = 0.0, gradient = 1.0;
+  PetscInt        idle = 0;
+
+  PetscFunctionBegin;
+  *least = PETSC_INFINITY;
+  PetscCall(RestoreJacobianSize(tao, &size));
+  for (PetscInt k = 0; k < IP_RESTORE_MAX && !*ok && idle < patience; k++) {
+    const PetscReal before  = *psi;
+    PetscReal       alpha   = 0.0;
+    PetscBool       descent = PETSC_TRUE, falls;
+
+    PetscCall(RestoreStep(tao, size, psi, &alpha, &gradient, &descent));
+    PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k, (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore.zeta));
+    falls = (PetscBool)(*psi < (1.0 - no_change) * before);
+    if (falls) {
+      idle   = 0;
+      *least = PETSC_INFINITY;
+    } else if (gradient <= IP_RESTORE_LEAST) idle = patience;
+    else if (gradient <= IP_RESTORE_SMALL || gradient > falling * *least) idle++;
+    *least = PetscMin(*least, gradient);
+    if (alpha == 0.0) ip->restore.zeta *= descent ? 10.0 : 0.1;
+    if (alpha == 0.0) continue;
+    PetscCall(RestoreTakeTrial(tao));
+    PetscCall(RestoreAccepts(tao, theta0, ok));
+  }
+  *stuck = (PetscBool)(idle >= patience);
+  PetscFunctionReturn(0);
+}
+
+/*
+  Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then tells whether
+  because the violation has a minimum that is not zero: it falls no longer, and its gradient is small but for what bounds stop.
+*/
+PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  PetscReal     theta0 = ip->search.theta, psi, least = 0.0;
+  PetscBool     stuck = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(IPMeritFilterAdd(tao));
+  *ok = PETSC_FALSE;
+  ip->rec.nrestored++;
+  PetscCall(RestoreFirstZeta(tao));
+  PetscCall(RestoreViolation(tao, &ip->at, &psi));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  PetscCall(RestoreAccepts(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
+  PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  *infeasible = (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search.theta_ref);
+  PetscCall(IPBoundsCenter(tao));
+  if (*ok) PetscCall(RestoreLeave(tao));
+  PetscFunctionReturn(0);
+}

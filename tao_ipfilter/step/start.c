@@ -1,0 +1,266 @@
+/* Starting values of slacks and multipliers. */
+#include "../ipfilterimpl.h"
+
+#define IP_LEAST_START 1e-10 /* gap of the pairs at the start, as a fraction of the terms of the objective */
+
+/* The given constants: t stays for bounds, s = s0, z = z0, lambda = 0, mu = mu0 */
+static PetscErrorCode StartCold(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->mu = ip->opt.mu0 * ip->first.unit;
+  if (ip->mi) {
+    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt.s0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0 * ip->first.unit));
+    PetscCall(IPSlackKeepInside(tao, ip->at.s, 0.5));
+    PetscCall(IPSlackCenterUpper(tao, ip->mu));
+    PetscCall(VecSet(ip->at.lambda, 0.0));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Weighted mean of rho q^2: the product length x pressure of the constraints' present values */
+static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           q2, weight;
+  PetscScalar   sum;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q2));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &weight));
+  PetscCall(VecPointwiseMult(q2, q, q));
+  PetscCall(VecPointwiseMult(weight, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(VecDot(q2, weight, &sum));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &weight));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q2));
+  *mean = PetscRealPart(sum) / ip->pair[IP_SLACK].weight;
+  PetscFunctionReturn(0);
+}
+
+/* Weighted mean of |v| */
+static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
+{
+  IPPair *slack = &((TAO_IPFILTER *)tao->data)->pair[IP_SLACK];
+  Vec     wv;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &wv));
+  PetscCall(VecPointwiseMult(wv, v, slack->w));
+  PetscCall(VecNorm(wv, NORM_1, mean));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &wv));
+  *mean /= slack->weight;
+  PetscFunctionReturn(0);
+}
+
+/* Without a penalty step, or an objective that resists one, the stiffness is that of multipliers which balance the gradient, over the constraints' mean value */
+static PetscErrorCode GradientStiffness(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     gradient, transmitted, length;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(MatMultTranspose(ip->jac.inequality, ip->pair[IP_SLACK].w, force));
+  PetscCall(VecNorm(force, NORM_2, &transmitted));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0) PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
+  PetscFunctionReturn(0);
+}
+
+/* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and only the bounds will end it: mean per pair of
+   bounds */
+static PetscErrorCode BoundsWorth(Tao tao, PetscReal *worth)
+{
+  TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal    linear = 100.0; /* ways that a step of Newton's method is long there */
+  PetscReal          sum[2] = {0.0, 0.0};
+  const PetscScalar *g, *h, *t;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(VecGetArrayRead(tao->gradient, &g));
+  PetscCall(VecGetArrayRead(ip->stiff.hdiag, &h));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecGetArrayRead(ip->pair[b].t, &t));
+    for (PetscInt j = 0; j < n; j++) {
+      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0), way = PetscRealPart(t[j]);
+
+      if (way >= PETSC_INFINITY) continue;
+      if (force > linear * PetscRealPart(h[j]) * way) sum[0] += force * way;
+      sum[1] += 1.0;
+    }
+    PetscCall(VecRestoreArrayRead(ip->pair[b].t, &t));
+  }
+  PetscCall(VecRestoreArrayRead(ip->stiff.hdiag, &h));
+  PetscCall(VecRestoreArrayRead(tao->gradient, &g));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  *worth = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there. Constraints that
+   all happen to be active there say nothing: pairs start with a gap that is worth something beside the objective. */
+static PetscErrorCode StartPredicted(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     length, pressure, mean, terms, worth;
+  PetscBool     moved = PETSC_FALSE;
+  Vec           z;
+
+  PetscFunctionBegin;
+  if (!ip->stiff.flat) PetscCall(IPPenaltyStep(tao, &moved));
+  if (!moved) PetscCall(GradientStiffness(tao));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  PetscCall(MeanMagnitude(tao, z, &pressure));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(MeanProduct(tao, ip->at.c, &mean));
+  ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
+  PetscCall(IPWorthTerms(tao, &terms));
+  ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
+  PetscCall(BoundsWorth(tao, &worth));
+  ip->mu = PetscMax(ip->mu, ip->opt.mu_start * worth);
+  if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
+  PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  PetscFunctionReturn(0);
+}
+
+/* How far the caller's s and z are from belonging to x: the larger of the forces out of balance, relative, and of
+   |c - s| against |c|, but no more than 1 */
+static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     force, imbalance, length, difference;
+
+  PetscFunctionBegin;
+  PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
+  PetscCall(VecNorm(tao->gradient, NORM_2, &force));
+  PetscCall(VecNorm(ip->rx, NORM_2, &imbalance));
+  *mismatch = PetscMin(1.0, force > 0.0 ? imbalance / force : 1.0);
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(VecWAXPY(ip->rc, -1.0, ip->at.s, ip->at.c));
+  PetscCall(MeanMagnitude(tao, ip->rc, &difference));
+  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  *mismatch = PetscMin(1.0, PetscMax(*mismatch, length > 0.0 ? difference / length : 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the caller's slacks and multipliers solve the problem already, or nearly so: they are kept then, with their mean product as mu */
+static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
+{
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal nearly  = 10.0;
+  PetscReal       least_s = 1.0, least_z = 1.0, least_upper = 1.0;
+
+  PetscFunctionBegin;
+  *solves = PETSC_FALSE;
+  if (ip->mi) {
+    PetscCall(VecMin(ip->at.s, NULL, &least_s));
+    PetscCall(VecMin(ip->at.z[IP_SLACK], NULL, &least_z));
+    PetscCall(IPSlackPressure(tao, ip->at.lambda));
+  }
+  if (ip->pair[IP_CEILING].n) PetscCall(VecMin(ip->pair[IP_CEILING].t, NULL, &least_upper));
+  if (!(PetscMin(PetscMin(least_s, least_upper), least_z) > 0.0)) PetscFunctionReturn(0);
+  PetscCall(IPBarrierAverage(tao, &ip->mu));
+  PetscCall(IPComputeKKT(tao));
+  *solves = (PetscBool)(ip->kkt.error <= nearly * ip->tol);
+  PetscFunctionReturn(0);
+}
+
+/* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred, farther from the boundary
+   the less they belong to x */
+static PetscErrorCode StartWarm(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  PetscReal     mean, average, mismatch = 1.0;
+  PetscBool     solves;
+  Vec           q;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(ip->given.warm_s, slack->t));
+  PetscCall(VecCopy(ip->given.warm_z, slack->z));
+  PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
+  PetscCall(IPSidesTakePairs(tao));
+  if (IPWarmBounds(ip)) PetscCall(IPWarmSetBounds(tao));
+  PetscCall(WarmSolves(tao, &solves));
+  if (solves) PetscFunctionReturn(0);
+  PetscCall(WarmMismatch(tao, &mismatch));
+  PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
+  average = PetscMax(average / slack->weight, 0.0);
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q));
+  PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff.rho));
+  PetscCall(VecAYPX(q, -1.0, slack->t));
+  PetscCall(MeanProduct(tao, q, &mean));
+  ip->mu = PetscMax(average, mismatch * ip->opt.mu_warm * (mean > 0.0 ? mean : 1.0));
+  PetscCall(IPSlackCentral(tao, q, ip->mu, slack->t, slack->z));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q));
+  PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  PetscFunctionReturn(0);
+}
+
+/* The caller's multipliers of the bounds, where there are no rows; mu as for these */
+static PetscErrorCode StartWarmBounds(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     mean, average, mismatch = 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPWarmSetBounds(tao));
+  PetscCall(WarmMismatch(tao, &mismatch));
+  PetscCall(IPBarrierAverage(tao, &average));
+  PetscCall(IPWarmMeanProduct(tao, &mean));
+  ip->mu = PetscMax(average, PetscMax(mismatch * ip->opt.mu_warm, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* mu, which follows from the rows where there are some, and the bounds' multipliers, without any of the caller's */
+static PetscErrorCode StartBounds(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     x, mean;
+  PetscBool     moved = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD) PetscCall(IPFreeStep(tao, &moved, &mean));
+  if (moved) ip->mu = ip->opt.mu_start * mean;
+  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
+    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
+    PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
+    ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
+  }
+  PetscCall(IPBoundsCenter(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Fills slacks, multipliers and mu. The Hessian at x is needed for the stiffness of the constraints. */
+PetscErrorCode IPStartPoint(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
+    if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
+  if (IPWarmEquality(ip)) PetscCall(IPWarmSetEquality(tao));
+  if (!ip->mi && IPWarmBounds(ip)) PetscCall(StartWarmBounds(tao));
+  else if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
+  else if (ip->opt.start == IP_START_WARM && ip->given.warm_s) PetscCall(StartWarm(tao));
+  else PetscCall(StartPredicted(tao));
+  if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
+  else PetscCall(StartBounds(tao));
+  if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(IPBarrierAverage(tao, &ip->bar.first));
+  ip->bar.first = PetscMax(ip->bar.first, ip->mu);
+  PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}

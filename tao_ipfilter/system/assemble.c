@@ -1,0 +1,307 @@
+/*
+   The condensed matrix A = H + ... + J^T D J in memory.
+
+   A has H's type, except that it is AIJ for a dense H, and BAIJ where one process has an SBAIJ H, unless the preconditioner factors
+   SBAIJ: H then takes half the memory, while products with A and hypre work on whole rows. A's pattern is the union of H's and J^T J's and is
+   preallocated; while H is unchanged only the rows that J^T D J touches are written again, so a constant H is copied once.
+*/
+#include "../ipfilterimpl.h"
+
+/* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on */
+static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n, PetscInt cols[])
+{
+  PetscFunctionBegin;
+  *n           = 0;
+  cols[(*n)++] = ib;
+  for (PetscInt k = 0; k < bs; k++) {
+    for (PetscInt m = 0; m < 2; m++) {
+      Mat             B = m ? C : H;
+      const PetscInt *c;
+      PetscInt        nc, last = -1;
+
+      if (!B) continue;
+      PetscCall(MatGetRow(B, ib * bs + k, &nc, &c, NULL));
+      for (PetscInt j = 0; j < nc; j++) {
+        const PetscInt block = c[j] / bs;
+
+        if (block == last || (upper && block < ib)) continue;
+        cols[(*n)++] = last = block;
+      }
+      PetscCall(MatRestoreRow(B, ib * bs + k, &nc, &c, NULL));
+    }
+  }
+  PetscCall(PetscSortRemoveDupsInt(n, cols));
+  PetscFunctionReturn(0);
+}
+
+/* Longest row of H plus that of J^T D J times the block size bounds a block row's pattern */
+static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
+{
+  PetscInt rstart, rend, h = 0, c = 0;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; i++) {
+    PetscInt nc;
+
+    PetscCall(MatGetRow(H, i, &nc, NULL, NULL));
+    h = PetscMax(h, nc);
+    PetscCall(MatRestoreRow(H, i, &nc, NULL, NULL));
+    if (!C) continue;
+    PetscCall(MatGetRow(C, i, &nc, NULL, NULL));
+    c = PetscMax(c, nc);
+    PetscCall(MatRestoreRow(C, i, &nc, NULL, NULL));
+  }
+  *longest = bs * (h + c) + 1;
+  PetscFunctionReturn(0);
+}
+
+/* Lengths of the block rows of the union pattern: of this rank's columns, and of the others' */
+static PetscErrorCode CondensedCountBlocks(Mat H, Mat C, PetscInt bs, PetscBool upper, PetscInt dnz[], PetscInt onz[])
+{
+  PetscInt rstart, rend, longest = 0, *cols;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  if (upper) PetscCall(MatGetRowUpperTriangular(H));
+  PetscCall(CondensedLongestRow(H, C, bs, &longest));
+  PetscCall(PetscMalloc1(longest, &cols));
+  for (PetscInt ib = rstart / bs; ib < rend / bs; ib++) {
+    const PetscInt row = ib - rstart / bs;
+    PetscInt       nb;
+
+    PetscCall(CondensedRowPattern(H, C, ib, bs, upper, &nb, cols));
+    dnz[row] = onz[row] = 0;
+    for (PetscInt j = 0; j < nb; j++) {
+      if (cols[j] >= rstart / bs && cols[j] < rend / bs) dnz[row]++;
+      else onz[row]++;
+    }
+  }
+  PetscCall(PetscFree(cols));
+  if (upper) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* The type of A for a Hessian of H's type, and whether it consists of blocks, or of the upper triangle of blocks */
+static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij, PetscBool *sbaij)
+{
+  PetscBool aij, dense;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &dense, MATSEQDENSE, MATMPIDENSE, ""));
+  PetscCall(MatGetType(H, type));
+  PetscCheck(aij || *baij || *sbaij || dense, PetscObjectComm((PetscObject)H), PETSC_ERR_SUP, "TAOIPFILTER takes a Hessian of type AIJ, BAIJ, SBAIJ or dense, not %s", *type);
+  if (dense) *type = MATAIJ;
+  PetscFunctionReturn(0);
+}
+
+/* A new A, preallocated for the union pattern */
+static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
+{
+  PetscInt     bs = 1, hbs, m, n, M, N, *dnz, *onz;
+  PetscBool    baij, sbaij;
+  MatType      type;
+  MatNullSpace near;
+
+  PetscFunctionBegin;
+  PetscCall(CondensedChooseType(H, &type, &baij, &sbaij));
+  PetscCall(MatGetBlockSize(H, &hbs));
+  if (baij || sbaij) bs = hbs;
+  PetscCall(MatGetLocalSize(H, &m, &n));
+  PetscCall(MatGetSize(H, &M, &N));
+  PetscCall(PetscMalloc2(m / bs, &dnz, m / bs, &onz));
+  PetscCall(CondensedCountBlocks(H, C, bs, sbaij, dnz, onz));
+  PetscCall(MatCreate(PetscObjectComm((PetscObject)H), A));
+  PetscCall(MatSetSizes(*A, m, n, M, N));
+  PetscCall(MatSetType(*A, type));
+  if (hbs > 1) PetscCall(MatSetBlockSize(*A, hbs));
+  if (sbaij) PetscCall(MatXAIJSetPreallocation(*A, bs, NULL, NULL, dnz, onz));
+  else if (baij) PetscCall(MatXAIJSetPreallocation(*A, bs, dnz, onz, NULL, NULL));
+  else {
+    PetscCall(MatSeqAIJSetPreallocation(*A, 0, dnz));
+    PetscCall(MatMPIAIJSetPreallocation(*A, 0, dnz, 0, onz));
+  }
+  PetscCall(PetscFree2(dnz, onz));
+  if (sbaij) PetscCall(MatSetOption(*A, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
+  PetscCall(MatSetOption(*A, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetOption(*A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  PetscCall(MatGetNearNullSpace(H, &near));
+  if (near) PetscCall(MatSetNearNullSpace(*A, near));
+  PetscFunctionReturn(0);
+}
+
+/* Zeroes in A the pattern of C; A's other entries stay */
+static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt rows[])
+{
+  PetscScalar *zeros = NULL;
+  PetscInt     nz    = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < nrows; r++) {
+    const PetscInt *c;
+    PetscInt        nc;
+
+    PetscCall(MatGetRow(C, rows[r], &nc, &c, NULL));
+    if (nc > nz) {
+      nz = 2 * nc;
+      PetscCall(PetscFree(zeros));
+      PetscCall(PetscCalloc1(nz, &zeros));
+    }
+    PetscCall(MatSetValues(A, 1, &rows[r], nc, c, zeros, INSERT_VALUES));
+    PetscCall(MatRestoreRow(C, rows[r], &nc, &c, NULL));
+  }
+  PetscCall(PetscFree(zeros));
+  PetscFunctionReturn(0);
+}
+
+/* Whether H has its upper triangle only, and A is to have whole rows */
+static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
+{
+  PC        pc;
+  PetscBool half, factored;
+
+  PetscFunctionBegin;
+  *unfolds = PETSC_FALSE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)H, MATSEQSBAIJ, &half));
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, &factored, PCCHOLESKY, PCICC, ""));
+  *unfolds = (PetscBool)(half && !factored);
+  PetscFunctionReturn(0);
+}
+
+/* A_r = H_r or A_r += H_r for one row */
+static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
+{
+  const PetscInt    *c;
+  const PetscScalar *v;
+  PetscInt           nc;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(H, row, &nc, &c, &v));
+  PetscCall(MatSetValues(A, 1, &row, nc, c, v, mode));
+  PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
+  PetscFunctionReturn(0);
+}
+
+/* One row of an upper triangle and its mirror image; entries with c < row come with row c, if that is written too */
+static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
+{
+  const PetscInt    *c;
+  const PetscScalar *v;
+  PetscInt           nc;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(H, row, &nc, &c, &v));
+  PetscCall(MatSetValues(A, 1, &row, nc, c, v, INSERT_VALUES));
+  PetscCall(MatSetValues(A, nc, c, 1, &row, v, INSERT_VALUES));
+  PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
+  PetscFunctionReturn(0);
+}
+
+/* Copies all of a BAIJ matrix block row by block row: its scalar rows stacked are what MatSetValuesBlocked() takes */
+static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
+{
+  PetscScalar *values = NULL;
+  PetscInt    *blocks = NULL;
+  PetscInt     rstart, rend, max = 0;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  for (PetscInt row = rstart; row < rend; row++) {
+    const PetscInt    *c;
+    const PetscScalar *v;
+    PetscInt           nc;
+
+    PetscCall(MatGetRow(H, row, &nc, &c, &v));
+    if (nc > max) {
+      PetscCheck(row % bs == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Rows of one block row differ in length");
+      max = 2 * nc;
+      PetscCall(PetscFree2(values, blocks));
+      PetscCall(PetscMalloc2(bs * max, &values, max / bs + 1, &blocks));
+    }
+    PetscCall(PetscArraycpy(values + (row % bs) * nc, v, nc));
+    const PetscInt nb = nc / bs, ib = row / bs;
+    for (PetscInt j = 0; j < nb; j++) blocks[j] = c[j * bs] / bs;
+    PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
+    if (row % bs == bs - 1) PetscCall(MatSetValuesBlocked(A, 1, &ib, nb, blocks, values, INSERT_VALUES));
+  }
+  PetscCall(PetscFree2(values, blocks));
+  PetscFunctionReturn(0);
+}
+
+/* Writes all of H into A */
+static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
+{
+  PetscInt  rstart, rend, bs;
+  PetscBool baij, sbaij;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &baij, MATSEQBAIJ, MATMPIBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(MatGetOwnershipRange(H, &rstart, &rend));
+  if (baij) {
+    PetscCall(MatGetBlockSize(H, &bs));
+    PetscCall(CopyBlocked(A, H, bs));
+    PetscFunctionReturn(0);
+  }
+  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(SetRow(A, H, i, INSERT_VALUES));
+  if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* Writes the rows of H into A that J^T D J touches */
+static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
+{
+  PetscBool sbaij;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
+  for (PetscInt r = 0; r < cond->ntouched; r++) {
+    if (unfolds) PetscCall(SetRowMirrored(cond->A, H, cond->touched[r]));
+    else PetscCall(SetRow(cond->A, H, cond->touched[r], INSERT_VALUES));
+  }
+  if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
+  PetscFunctionReturn(0);
+}
+
+/* A = H, all of it for a new pattern or new values of H; else the entries that J^T D J has changed */
+PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
+  MatNullSpace near;
+  PetscBool    unfolds = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(HessianUnfolds(tao, H, &unfolds));
+  if (unfolds && values) {
+    PetscCall(MatConvert(((TAO_IPFILTER *)tao->data)->hess.H, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
+    PetscCall(MatGetNearNullSpace(((TAO_IPFILTER *)tao->data)->hess.H, &near));
+    if (near) PetscCall(MatSetNearNullSpace(H, near));
+  } else PetscCall(PetscObjectReference((PetscObject)H));
+  if (pattern) {
+    PetscCall(MatDestroy(&cond->A));
+    PetscCall(CondensedCreate(H, cond->JtDJ, &cond->A));
+    cond->shifted = PETSC_FALSE;
+  }
+  if (cond->JtDJ) PetscCall(CondensedZeroTouched(cond->A, cond->JtDJ, cond->ntouched, cond->touched));
+  if (values) PetscCall(CondensedCopyHessian(cond->A, H));
+  else PetscCall(CondensedRestoreTouched(cond, H, unfolds));
+  PetscCall(MatDestroy(&H));
+  PetscFunctionReturn(0);
+}
+
+/* A += J^T D J, into an A that other entries were just inserted into */
+PetscErrorCode IPCondensedAddProduct(IPCondensed *cond)
+{
+  PetscFunctionBegin;
+  PetscCall(MatAssemblyBegin(cond->A, MAT_FLUSH_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(cond->A, MAT_FLUSH_ASSEMBLY));
+  for (PetscInt r = 0; r < cond->ntouched; r++) PetscCall(SetRow(cond->A, cond->JtDJ, cond->touched[r], ADD_VALUES));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,105 @@
+/* The condensed matrix where the Hessian gives products alone: H + Sigma + J^T D J + delta M_u as a MATSHELL, with its diagonal. */
+#include "../ipfilterimpl.h"
+
+/* y = J^T D J x + y */
+static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)
+{
+  IPRows *rows = &((TAO_IPFILTER *)tao->data)->cond.rows;
+  Vec     force;
+
+  PetscFunctionBegin;
+  if (!rows->J) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(rows->D, &force));
+  PetscCall(MatMult(rows->J, x, force));
+  PetscCall(VecPointwiseMult(force, force, rows->D));
+  PetscCall(MatMultTransposeAdd(rows->J, force, y, y));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* Fixed variables are cut out, with a diagonal of the Hessian's size */
+static PetscErrorCode OperatorMult(Mat A, Vec x, Vec y)
+{
+  TAO_IPFILTER *ip;
+  Tao           tao;
+  Vec           part;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(A, &tao));
+  ip = (TAO_IPFILTER *)tao->data;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &part));
+  PetscCall(VecCopy(x, part));
+  PetscCall(IPFixedZero(tao, part));
+  PetscCall(MatMult(ip->hess.H, part, y));
+  PetscCall(OperatorAddRows(tao, part, y));
+  PetscCall(VecPointwiseMult(part, part, ip->cond.shift));
+  PetscCall(VecAXPY(y, 1.0, part));
+  if (ip->fixed) {
+    PetscCall(IPFixedZero(tao, y));
+    PetscCall(VecCopy(x, part));
+    PetscCall(IPFixedZero(tao, part));
+    PetscCall(VecAYPX(part, -1.0, x));
+    PetscCall(VecAXPY(y, ip->stiff.hscale, part));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &part));
+  PetscFunctionReturn(0);
+}
+
+/* d += diagonal of J^T D J */
+static PetscErrorCode OperatorAddRowsDiagonal(const IPRows *rows, Vec d)
+{
+  const PetscScalar *weight;
+  PetscInt           rstart, rend;
+
+  PetscFunctionBegin;
+  if (!rows->J) PetscFunctionReturn(0);
+  PetscCall(MatGetOwnershipRange(rows->J, &rstart, &rend));
+  PetscCall(VecGetArrayRead(rows->D, &weight));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscInt    *c;
+    const PetscScalar *v;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(rows->J, i, &n, &c, &v));
+    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(d, c[k], weight[i - rstart] * v[k] * v[k], ADD_VALUES));
+    PetscCall(MatRestoreRow(rows->J, i, &n, &c, &v));
+  }
+  PetscCall(VecRestoreArrayRead(rows->D, &weight));
+  PetscCall(VecAssemblyBegin(d));
+  PetscCall(VecAssemblyEnd(d));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OperatorGetDiagonal(Mat A, Vec d)
+{
+  TAO_IPFILTER *ip;
+  Tao           tao;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(A, &tao));
+  ip = (TAO_IPFILTER *)tao->data;
+  PetscCall(VecCopy(ip->cond.hdiag, d));
+  PetscCall(OperatorAddRowsDiagonal(&ip->cond.rows, d));
+  if (ip->fixed) PetscCall(VecISSet(d, ip->fixed, ip->stiff.hscale));
+  PetscFunctionReturn(0);
+}
+
+/* Makes cond.A once; it sees what the iteration changes. Its new state tells the preconditioner. */
+PetscErrorCode IPOperatorUpdate(Tao tao)
+{
+  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  PetscInt     n, N;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(VecGetSize(tao->solution, &N));
+  if (!cond->A) {
+    PetscCall(MatCreateShell(PetscObjectComm((PetscObject)tao), n, n, N, N, tao, &cond->A));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT, (void (*)(void))OperatorMult));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT_TRANSPOSE, (void (*)(void))OperatorMult));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_GET_DIAGONAL, (void (*)(void))OperatorGetDiagonal));
+    PetscCall(MatSetOption(cond->A, MAT_SYMMETRIC, PETSC_TRUE));
+  }
+  PetscCall(PetscObjectStateIncrease((PetscObject)cond->A));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,225 @@
+/*
+   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and the rows of norm terms, which have to
+   do with what is filtered, and hold bodies where nothing else does. Where equality constraints are condensed,
+   D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists it; in a restoration step what the
+   augmented system would eliminate to, 1/delta.
+*/
+#include "../ipfilterimpl.h"
+
+PetscErrorCode IPRowsDestroy(IPRows *rows)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&rows->J));
+  PetscCall(VecDestroy(&rows->D));
+  PetscCall(VecDestroy(&rows->inequality));
+  PetscCall(VecDestroy(&rows->below));
+  PetscCall(PetscMemzero(rows, sizeof(*rows)));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool RowsSameValues(const IPStamp *a, const IPStamp *b)
+{
+  return (PetscBool)(a->value_id == b->value_id && a->value_state == b->value_state);
+}
+
+static PetscBool RowsSamePattern(const IPStamp *a, const IPStamp *b)
+{
+  return (PetscBool)(a->pattern_id == b->pattern_id && a->pattern_state == b->pattern_state);
+}
+
+/* Copies the rows of J into those of the stacked matrix, from one of this rank's on; counts them instead where there are counts */
+static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[], PetscInt onz[])
+{
+  PetscInt rstart, rend, cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
+  PetscCall(MatGetOwnershipRangeColumn(J, &cstart, &cend));
+  for (PetscInt i = rstart; i < rend; i++) {
+    const PetscInt    *c;
+    const PetscScalar *v;
+    PetscInt           n;
+    const PetscInt     row = first + i - rstart;
+
+    PetscCall(MatGetRow(J, i, &n, &c, &v));
+    if (dnz) {
+      dnz[row] = 0;
+      for (PetscInt k = 0; k < n; k++) dnz[row] += c[k] >= cstart && c[k] < cend;
+      onz[row] = n - dnz[row];
+    } else PetscCall(MatSetValues(stacked, 1, &row, n, c, v, INSERT_VALUES));
+    PetscCall(MatRestoreRow(J, i, &n, &c, &v));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* An empty matrix with the rows of both */
+static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
+{
+  PetscInt m[2], n, N, *dnz, *onz;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(upper, &m[0], &n));
+  PetscCall(MatGetLocalSize(lower, &m[1], NULL));
+  PetscCall(MatGetSize(upper, NULL, &N));
+  PetscCall(PetscMalloc2(m[0] + m[1], &dnz, m[0] + m[1], &onz));
+  PetscCall(RowsCopy(upper, NULL, 0, dnz, onz));
+  PetscCall(RowsCopy(lower, NULL, m[0], dnz, onz));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)upper), m[0] + m[1], n, PETSC_DETERMINE, N, 0, dnz, 0, onz, stacked));
+  PetscCall(PetscFree2(dnz, onz));
+  PetscFunctionReturn(0);
+}
+
+/* The Jacobian of c_I and a matrix below it in one, refilled while the patterns stay */
+static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
+{
+  TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
+  IPRows           *rows = &ip->cond.rows;
+  const IPJacobian *jac  = &ip->jac;
+  PetscInt          rstart, m;
+
+  PetscFunctionBegin;
+  if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], stamp)) PetscFunctionReturn(0);
+  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) || !RowsSamePattern(&rows->source[1], stamp)) {
+    PetscCall(MatDestroy(&rows->J));
+    PetscCall(RowsCreateStacked(jac->inequality, lower, &rows->J));
+  }
+  PetscCall(MatGetOwnershipRange(rows->J, &rstart, NULL));
+  PetscCall(MatGetLocalSize(jac->inequality, &m, NULL));
+  PetscCall(RowsCopy(jac->inequality, rows->J, rstart, NULL, NULL));
+  PetscCall(RowsCopy(lower, rows->J, rstart + m, NULL, NULL));
+  PetscCall(MatAssemblyBegin(rows->J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(rows->J, MAT_FINAL_ASSEMBLY));
+  rows->source[0]      = jac->inequality_stamp;
+  rows->source[1]      = *stamp;
+  rows->stamp.value_id = rows->stamp.pattern_id = ((PetscObject)rows->J)->id;
+  PetscCall(PetscObjectStateGet((PetscObject)rows->J, &rows->stamp.value_state));
+  PetscCall(MatGetNonzeroState(rows->J, &rows->stamp.pattern_state));
+  PetscFunctionReturn(0);
+}
+
+/* One Jacobian, or none, as it is */
+static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
+{
+  PetscFunctionBegin;
+  if (J) PetscCall(PetscObjectReference((PetscObject)J));
+  PetscCall(MatDestroy(&rows->J));
+  rows->J     = J;
+  rows->stamp = *stamp;
+  PetscCall(PetscMemzero(rows->source, sizeof(rows->source)));
+  PetscFunctionReturn(0);
+}
+
+/* What is below the rows of c_I: equality constraints that are condensed, norm terms, or NULL: nothing */
+static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
+{
+  if (ip->me && ip->prox.condensed) {
+    *stamp = &ip->jac.equality_stamp;
+    return ip->jac.equality;
+  }
+  *stamp = &ip->terms.stamp;
+  return ip->terms.n ? ip->terms.T : NULL;
+}
+
+/* Weights of the rows below. A row that hardly moves anything counts as no more than 100 times as stiff as the mean. */
+static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal multiple = ip->terms.n ? 1.0 : ip->opt.proximal;
+  PetscScalar    *w, sum;
+  PetscReal       mean;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  if (ip->aug.delta > 0.0) {
+    PetscCall(VecSet(weights, 1.0 / ip->aug.delta));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPCompliances(tao, J, weights));
+  PetscCall(VecSum(weights, &sum));
+  PetscCall(VecGetSize(weights, &n));
+  mean = PetscRealPart(sum) / n;
+  PetscCall(VecGetLocalSize(weights, &n));
+  PetscCall(VecGetArray(weights, &w));
+  for (PetscInt i = 0; i < n; i++) w[i] = mean > 0.0 ? 1.0 / (multiple * PetscMax(PetscRealPart(w[i]), 1e-2 * mean)) : 1.0;
+  PetscCall(VecRestoreArray(weights, &w));
+  PetscFunctionReturn(0);
+}
+
+/* The local part of v into that of all weights, from one entry on */
+static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
+{
+  const PetscScalar *from;
+  PetscScalar       *to;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(v, &from));
+  PetscCall(VecGetArray(all, &to));
+  PetscCall(PetscArraycpy(to + first, from, n));
+  PetscCall(VecRestoreArray(all, &to));
+  PetscCall(VecRestoreArrayRead(v, &from));
+  PetscFunctionReturn(0);
+}
+
+/* A copy of v, whose layout is another's only if the problem is another */
+static PetscErrorCode RowsKeep(Vec v, Vec *copy)
+{
+  PetscFunctionBegin;
+  if (!*copy) PetscCall(VecDuplicate(v, copy));
+  PetscCall(VecCopy(v, *copy));
+  PetscFunctionReturn(0);
+}
+
+/* Weights of both kinds in one vector */
+static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPRows       *rows  = &ip->cond.rows;
+  PetscInt      first = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&rows->D));
+  PetscCall(MatCreateVecs(rows->J, NULL, &rows->D));
+  if (ip->mi) {
+    PetscCall(VecGetLocalSize(rows->inequality, &first));
+    PetscCall(RowsPlaceWeights(rows->inequality, rows->D, 0));
+  }
+  if (below) PetscCall(RowsPlaceWeights(rows->below, rows->D, first));
+  PetscFunctionReturn(0);
+}
+
+/* The rows at the present point, without weights */
+PetscErrorCode IPRowsTake(Tao tao)
+{
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  IPRows        *rows = &ip->cond.rows;
+  const IPStamp *stamp;
+  const Mat      below = RowsBelow(ip, &stamp);
+
+  PetscFunctionBegin;
+  if (ip->mi && below) PetscCall(RowsStack(tao, below, stamp));
+  else if (below) PetscCall(RowsTakeOne(below, stamp, rows));
+  else PetscCall(RowsTakeOne(ip->mi ? ip->jac.inequality : NULL, &ip->jac.inequality_stamp, rows));
+  PetscFunctionReturn(0);
+}
+
+/* Rows and weights for the weights D of the inequality constraints, NULL where there are none */
+PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
+{
+  TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
+  IPRows        *rows = &ip->cond.rows;
+  const IPStamp *stamp;
+  const Mat      below = RowsBelow(ip, &stamp);
+
+  PetscFunctionBegin;
+  PetscCall(IPRowsTake(tao));
+  if (ip->mi) PetscCall(RowsKeep(D, &rows->inequality));
+  if (below) {
+    PetscCall(VecDestroy(&rows->below));
+    PetscCall(MatCreateVecs(below, NULL, &rows->below));
+    PetscCall(RowsWeigh(tao, below, rows->below));
+  }
+  if (rows->J) PetscCall(RowsJoinWeights(tao, (PetscBool)(below != NULL)));
+  PetscFunctionReturn(0);
+}
