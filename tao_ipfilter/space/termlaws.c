@@ -160,21 +160,22 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscFunctionReturn(0);
 }
 
-/* How far f and v are from the laws, lengths: the sum of squares over all rows, constraints by min(lambda / rho, v), terms by |tau - P(tau - rho v)| / rho */
+/* How far f and v are from the laws, an energy: the sum over all rows, constraints by min(lambda / rho, v), terms by |tau - P(tau - rho v)| / rho, squared times rho */
 PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal merit = 0.0;
 
   for (PetscInt i = 0; i < set->m; i++) {
-    if (set->takes[i]) merit += PetscSqr(PetscMin(s->lambda[i] * set->system.gives[i], s->gap[i]));
-    else merit += PetscSqr(PetscMin(0.0, s->gap[i]));
+    const PetscReal gives = set->system.gives[i], off = set->takes[i] ? PetscMin(s->lambda[i] * gives, s->gap[i]) : PetscMin(0.0, s->gap[i]);
+
+    if (gives > 0.0) merit += PetscSqr(off) / gives;
   }
   for (PetscInt i = 0; i < set->n; i++) {
     PetscReal v[2];
 
     if (!set->takes[IPTermLawsRow(set, i)]) continue;
     IPTermLawsMotion(set, s, i, v);
-    merit += PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
+    merit += set->rho[i] * PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
   }
   return merit;
 }

@@ -21,8 +21,17 @@ static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   return changed;
 }
 
-/* Which terms slip; where a constraint has just closed nothing is known of the bound, and its term sticks for a step, or slips the way it goes */
-static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s, PetscBool sticks)
+/* The bound of a term; where its constraint has just closed, by the force that opens it again were nothing else to move */
+static PetscReal TermSetForeseeBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
+{
+  const PetscReal gives = i < set->m ? set->system.gives[i] : 0.0;
+
+  if (set->coefficient[i] < 0.0 || s->lambda[i] != 0.0 || gives <= 0.0) return IPTermLawsBound(set, s, i);
+  return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / gives);
+}
+
+/* Which terms slip */
+static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscBool changed = PETSC_FALSE;
 
@@ -31,7 +40,7 @@ static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s, PetscBool
     PetscBool slips;
 
     if (!set->takes[IPTermLawsRow(set, i)]) continue;
-    slips         = (PetscBool)(IPTermLawsTrial(set, s, i, b) > IPTermLawsBound(set, s, i) && (!sticks || set->coefficient[i] < 0.0 || s->lambda[i] != 0.0));
+    slips         = (PetscBool)(IPTermLawsTrial(set, s, i, b) > TermSetForeseeBound(set, s, i));
     changed       = (PetscBool)(changed || slips != set->slips[i]);
     set->slips[i] = slips;
   }
@@ -147,8 +156,9 @@ static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], Pets
   for (PetscInt i = 0; i < n; i++) x[i] = x0[i] + alpha * (x[i] - x0[i]);
 }
 
-/* Back along the last step, from where f, v and y were, to the best of some points on it: v is linear */
-static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[], const PetscReal y[])
+/* Back along the last step, from where f, v and y were and the directions off by `directions`, to the point on it with the least energy of what laws and directions
+   are off by: v is linear */
+static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[], const PetscReal y[], PetscReal directions)
 {
   const PetscInt halvings = 8;
   PetscReal      least = IPTermLawsMerit(set, s), best = 1.0, alpha = 1.0, *trial;
@@ -164,7 +174,7 @@ static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, co
       trial[i]        = f[i] + alpha * (s->lambda[i] - f[i]);
       trial[s->m + i] = v[i] + alpha * (s->gap[i] - v[i]);
     }
-    merit = IPTermLawsMerit(set, &at);
+    merit = IPTermLawsMerit(set, &at) + PetscSqr((1.0 - alpha) * directions);
     if (merit < least) {
       least = merit;
       best  = alpha;
@@ -180,27 +190,18 @@ static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, co
 /* The same, and as far along it as it leads to the laws */
 static PetscErrorCode TermSetCarefulStep(IPTermSet *set, const IPReducedSystem *s, PetscReal rtol, PetscBool *solved)
 {
-  PetscReal *before;
+  PetscReal *before, directions = 0.0;
 
   PetscFunctionBegin;
+  for (PetscInt j = 0; j < s->k; j++) directions += PetscSqr(set->Fy[j]);
   PetscCall(PetscMalloc1(2 * s->m + s->k, &before));
   PetscCall(PetscArraycpy(before, s->lambda, s->m));
   PetscCall(PetscArraycpy(before + s->m, s->gap, s->m));
   PetscCall(PetscArraycpy(before + 2 * s->m, s->y, s->k));
   PetscCall(TermSetStep(set, s, rtol, solved));
-  if (*solved) PetscCall(TermSetSearch(set, s, before, before + s->m, before + 2 * s->m));
+  if (*solved) PetscCall(TermSetSearch(set, s, before, before + s->m, before + 2 * s->m, PetscSqrtReal(directions)));
   PetscCall(PetscFree(before));
   PetscFunctionReturn(0);
-}
-
-/* How long ago the laws have last been met better than ever before, in steps */
-static PetscInt TermSetFutile(const IPTermSet *set, const IPReducedSystem *s, PetscReal *least, PetscInt futile)
-{
-  const PetscReal merit = IPTermLawsMerit(set, s);
-
-  if (!(merit < *least)) return futile + 1;
-  *least = merit;
-  return 0;
 }
 
 /* The root of the energy that the residuals stand for */
@@ -216,29 +217,28 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
 }
 
 /* Opens, closes, and tells what slips; *changed: whether anything is not what it was */
-static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, PetscBool all, PetscBool sticks, PetscBool *changed)
+static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, PetscBool all, PetscBool *changed)
 {
   PetscFunctionBegin;
   *changed = TermSetClose(set, s, all);
   if (*changed) PetscCall(IPTermLawsRenew(set, s));
-  if (TermSetSlip(set, s, sticks)) *changed = PETSC_TRUE;
+  if (TermSetSlip(set, s)) *changed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
 /* Newton's method in so many steps; *steps: systems solved are added. *first: what laws and directions were off by in the beginning, negative: it is now. */
 static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first, PetscInt *steps, PetscBool *solved)
 {
-  const PetscInt  patience = 3, stuck = 4, cycles = 25;
+  const PetscInt  cycles = 25;
   const PetscReal exact = 1e-12, rounding = 1e-9, enough = 1e-3, coarse = 1e-2, fine = 1e-10;
-  PetscReal       before = PETSC_INFINITY, least = PETSC_INFINITY;
-  PetscInt        futile = 0, careful = 0;
+  PetscReal       before = PETSC_INFINITY;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     PetscReal largest, norm, rtol;
     PetscBool changed;
 
-    PetscCall(TermSetExchange(set, s, (PetscBool)(careful < cycles), (PetscBool)(careful < stuck), &changed));
+    PetscCall(TermSetExchange(set, s, (PetscBool)(k < cycles), &changed));
     largest = TermSetResidual(set, s);
     PetscCall(IPTermLawsResidualOfDirections(set, s));
     norm    = TermSetNorm(set, s);
@@ -247,13 +247,8 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
     if (*solved) PetscFunctionReturn(0);
     if (*first < 0.0) *first = norm;
     before = largest;
-    if (k) futile = TermSetFutile(set, s, &least, futile);
-    rtol = changed ? coarse : PetscClipInterval(0.5 * enough * *first / norm, fine, coarse);
-    if (futile < patience && !careful) PetscCall(TermSetStep(set, s, rtol, solved));
-    else {
-      PetscCall(TermSetCarefulStep(set, s, rtol, solved));
-      careful++;
-    }
+    rtol   = changed ? coarse : PetscClipInterval(0.5 * enough * *first / norm, fine, coarse);
+    PetscCall(TermSetCarefulStep(set, s, rtol, solved));
     (*steps)++;
     if (!*solved) PetscFunctionReturn(0);
   }
