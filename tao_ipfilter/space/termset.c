@@ -230,7 +230,7 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
 static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first, PetscInt *steps, PetscBool *solved)
 {
   const PetscInt  cycles = 25;
-  const PetscReal exact = 1e-12, rounding = 1e-9, enough = 1e-3, coarse = 1e-2, fine = 1e-10;
+  const PetscReal exact = 1e-12, rounding = 1e-9, enough = 1e-3, coarse = 1e-1, fine = 1e-10;
   PetscReal       before = PETSC_INFINITY;
 
   PetscFunctionBegin;
