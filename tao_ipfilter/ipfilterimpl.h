@@ -109,6 +109,8 @@ typedef struct {
   PetscInt             nrestored;              /* restorations */
   PetscInt             ntiny;                  /* steps in a row that are as small as rounding */
   PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
+  PetscInt             nstraight;              /* whole steps in a row with a shift along which the objective fell as a straight line, */
+  PetscReal            last_f;                 /* and the objective before the next one */
   PetscInt             napplications;          /* of the preconditioner in the filtered subspace method, */
   PetscInt             nreduced, npivots;      /* its reduced problems, and the active sets that they took */
   PetscInt             ndirections;            /* iterations that were a direction of it, no step of Newton's */

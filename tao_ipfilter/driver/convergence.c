@@ -32,15 +32,6 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.violation > small);
 }
 
-/* Whether the objective has fallen so far below its first value, against that value and against what a Newton step from
-   the start would gain, that it can only be unbounded; where constraints are violated that says nothing */
-static PetscBool Unbounded(const TAO_IPFILTER *ip)
-{
-  const PetscReal size = PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x), PetscSqr(ip->first.gradient) / ip->stiff.hscale);
-
-  return (PetscBool)(size > 0.0 && ip->at.f < ip->first.f - ip->opt.unbounded_factor * size && !Violated(ip));
-}
-
 /* Whether the iterate meets the tolerance in both measures of the KKT error, and the absolute limits */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
@@ -155,7 +146,8 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = &ip->kkt;
-  PetscBool     own, stationary = PETSC_FALSE, fritz_john;
+  PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
+  PetscReal     lowest;
 
   PetscFunctionBegin;
   (void)ctx;
@@ -164,6 +156,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG, "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
+  PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
@@ -172,9 +165,9 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow all they could balance: bounded ones may not exist", (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->at.f, (double)tao->fmin));
-  } else if (Unbounded(ip)) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->first.f, (double)ip->at.f));
-    ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, no other does */
+  } else if (unbounded) {
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->first.f, (double)lowest));
+    ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, or the last step, no other does */
   } else if (ip->rec.nacceptable >= ip->opt.acceptable_it && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)IPBothErrors(ip), (double)ip->opt.acceptable_tol, (double)ip->tol));
   }

@@ -14,6 +14,9 @@ PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], .
 PETSC_INTERN PetscErrorCode IPDegenerateCancellation(Tao, PetscReal *times);
 PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
 
+/* unbounded.c */
+PETSC_INTERN PetscErrorCode IPTestUnbounded(Tao, PetscReal *, PetscBool *);
+
 /* convergence.c */
 PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);
 PETSC_INTERN PetscErrorCode IPTestNumbers(Tao);

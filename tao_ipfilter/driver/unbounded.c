@@ -1,0 +1,98 @@
+/* An objective that falls without end. */
+#include "../ipfilterimpl.h"
+
+/* Fall of the objective, against its first value and against what a Newton step from the start would gain, that only an unbounded one has */
+static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
+{
+  return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x), PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+}
+
+/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x, that says nothing */
+static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
+{
+  const PetscReal fall = UnboundedFall(ip), small = 1e-3;
+
+  return (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+}
+
+/* Counts whole steps in a row that a shift of the Hessian alone has kept short, and along which the objective fell as a straight line does */
+static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal straight = 1e-3;
+  PetscScalar     slope;
+  PetscBool       counts = (PetscBool)(tao->niter && ip->shift.delta > 0.0 && ip->search.alpha == 1.0 && ip->search.tag != 'R' && !ip->terms.n);
+
+  PetscFunctionBegin;
+  *fall          = ip->rec.last_f - ip->at.f;
+  ip->rec.last_f = ip->at.f;
+  if (counts) {
+    PetscCall(VecDot(tao->gradient, ip->dir.x, &slope));
+    counts = (PetscBool)(*fall > 0.0 && PetscAbsReal(*fall + PetscRealPart(slope)) <= straight * *fall);
+  }
+  ip->rec.nstraight = counts ? ip->rec.nstraight + 1 : 0;
+  PetscFunctionReturn(0);
+}
+
+/* Whether the trial point, `far` from the iterate, keeps bounds and constraints but for what rounding leaves at that distance */
+static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal rounding = 1e-9;
+  PetscReal       least, norm;
+  Vec             violation;
+
+  PetscFunctionBegin;
+  *admitted = PETSC_TRUE;
+  PetscCall(IPBoundsDistance(tao, ip->trial.x, PETSC_TRUE));
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecMin(ip->pair[b].trial, NULL, &least));
+    if (!(least >= -rounding * far)) *admitted = PETSC_FALSE;
+  }
+  PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
+    PetscCall(IPSlackViolation(tao, ip->trial.c, violation));
+    PetscCall(VecNorm(violation, NORM_INFINITY, &norm));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
+    if (!(norm <= rounding * ip->first.jacobian * far)) *admitted = PETSC_FALSE;
+  }
+  if (ip->me) {
+    PetscCall(VecNorm(ip->trial.ce, NORM_INFINITY, &norm));
+    if (!(norm <= rounding * ip->first.equality_jacobian * far)) *admitted = PETSC_FALSE;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether the last step, as many times longer as it takes, leads to a point that shows it: Newton's method would creep there, as each of its
+   steps is as long as the shift lets it be */
+static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal goal = ip->first.f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
+  PetscReal       norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
+  PetscCall(VecWAXPY(ip->trial.x, times, ip->dir.x, tao->solution));
+  PetscCall(TaoComputeObjective(tao, ip->trial.x, f));
+  *unbounded = (PetscBool)(!IPUndefined(*f) && *f < goal);
+  if (*unbounded) PetscCall(UnboundedAdmits(tao, times * norm, unbounded));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the objective falls without end, and how far that was seen; once an iteration */
+PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 5;
+  PetscReal      fall;
+
+  PetscFunctionBegin;
+  *f         = ip->at.f;
+  *unbounded = UnboundedHere(ip);
+  PetscCall(UnboundedCount(tao, &fall));
+  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0) PetscCall(UnboundedAlong(tao, fall, f, unbounded));
+  PetscFunctionReturn(0);
+}
