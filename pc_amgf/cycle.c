@@ -15,19 +15,22 @@ static PetscErrorCode CycleConjugate(Vec x)
 }
 
 /* PCApply() of the AMG. An error of its library may be one rank's alone: z is zero there then, and the PC says that it has failed, which all ranks hear of where they
-   next reduce what came of it */
+   next reduce what came of it. So it is where the set-up of the AMG has failed: KSPs go on to here before they look. */
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
 {
+  PC_AMGF       *amgf   = (PC_AMGF *)pc->data;
+  PetscBool      failed = (PetscBool)!amgf->lag.built;
   AMGFGuard      guard;
   PetscErrorCode error;
-  PetscBool      failed;
 
   PetscFunctionBegin;
-  PetscCall(PCAMGFGuardBegin_Private(&guard, r));
-  error = PCApply(((PC_AMGF *)pc->data)->amg, r, z);
-  PetscCall(PCAMGFGuardEnd_Private(&guard, error, &failed));
-  if (!failed) PetscFunctionReturn(0);
-  PetscCall(PetscInfo(pc, "An error inside the AMG: %s\n", guard.why));
+  if (!failed) {
+    PetscCall(PCAMGFGuardBegin_Private(&guard, r));
+    error = PCApply(amgf->amg, r, z);
+    PetscCall(PCAMGFGuardEnd_Private(&guard, error, &failed));
+    if (!failed) PetscFunctionReturn(0);
+    PetscCall(PetscInfo(pc, "An error inside the AMG: %s\n", guard.why));
+  }
   pc->failedreason = PC_SUBPC_ERROR;
   PetscCall(VecSet(z, 0.0));
   PetscFunctionReturn(0);
@@ -48,7 +51,7 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
     if (hypre) adjoint = PETSC_FALSE;
   }
   if (amgf->factor.on) PetscCall(MatSolve(amgf->factor.F, r, z));
-  else if (adjoint) {
+  else if (adjoint && amgf->lag.built) {
     PetscCall(CycleConjugate(r));
     PetscCall(PCApplyTranspose(amgf->amg, r, z));
     PetscCall(CycleConjugate(r));

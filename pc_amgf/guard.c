@@ -33,14 +33,14 @@ static PetscErrorCode GuardClearHypre(void)
 }
 
 /*
-  PCAMGFGuardBegin_Private - before a call with the right-hand side b, whose error goes to PCAMGFGuardEnd_Private() and nowhere else
+  PCAMGFGuardBegin_Private - before a call, with the right-hand side b where it has one, else NULL, whose error goes to PCAMGFGuardEnd_Private() and nowhere else
 */
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
   PetscFunctionBegin;
   guard->why[0] = '\0';
   guard->b      = b;
-  PetscCall(VecLockGet(b, &guard->nlocks));
+  if (b) PetscCall(VecLockGet(b, &guard->nlocks));
   PetscCall(PetscPushErrorHandler(GuardHandleError, guard));
   PetscFunctionReturn(0);
 }
@@ -60,6 +60,7 @@ PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, Pe
     PetscFunctionReturn(0);
   }
   PetscCall(GuardClearHypre());
+  if (!guard->b) PetscFunctionReturn(0);
   PetscCall(VecLockGet(guard->b, &nlocks));
   for (; nlocks > guard->nlocks; nlocks--) PetscCall(VecLockReadPop(guard->b));
   PetscFunctionReturn(0);

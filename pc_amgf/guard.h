@@ -6,7 +6,7 @@
 
 typedef struct {
   char     why[128]; /* what was said of the error */
-  Vec      b;        /* the call's right-hand side, which an interrupted call leaves locked */
+  Vec      b;        /* the call's right-hand side, which an interrupted call leaves locked; NULL: it has none */
   PetscInt nlocks;
 } AMGFGuard;
 

@@ -1,5 +1,6 @@
 /* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG or the factorization in its place where it is due */
 #include "amgfimpl.h"
+#include "guard.h"
 
 static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
 {
@@ -58,7 +59,27 @@ static PetscErrorCode SetUpFilter(PC pc)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetUpAMG(PC pc)
+/* PCSetUp() of the AMG. An error of its library, over a row of zeros, say, may be one rank's alone, and would be met again by every later call of the
+   library: all ranks say that the PC has failed, as they do where the AMG says so itself, and the AMG begins anew. */
+static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
+{
+  PC_AMGF       *amgf = (PC_AMGF *)pc->data;
+  AMGFGuard      guard;
+  PetscErrorCode error;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
+  error = PCSetUp(amgf->amg);
+  PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  if (!*failed) PetscFunctionReturn(0);
+  PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED, "The set-up of the AMG failed: %s", guard.why);
+  PetscCall(PetscInfo(pc, "An error in the set-up of the AMG: %s\n", guard.why));
+  PetscCall(PCReset(amgf->amg));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpAMG(PC pc, PetscBool *failed)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
@@ -68,7 +89,7 @@ static PetscErrorCode SetUpAMG(PC pc)
   PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
   PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
-  PetscCall(PCSetUp(amgf->amg));
+  PetscCall(SetUpGuardAMG(pc, failed));
   /* PCApply() must not rebuild it behind our back when the operator changes in place */
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
   PetscFunctionReturn(0);
@@ -79,7 +100,7 @@ static PetscErrorCode SetUpWhole(PC pc)
 {
   PC_AMGF    *amgf   = (PC_AMGF *)pc->data;
   AMGFFactor *factor = &amgf->factor;
-  PetscBool   rebuild;
+  PetscBool   rebuild, broken = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (factor->use == PC_AMGF_FACTOR_TRUE) factor->on = PETSC_TRUE;
@@ -88,12 +109,14 @@ static PetscErrorCode SetUpWhole(PC pc)
     PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
     if (factor->on) PetscCall(PCAMGFFactorSetUp_Private(pc));
     if (factor->failed && factor->use == PC_AMGF_FACTOR_AUTO) factor->on = PETSC_FALSE;
-    if (!factor->on) PetscCall(SetUpAMG(pc));
+    if (!factor->on) PetscCall(SetUpAMG(pc, &broken));
     PetscCall(PetscLogEventEnd(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
-    PetscCall(PCAMGFLagRebuilt_Private(pc));
+    if (broken) PetscCall(PCAMGFLagReset_Private(&amgf->lag));
+    else PetscCall(PCAMGFLagRebuilt_Private(pc));
     amgf->counts.amg_setups++;
   }
-  if (!factor->on) PetscCall(SetUpCheckInner(pc, amgf->amg));
+  if (broken) PetscCall(PCSetFailedReason(pc, PC_SUBPC_ERROR));
+  else if (!factor->on) PetscCall(SetUpCheckInner(pc, amgf->amg));
   else if (factor->failed) PetscCall(PCSetFailedReason(pc, PC_FACTOR_OTHER));
   PetscFunctionReturn(0);
 }

@@ -340,6 +340,53 @@ static PetscErrorCode CheckError(void)
   PetscFunctionReturn(0);
 }
 
+/* The same in its first set-up */
+static PetscErrorCode SetUpBroken(PC pc)
+{
+  PetscInt   *nsetups;
+  PetscMPIInt rank, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(PCShellGetContext(pc, &nsetups));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCheck(++*nsetups != 1 || rank < size - 1, PETSC_COMM_SELF, PETSC_ERR_LIB, "the library's own error");
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ApplyIdentity(PC pc, Vec r, Vec z)
+{
+  PetscFunctionBeginUser;
+  (void)pc;
+  PetscCall(VecCopy(r, z));
+  PetscFunctionReturn(0);
+}
+
+/* So does an error in the AMG's set-up, which begins anew with the next operator */
+static PetscErrorCode CheckSetUpError(void)
+{
+  Context            c;
+  PC                 amg;
+  PetscInt           nsetups = 0;
+  KSPConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error in the set-up on one rank\n"));
+  PetscCall(ContextCreate(&c, 12));
+  PetscCall(PCAMGFGetAMGPC(c.pc, &amg));
+  PetscCall(PCSetType(amg, PCSHELL));
+  PetscCall(PCShellSetContext(amg, &nsetups));
+  PetscCall(PCShellSetSetUp(amg, SetUpBroken));
+  PetscCall(PCShellSetApply(amg, ApplyIdentity));
+  PetscCall(KSPSolve(c.ksp, c.b, c.x));
+  PetscCall(KSPGetConvergedReason(c.ksp, &reason));
+  PetscCall(PetscPrintf(c.comm, "  first operator: %s\n", KSPConvergedReasons[reason]));
+  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
+  PetscCall(Solve(&c, "recovered"));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -357,6 +404,7 @@ int main(int argc, char **argv)
   PetscCall(CheckAmat());
   PetscCall(CheckFailure());
   PetscCall(CheckError());
+  PetscCall(CheckSetUpError());
   PetscCall(PetscFinalize());
   return 0;
 }
