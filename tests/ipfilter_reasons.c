@@ -10,11 +10,12 @@ typedef enum {
   CASE_NAN_START,
   CASE_NAN_AWAY,
   CASE_NAN_HESSIAN,
+  CASE_NAN_GRADIENT,
   CASE_OVERSHOOT,
   NCASES
 } Case;
 
-static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start", "NaN away from the start", "NaN in the Hessian", "overshooting Newton steps"};
+static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start", "NaN away from the start", "NaN in the Hessian", "NaN in the gradient", "overshooting Newton steps"};
 
 /* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x <= 0;
    overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
@@ -40,6 +41,7 @@ static void Term(const void *ctx, PetscInt i, PetscReal x, PetscReal *f, PetscRe
     *h = 1.0 / PetscPowReal(*f, 3.0);
   } else if (c == CASE_NAN_START) *f = NAN;
   else if (c == CASE_NAN_HESSIAN) *h = NAN;
+  else if (c == CASE_NAN_GRADIENT && x > 2.0) *g = NAN;
 }
 
 static PetscErrorCode ObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)

@@ -48,6 +48,12 @@ static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
+/* The larger one, or that which is not a number: PetscMax() passes over it where it is the second */
+static PetscReal Larger(PetscReal a, PetscReal b)
+{
+  return a > b || PetscIsNanReal(a) ? a : b;
+}
+
 /* sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s), with r_s = M_s (lambda - z) */
 static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
 {
@@ -80,7 +86,7 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   }
   PetscCall(SlackStationarity(tao, &slacks));
   if (ip->mi) slacks = PetscSqrtReal(slacks / ip->pair[IP_SLACK].weight);
-  *dual = PetscMax(slacks / ip->scale.pressure, ip->kkt.dual_norm / ip->scale.dual);
+  *dual = Larger(slacks / ip->scale.pressure, ip->kkt.dual_norm / ip->scale.dual);
   PetscFunctionReturn(0);
 }
 
@@ -111,21 +117,21 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
-    *primal           = PetscMax(*primal, norm / ip->scale.equality);
-    ip->kkt.violation = PetscMax(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
+    *primal           = Larger(*primal, norm / ip->scale.equality);
+    ip->kkt.violation = Larger(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
-    *largest = PetscMax(*largest, norm);
+    *largest = Larger(*largest, norm);
   }
   PetscCall(IPTermsViolation(tao, &norm));
-  *primal  = PetscMax(*primal, norm / ip->scale.length);
-  *largest = PetscMax(*largest, norm);
+  *primal  = Larger(*primal, norm / ip->scale.length);
+  *largest = Larger(*largest, norm);
   PetscFunctionReturn(0);
 }
 
 /* The larger one of the KKT error's two measures */
 PetscReal IPBothErrors(const TAO_IPFILTER *ip)
 {
-  return PetscMax(ip->kkt.error, ip->kkt.work);
+  return Larger(ip->kkt.error, ip->kkt.work);
 }
 
 /* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
@@ -148,14 +154,14 @@ PetscErrorCode IPComputeKKT(Tao tao)
 
     PetscCall(IPPairProducts(&ip->pair[b], 0.0, &zero, NULL));
     PetscCall(IPPairProducts(&ip->pair[b], ip->mu, &central, NULL));
-    products  = PetscMax(products, zero);
-    deviation = PetscMax(deviation, central);
+    products  = Larger(products, zero);
+    deviation = Larger(deviation, central);
   }
   k->inf_compl       = products;
   k->complementarity = products / ip->scale.product;
   k->centrality      = deviation / ip->scale.product;
-  k->error           = PetscMax(PetscMax(k->dual, k->primal), k->complementarity);
+  k->error           = Larger(Larger(k->dual, k->primal), k->complementarity);
   PetscCall(IPWorthOfResiduals(tao));
-  k->unscaled = PetscMax(PetscMax(k->inf_du, k->inf_pr), products);
+  k->unscaled = Larger(Larger(k->inf_du, k->inf_pr), products);
   PetscFunctionReturn(0);
 }

@@ -17,7 +17,7 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(tao->solution, &rstart, &rend));
   for (PetscInt i = rend - 1; i >= rstart; i--) {
-    if (PetscRealPart(l[i - rstart]) > PetscRealPart(u[i - rstart]) || PetscIsNanScalar(l[i - rstart]) || PetscIsNanScalar(u[i - rstart])) first = i;
+    if (PetscRealPart(l[i - rstart]) > PetscRealPart(u[i - rstart]) || PetscIsNanScalar(l[i - rstart]) || PetscIsNanScalar(u[i - rstart]) || PetscRealPart(l[i - rstart]) >= PETSC_INFINITY || PetscRealPart(u[i - rstart]) <= PETSC_NINFINITY) first = i;
   }
   PetscCallMPI(MPI_Allreduce(&first, &worst, 1, MPIU_INT, MPI_MIN, comm));
   if (worst == PETSC_MAX_INT) PetscFunctionReturn(0);
@@ -26,7 +26,7 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
     bounds[1] = PetscRealPart(u[worst - rstart]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_REAL, MPI_MAX, comm));
-  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Variable %" PetscInt_FMT " has lower bound %g above upper bound %g", worst, (double)bounds[0], (double)bounds[1]);
+  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Variable %" PetscInt_FMT " has lower bound %g and upper bound %g: there is no number between them", worst, (double)bounds[0], (double)bounds[1]);
 }
 
 /* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. *changed: it is another one
