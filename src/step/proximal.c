@@ -90,11 +90,26 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
+/* Solves about one centre after another that move on by the same way each: friction does not hold a body, whichever way the first solve failed */
+static PetscErrorCode ProximalReportFlight(StepProblem *p, Vec u, StepReport *report)
+{
+  Vec way;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecWAXPY(way, -1.0, p->centre, u));
+  PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
+  PetscCall(FlightReport(p->sim, way, report));
+  PetscCall(VecDestroy(&way));
+  PetscFunctionReturn(0);
+}
+
 /* Whether a solve that has converged to u is to be followed by another one, about u */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
   PetscReal       carried, size, energy = 0.0;
+  PetscBool       falls;
   Vec             force;
 
   PetscFunctionBegin;
@@ -109,9 +124,11 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   PetscCall(VecNorm(force, NORM_2, &carried));
   PetscCall(VecDestroy(&force));
   if (carried <= tolerance * size) PetscFunctionReturn(0);
-  *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || carried < stuck * p->carried));
+  falls      = (PetscBool)(carried < stuck * p->carried);
+  *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
   p->carried = carried;
   if (*again) PetscCall(ProximalCentre(p, u));
+  else if (p->failed && !falls) PetscCall(ProximalReportFlight(p, u, report));
   else PetscCall(ReportReason(report, PETSC_FALSE, p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));
   PetscFunctionReturn(0);
 }
