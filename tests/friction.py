@@ -121,6 +121,26 @@ ramps:
   - down: {factors: [-0.002, -0.002, 0.01, -0.002]}
 """
 
+# A plate of one cell between two blocks: all of its vertices are in a pair, nothing but the pairs holds it
+THIN = """problem: thin
+bodies:
+  - low: {lower: [0, 0, 0], upper: [2, 1, 0.5], cells: [5, 3, 2], young: 1e5, poisson: 0.3}
+  - plate: {lower: [0.1, 0.1, 0.5], upper: [1.75, 0.85, 0.7], cells: [5, 2, 1], young: 1e5, poisson: 0.3}
+  - top: {lower: [0, 0, 0.7], upper: [2, 1, 1.2], cells: [4, 3, 2], young: 1e5, poisson: 0.3}
+displacements:
+  - fix: {face: low.zmin, value: [0, 0, 0]}
+  - press: {face: top.zmax, value: [free, free, -0.002]}
+  - shift: {face: top.zmax, value: [0.001, 0, free], ramp: across}
+contact:
+  - under: {mortar: low.zmax, nonmortar: plate.zmin, friction: 1}
+  - over: {mortar: plate.zmax, nonmortar: top.zmin, friction: 1}
+body_forces:
+  - weight: {body: plate, value: [20, 0, -40]}
+load: {factors: [1, 1, 1]}
+ramps:
+  - across: {factors: [0, 0.5, 1]}
+"""
+
 FEW = """problem: few
 bodies:
   - low: {lower: [0, 0, 0], upper: [3, 2, 0.6], cells: [6, 2, 3], young: 1e4, poisson: 0.3, material: neohookean}
@@ -171,6 +191,8 @@ SCENES = {
     "brink": BRINK,
     "opens": OPENS,
     "few": FEW,
+    "thin": THIN,
+    "guided": THIN.replace(", friction: 1", "").replace("body_forces:", "symmetry: [plate.xmin, plate.ymin]\nbody_forces:").replace("[20, 0, -40]", "[0, 0, -40]"),
     "over": BRINK.replace("29.99", "30.01"),
 }
 
@@ -203,6 +225,14 @@ def taken_up(name):
     return max(abs(step["work"] - step["energy"] - step["contact_work"]) for step in run["steps"]) / max(abs(step["work"]) for step in run["steps"])
 
 
+def weightless(step, across):
+    """What a plate's two pairs leave of the forces on it, relative to them; across: its body force along x, None: other things hold it that way"""
+    volume = 1.65 * 0.75 * 0.2
+    under, over = (pair["force"] for pair in step["pairs"])
+    left = [under[2] - over[2] - 40 * volume] + ([] if across is None else [under[0] - over[0] + across * volume, under[1] - over[1]])
+    return max(map(abs, left)) / over[2]
+
+
 def slip_law(name, coefficient, limit, tolerance=2e-3):
     pair = last(name)
     verdict(f"{name}, friction over its law", abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
@@ -231,6 +261,13 @@ def judge():
     verdict("block that is lifted off and put down again by MUMPS, cuts", sum(step["cuts"] for step in opened["steps"]) if opened["converged"] else math.inf, 0)
     verdict("block that is lifted off, force", max(map(abs, opened["steps"][2]["pairs"][0]["force"])), 0)
     print("block on three vertices at finite strain:", "converged" if load("few")["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in load("few")["steps"]))
+    for name in "thin", "guided":
+        runs = [load(name), load(name + "_3")]
+        print(f"plate of one cell between two blocks, {name}:", *("converged" if run["converged"] else "not converged" for run in runs))
+        verdict(f"{name}, cuts", max(step["cuts"] for run in runs for step in run["steps"]), 0)
+        verdict(f"{name}, its pairs' forces against its weight", max(weightless(step, 20 if name == "thin" else None) for run in runs for step in run["steps"]), 1e-6)
+        verdict(f"{name}, 3 ranks against 1", abs(runs[1]["steps"][-1]["energy"] / runs[0]["steps"][-1]["energy"] - 1), 1e-6)
+        verdict(f"{name}, solves a load step", max(step["amg_applications"] for run in runs for step in run["steps"]), 40)
     forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
     verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
     verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)

@@ -11,7 +11,7 @@ static PetscErrorCode MonitorFiltered(Tao tao)
   PetscFunctionBegin;
   if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du   ||d||   applied directions sets active   kkt\n"));
   PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT " %6" PetscInt_FMT "  %8.2e\n", tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
-                        ip->rec.napplications, ip->filtered.reduced.system.k, ip->filtered.reduced.nsteps, ip->filtered.reduced.nactive, (double)ip->kkt.error));
+                        ip->rec.napplications, ip->filtered.reduced.system.k - ip->filtered.reduced.companions.n, ip->filtered.reduced.nsteps, ip->filtered.reduced.nactive, (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }
 

@@ -117,7 +117,7 @@ static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReduce
   for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
     for (PetscInt j = 0; j < s->k; j++) {
       for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax];
-      set->H[j + j * s->k] += shift * s->G[j + j * s->kmax];
+      set->H[j + j * s->k] += shift * s->G[j];
     }
     if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &k));
     PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &k, &info));

@@ -148,7 +148,7 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(&f->reduced, E));
+  PetscCall(IPReducedCoupling(&f->reduced, basis, E));
   PetscCall(IPBasisCompress(basis, best, last, E));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(&f->reduced));

@@ -1,6 +1,7 @@
 /*
    The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w + P y. Its data, of the
-   constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for as long as W and K stay. Norm terms add their two rows each.
+   constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for as long as W and K stay, with springs to companions where it is singular.
+   Norm terms add their two rows each.
 */
 #include "../ipfilterimpl.h"
 
@@ -168,7 +169,7 @@ static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscIn
 static PetscErrorCode ReducedFreeSystem(IPReducedSystem *s)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(s->JZ, s->T, s->t));
+  PetscCall(PetscFree4(s->JZ, s->T, s->t, s->G));
   PetscCall(PetscFree4(s->h, s->lambda, s->gap, s->y));
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscFunctionReturn(0);
@@ -185,6 +186,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(VecDestroy(&r->on_terms));
   PetscCall(IPTermLawsDestroy(&r->terms));
   PetscCall(IPComplianceDestroy(&r->compliance));
+  PetscCall(IPCompanionsDestroy(&r->companions));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(ReducedFreeSystem(&r->system));
   PetscCall(PetscFree4(r->Q, r->g, r->x, r->z));
@@ -213,8 +215,8 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
 
   PetscFunctionBegin;
   s->m    = r->m + 2 * r->nterms;
-  s->kmax = basis->max;
-  PetscCall(PetscMalloc3((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t));
+  s->kmax = r->companions.n + basis->max;
+  PetscCall(PetscMalloc4((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
   PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
   PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
   if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
@@ -226,6 +228,66 @@ static PetscErrorCode ReducedTell(const IPReduced *r, PetscBool *verdict)
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(verdict, 1, MPI_PETSCBOOL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
+static PetscErrorCode ReducedFactor(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+{
+  PetscBool singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (r->first) {
+    PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+    if (*definite) PetscCall(IPCompanionsAreNeeded(KWW, &r->compliance, &singular));
+    if (!*definite || singular) PetscCall(IPCompanionsTake(KWW, &r->companions));
+    if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  }
+  PetscCall(ReducedTell(r, definite));
+  PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* One more of what y moves, whose forces on W stand in its column of Q, with its energies with those before it */
+static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
+{
+  IPReducedSystem *s = &r->system;
+  const PetscInt   j = s->k;
+  const PetscReal *q = &r->Q[(size_t)j * (size_t)r->n];
+
+  PetscFunctionBegin;
+  PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
+  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
+  for (PetscInt i = 0; i <= j; i++) s->T[i + j * s->kmax] = s->T[j + i * s->kmax] = energies[i] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
+  s->G[j] = energies[j];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
+{
+  const IPCompanions *c = &r->companions;
+  IPReducedSystem    *s = &r->system;
+  PetscReal          *energies;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(c->n, &energies));
+  for (; s->k < c->n; s->k++) {
+    if (!r->first) continue;
+    PetscCall(PetscArrayzero(&r->Q[(size_t)s->k * (size_t)r->n], r->n));
+    r->Q[c->row[s->k] + (size_t)s->k * (size_t)r->n] = -c->spring[s->k];
+    energies[s->k]                                   = c->spring[s->k];
+    PetscCall(ReducedAppendColumn(r, energies));
+    energies[s->k] = 0.0;
+  }
+  PetscCall(PetscFree(energies));
   PetscFunctionReturn(0);
 }
 
@@ -257,12 +319,12 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, 
   PetscCall(ISDestroy(&all));
   PetscCall(ReducedCreateScatters(r, x, c, terms, mine));
   PetscCall(ISDestroy(&mine));
+  PetscCall(ReducedFactor(r, KWW, JW, definite));
   PetscCall(ReducedCreateSystem(r, basis));
-  if (r->first) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
-  if (r->nterms) PetscCall(IPTermLawsCreate(r->m, r->nterms, basis->max, KWW, JW, &r->terms));
+  if (*definite) PetscCall(ReducedAppendCompanions(r));
+  if (r->nterms) PetscCall(IPTermLawsCreate(r->m, r->nterms, r->system.kmax, KWW, JW, &r->terms));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
-  PetscCall(ReducedTell(r, definite));
   PetscFunctionReturn(0);
 }
 
@@ -292,14 +354,6 @@ static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscR
   PetscCall(VecScatterBegin(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecScatterEnd(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
   PetscFunctionReturn(0);
-}
-
-static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[])
-{
-  PetscReal sum = 0.0;
-
-  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
 }
 
 /* Limits, coefficients and dead directions of the norm terms; scale: of the rows of c_I, NULL: 1 */
@@ -372,40 +426,45 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
     s->length = PetscMax(s->length, PetscMax(PetscAbsReal(s->gap[i]), PetscAbsReal(s->h[i])));
   }
   PetscCall(PetscArrayzero(s->y, s->kmax));
-  for (PetscInt j = 0; j < s->k; j++) s->t[j] = ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - pg[j];
+  for (PetscInt j = 0; j < s->k; j++) s->t[j] = ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - (j < r->companions.n ? 0.0 : pg[j - r->companions.n]);
   PetscFunctionReturn(0);
 }
 
 /* Takes in the directions of the basis that it does not have, with P^T g of all of them */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
-  IPReducedSystem *s = &r->system;
+  IPReducedSystem *s        = &r->system;
+  const PetscInt   before   = r->companions.n;
+  PetscReal       *energies = NULL;
 
   PetscFunctionBegin;
-  s->G = basis->gram;
-  for (; s->k < basis->n; s->k++) {
-    const PetscInt j = s->k;
-    PetscReal     *q = &r->Q[(size_t)j * (size_t)r->n];
+  PetscCall(PetscCalloc1(before + basis->n, &energies));
+  for (; s->k < before + basis->n; s->k++) {
+    const PetscInt j = s->k - before;
+    PetscReal     *q = &r->Q[(size_t)s->k * (size_t)r->n];
 
     PetscCall(ReducedFetch(r->to_W, basis->q[j], r->on_W, r->n, q));
     if (!r->first) continue;
-    PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
-    PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
-    for (PetscInt i = 0; i <= j; i++) s->T[i + j * s->kmax] = s->T[j + i * s->kmax] = basis->gram[i + j * basis->max] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
-    s->t[j] = ReducedDot(r->n, q, r->x) - pg[j];
+    PetscCall(PetscArraycpy(energies + before, &basis->gram[j * basis->max], j + 1));
+    PetscCall(ReducedAppendColumn(r, energies));
+    s->t[s->k] = ReducedDot(r->n, q, r->x) - pg[j];
   }
+  PetscCall(PetscFree(energies));
   PetscFunctionReturn(0);
 }
 
-/* Q_W^T K_WW^-1 Q_W on all ranks, its columns of the length there is room for: what W takes up of the directions' energy */
-PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal E[])
+/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the directions' energy */
+PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
-  const IPReducedSystem *s = &r->system;
-  const PetscInt         n = s->kmax * s->kmax;
+  const IPReducedSystem *s      = &r->system;
+  const PetscInt         before = r->companions.n, n = basis->max * basis->max;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(E, n));
   if (r->first) {
-    for (PetscInt i = 0; i < n; i++) E[i] = s->G[i] - s->T[i];
+    for (PetscInt j = 0; j < basis->n; j++) {
+      for (PetscInt i = 0; i < basis->n; i++) E[i + j * basis->max] = basis->gram[i + j * basis->max] - s->T[before + i + (before + j) * s->kmax];
+    }
   }
   PetscCallMPI(MPI_Bcast(E, (PetscMPIInt)n, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscFunctionReturn(0);
@@ -415,7 +474,8 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, PetscReal E[])
 PetscErrorCode IPReducedForget(IPReduced *r)
 {
   PetscFunctionBegin;
-  r->system.k = r->set.k = r->terms.system.k = 0;
+  r->system.k = r->companions.n;
+  r->set.k = r->terms.system.k = 0;
   if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
 }
@@ -463,8 +523,8 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   PetscCall(PetscFree(w));
   PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
   if (terms) PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
-  PetscCall(PetscArraycpy(y, s->y, s->k));
-  PetscCallMPI(MPI_Bcast(y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
+  PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
+  PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
   counts[0] = r->nsteps;
   counts[1] = r->nactive;
   PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));

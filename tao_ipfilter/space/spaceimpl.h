@@ -24,6 +24,12 @@ typedef struct {
   PetscReal *C;      /* the columns */
 } IPCompliance;
 
+/* Unknowns on W, by their places in it, that have a companion, and the springs between them; on the first rank but for n: companions.c */
+typedef struct {
+  PetscInt   n, *row;
+  PetscReal *spring;
+} IPCompanions;
+
 static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
 {
   return c->C + (size_t)c->column[row] * (size_t)c->m;
@@ -31,11 +37,11 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
 
 /* The contact problem with w eliminated, as activeset.c and termlaws.c state it: constraints, and below them two rows a norm term */
 typedef struct {
-  PetscInt         m, k, kmax;       /* rows; directions, and room for them */
-  PetscReal       *JZ, *T, *h, *t;   /* columns of length m and kmax */
-  const PetscReal *G;                /* P^T K P */
-  PetscReal       *lambda, *gap, *y; /* forces and motions of the rows */
-  PetscReal        length;           /* size of the terms of a gap */
+  PetscInt   m, k, kmax;       /* rows; companions and directions, and room for them */
+  PetscReal *JZ, *T, *h, *t;   /* columns of length m and kmax */
+  PetscReal *G;                /* the diagonal of P^T K P */
+  PetscReal *lambda, *gap, *y; /* forces and motions of the rows */
+  PetscReal  length;           /* size of the terms of a gap */
 } IPReducedSystem;
 
 /* The constraints that are active, and the factors that belong to them */
@@ -88,6 +94,7 @@ typedef struct {
   Vec             on_W, on_rows, on_terms;
   IPTermSet       terms;
   IPCompliance    compliance;
+  IPCompanions    companions; /* the first of what y moves */
   IPReducedSystem system;
   IPActiveSet     set;
   PetscReal      *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
@@ -137,6 +144,11 @@ PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscBool transposed, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceColumns(IPCompliance *, PetscInt n, const PetscInt rows[]);
+
+/* companions.c */
+PETSC_INTERN PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *, PetscBool *needed);
+PETSC_INTERN PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *);
+PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
 
 /* activeset.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
@@ -191,7 +203,7 @@ PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, co
 PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
-PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
 
 /* kept.c, beside the public functions */
