@@ -156,19 +156,18 @@ typedef struct {
 /* What a mesh attained. Values are those of all load steps in turn */
 typedef struct {
   PetscInt       refine, dofs;
-  PetscInt       mesh;          /* number of the mesh, from 0 */
-  PetscBool      raised;        /* it is the one before with a higher order */
-  PetscReal     *energy;        /* [force length] */
-  PetscReal     *force;         /* of each pair its size, and the sum of the sizes of its rows' [force] */
-  PetscReal     *pressure;      /* of each pair the largest [force/length^2] */
-  PetscReal     *displaced;     /* of each point of the scene's probes, 3 components [length] */
-  PetscReal      recovery;      /* relative error in energy by stress recovery, largest of the load steps */
-  PetscReal      change;        /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
-  PetscReal      energy_change; /* of the energy alone; NaN as well */
-  PetscReal      growth;        /* unknowns over those of the coarser mesh; NaN as well */
-  PetscReal      error;         /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
-  PetscBool      unseen;        /* it changed by more than recovery accounts for */
-  PetscReal      algebraic;     /* of the solver, relative, in energy */
+  PetscInt       mesh;      /* number of the mesh, from 0 */
+  PetscBool      raised;    /* it is the one before with a higher order */
+  PetscReal     *energy;    /* [force length] */
+  PetscReal     *force;     /* of each pair its size, and the sum of the sizes of its rows' [force] */
+  PetscReal     *pressure;  /* of each pair the largest [force/length^2] */
+  PetscReal     *displaced; /* of each point of the scene's probes, 3 components [length] */
+  PetscReal      recovery;  /* relative error in energy by stress recovery, largest of the load steps */
+  PetscReal      change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load steps; NaN: there was none */
+  PetscReal      growth;    /* unknowns over those of the coarser mesh; NaN as well */
+  PetscReal      error;     /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from recovery */
+  PetscBool      unseen;    /* it changed by more than recovery accounts for */
+  PetscReal      algebraic; /* of the solver, relative, in energy */
   PetscInt       amg_applications;
   PetscLogDouble time; /* [s] */
 } AccuracyLevel;

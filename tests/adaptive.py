@@ -83,9 +83,10 @@ def judge():
     reached("cantilever", beam, off(beam["steps"][-1]["energy"], truth))
     say("cantilever, by its energy: the same, there is no pair", [l["dofs"] for l in levels(beam)] == [l["dofs"] for l in levels(energy)], (levels(beam), levels(energy)))
     edge = load("edge")
-    truth = 0.415 / 2  # of half of the block, by cells of order 2 graded towards its edges: 0.4138 to 0.4163
+    truth = 0.418 / 2  # of half of the block: 0.4177 by a punch where the second load step touches, 0.416 to 0.420 by cells of order 2 graded towards its edges, smooth: false
     error = off(edge["steps"][-1]["energy"], truth)
-    say("block with edges on a slab that is nearly incompressible: the true error no more than 1.6 times that stated, which is no more than 1.5 times it", error / 1.6 <= levels(edge)[-1]["error"] <= 1.5 * error, (error, levels(edge)))
+    say("block with edges on a slab that is nearly incompressible: 0.7 to 1.5 times the true error is stated", 0.7 * error <= levels(edge)[-1]["error"] <= 1.5 * error, (error, levels(edge)))
+    say("its plane face is refined at the edge of contact, not all over", edge["steps"][-1]["constraints"] < 400, edge["steps"][-1])
     shrink = load("shrink")
     nu = 0.3 / 0.7
     flexible = ((25.015**2 + 20**2) / (25.015**2 - 20**2) - nu) + ((30**2 + 24.985**2) / (30**2 - 24.985**2) + nu)

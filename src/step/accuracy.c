@@ -5,6 +5,7 @@
 #define ACCURACY_RATE    4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
 #define ACCURACY_RAISED  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
 #define ACCURACY_UPDATES 20
+#define ACCURACY_REGULAR 1.05 /* times what elements of order 1 have at best for so many unknowns, their power 2/3: recovery that falls by less has something singular left */
 #define ACCURACY_UNSEEN  2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
 #define ACCURACY_MINOR   1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
 #define ACCURACY_MARGIN  0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
@@ -206,45 +207,26 @@ static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *no
   return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
 }
 
-/* The same by the energies of three meshes where that is less: of errors that go as unknowns^-p, a and b being the growths, the changes are as (a^p - 1) b^p : b^p - 1, the more the larger p */
-static PetscReal AccuracyRatioOfEnergies(const AccuracyLevel *now, const AccuracyLevel *before, PetscReal ratio)
-{
-  const PetscReal least = 1.0 / 3.0, grown = 1.05;
-  PetscReal       low = least, high;
-
-  if (!(before->growth > grown && now->growth > grown && ratio > PetscPowReal(now->growth, least))) return ratio; /* not a number: there is no third mesh */
-  high = PetscLogReal(ratio) / PetscLogReal(now->growth);
-  while (high - low > 1e-3) {
-    const PetscReal p = 0.5 * (low + high), a = PetscPowReal(before->growth, p), b = PetscPowReal(now->growth, p);
-
-    if ((a - 1.0) * b * now->energy_change > (b - 1.0) * before->energy_change) high = p;
-    else low = p;
-  }
-  return PetscPowReal(now->growth, high);
-}
-
 /*
    Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
-   than they can, though recovery does on meshes that are too coarse for it, and no faster than the energies of three meshes tell. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it where it falls by less than
-   elements of order 1 have it at best for so many unknowns: something singular is left; where results differ by more than recovery can tell,
-   nothing of their difference is taken off. Pressures err with the stress, whose error is the root of that of the energy
+   than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it
+   beside what is singular; where results differ by more than recovery can tell, nothing of their difference is taken off. Pressures err with the stress, whose error is
+   the root of that of the energy
 */
 static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
 {
   PetscReal ratio, pressure, least;
 
   now->error  = now->recovery;
-  now->change = now->energy_change = now->growth = NAN;
+  now->change = now->growth = NAN;
   if (!before) return;
-  now->change        = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
-  now->growth        = (PetscReal)now->dofs / (PetscReal)before->dofs;
-  now->energy_change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0);
-  now->unseen        = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
-  ratio              = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
-  least              = ratio < PetscPowReal(now->growth, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
-  ratio              = AccuracyRatioOfEnergies(now, before, ratio);
-  ratio              = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
-  now->error         = PetscMax(now->change / (ratio - 1.0), least);
+  now->change = AccuracyChange(acc->of, now, before, nsteps, npairs, nprobes);
+  now->growth = (PetscReal)now->dofs / (PetscReal)before->dofs;
+  now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
+  ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
+  least       = ratio < ACCURACY_REGULAR * PetscPowReal(now->growth, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
+  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
+  now->error  = PetscMax(now->change / (ratio - 1.0), least);
   if (acc->of != ACCURACY_PRESSURE) return;
   pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
   now->change = PetscMax(now->change, pressure);
@@ -386,9 +368,9 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Notes:
    The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where the faces meet:
    no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated from the change of energy
-   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, or that of the differences in energy of three
-   meshes if it is lower, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of recovery's at least, and for all of it where
-   that falls by less than a regular solution's, as beside singular edges. A change beyond what recovery accounts for on both
+   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, a factor of 4 at most, as trilinear
+   elements have it; it is taken for a quarter of recovery's at least, and for all of it where that falls by no more than a regular solution's, as
+   beside singular edges. A change beyond what recovery accounts for on both
    meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first relative to the largest of all pairs.
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,

@@ -74,72 +74,6 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* 1 at vertices where the pair is in contact, a local vector */
-static PetscErrorCode AdaptFindClosed(Simulation sim, PetscInt pair, Vec *local)
-{
-  PetscSection global;
-  PetscInt     rstart;
-  Vec          closed;
-  PetscScalar *a;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(DMGetGlobalVector(sim->dm, &closed));
-  PetscCall(VecZeroEntries(closed));
-  PetscCall(VecGetOwnershipRange(closed, &rstart, NULL));
-  PetscCall(VecGetArray(closed, &a));
-  for (PetscInt k = 0; k < sim->npoints; ++k) {
-    PetscInt offset;
-
-    if (sim->points[k].pair != pair || !sim->points[k].closed) continue;
-    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &offset));
-    a[offset - rstart] = 1.0;
-  }
-  PetscCall(VecRestoreArray(closed, &a));
-  PetscCall(DMGetLocalVector(sim->dm, local));
-  PetscCall(DMGlobalToLocal(sim->dm, closed, INSERT_VALUES, *local));
-  PetscCall(DMRestoreGlobalVector(sim->dm, &closed));
-  PetscFunctionReturn(0);
-}
-
-/* The cells of deformable bodies behind a face's facets that have a vertex in contact */
-static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec closed)
-{
-  PetscSection       section;
-  IS                 facets;
-  PetscInt           n, cstart;
-  const PetscInt    *f;
-  const PetscScalar *a;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, NULL));
-  PetscCall(MeshGetFacets(sim->dm, face, &facets));
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  PetscCall(VecGetArrayRead(closed, &a));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt *cells;
-    PetscInt        vertices[4], body;
-    PetscBool       any = PETSC_FALSE;
-
-    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
-    for (PetscInt k = 0; k < 4; ++k) {
-      PetscInt offset;
-
-      PetscCall(PetscSectionGetOffset(section, vertices[k], &offset));
-      any = (PetscBool)(any || PetscRealPart(a[offset]) > 0.0);
-    }
-    PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
-    PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
-    if (any && sim->scene->bodies[body].material.type != MATERIAL_RIGID) sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
-  }
-  PetscCall(VecRestoreArrayRead(closed, &a));
-  PetscCall(ISRestoreIndices(facets, &f));
-  PetscCall(ISDestroy(&facets));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    SimulationPropose - Chooses the cells that the next mesh is to have refined
 
@@ -154,8 +88,8 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec close
    Level: developer
 
    Notes:
-   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and both sides of what was in contact in the
-   last one, where facets err too, which recovery does not see.
+   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and, on both sides of what was in contact in the
+   last one, what recovery does not see: all facets of curved faces, and of plane ones those at the edge of contact.
 
 .seealso: `SimulationMark()`, `AccuracyAssess()`
 @*/
@@ -166,14 +100,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
   PetscCall(AdaptMarkErrors(sim, cend - cstart));
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    Vec closed;
-
-    PetscCall(AdaptFindClosed(sim, p, &closed));
-    PetscCall(AdaptMarkFace(sim, sim->scene->pairs[p].mortar, closed));
-    PetscCall(AdaptMarkFace(sim, sim->scene->pairs[p].nonmortar, closed));
-    PetscCall(DMRestoreLocalVector(sim->dm, &closed));
-  }
+  PetscCall(AdaptMarkContact(sim));
   for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->adapt.marked[c];
   counts[1] = cend - cstart;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->comm));

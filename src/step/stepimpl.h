@@ -482,6 +482,9 @@ PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, Pets
 /* adapt.c */
 PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);
 
+/* adaptcontact.c */
+PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
+
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
 
