@@ -122,7 +122,6 @@ static inline PetscBool IPUndefined(PetscReal value)
   return (PetscBool)(PetscIsInfOrNanReal(value) || PetscAbsReal(value) >= PETSC_INFINITY);
 }
 
-
 /* log.c */
 PETSC_INTERN PetscLogEvent  TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend, TAO_IPFilterReduced;
 PETSC_INTERN PetscErrorCode IPLogRegister(void);

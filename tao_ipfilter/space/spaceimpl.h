@@ -67,7 +67,8 @@ typedef struct {
   Vec           S;           /* and the scale that A has */
   PetscReal    *f, *v;       /* scratch, of rows */
   Vec           r, z, w, Kw; /* of rows and of W */
-  PetscBool     stale;       /* the factors no longer serve */
+  PetscInt      fresh;       /* iterations that GMRES took with the factors when they were new */
+  PetscBool     stale;       /* they no longer serve */
   PetscReal    *C;           /* C, where GMRES has given up: termdense.c; NULL: it has not */
 } IPTermSystem;
 

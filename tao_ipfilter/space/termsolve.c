@@ -146,11 +146,12 @@ static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, Pe
   PetscFunctionReturn(0);
 }
 
-/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors have so many iterations, then there are new ones. */
+/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors serve while they are not much slower than they were when new: soft bodies
+   leave GMRES 20 to 30 iterations with any. Before the end of so many there are new ones. */
 static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool keep, PetscBool *converged)
 {
-  const PetscInt old = 20, slow = 12, limit = 120;
   IPTermSystem  *t   = solve->system;
+  const PetscInt old = PetscMax(20, 2 * t->fresh), slow = PetscMax(12, t->fresh + t->fresh / 2), limit = 120;
   PetscInt       its = 0;
   PetscBool      fresh, ready;
   Vec            b, x;
@@ -166,6 +167,7 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
     if (!ready) break;
     PetscCall(TermSolveIterate(solve, rtol, fresh ? limit : old, b, x, &its, converged));
     t->stale = (PetscBool)(!fresh && its > slow);
+    if (fresh) t->fresh = its;
   } while (!fresh && its >= old);
   *converged = (PetscBool)(ready && (*converged || keep));
   if (*converged) PetscCall(TermSolveCopy(t, solve->s->k, x, rf, ry, PETSC_TRUE));
