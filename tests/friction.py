@@ -121,6 +121,22 @@ ramps:
   - down: {factors: [-0.002, -0.002, 0.01, -0.002]}
 """
 
+# Two plates, one held at its end, the other by friction alone, as a bolt's head presses them together: rows close while they slide
+PLATES = """problem: plates
+bodies:
+  - lower: {lower: [-15, -15, -6], upper: [15, 15, 0], cells: [10, 10, 3], young: 70000, poisson: 0.33}
+  - upper: {lower: [-15, -15, 0], upper: [15, 15, 6], cells: [12, 12, 3], young: 70000, poisson: 0.33}
+  - bolt: {lower: [-5, -5, 6], upper: [5, 5, 11], cells: [6, 6, 3], young: 210000, poisson: 0.3}
+displacements:
+  - fix: {face: lower.xmin, value: [0, 0, 0]}
+contact:
+  - seam: {mortar: lower.zmax, nonmortar: upper.zmin, friction: 0.2}
+  - head: {mortar: upper.zmax, nonmortar: bolt.zmin, friction: 0.2}
+tractions:
+  - clamp: {face: bolt.zmax, value: [0, 0, -60]}
+  - pull: {face: upper.xmax, value: [3, 0, 0]}
+"""
+
 # A plate of one cell between two blocks: all of its vertices are in a pair, nothing but the pairs holds it
 THIN = """problem: thin
 bodies:
@@ -191,6 +207,7 @@ SCENES = {
     "brink": BRINK,
     "opens": OPENS,
     "few": FEW,
+    "plates": PLATES,
     "thin": THIN,
     "guided": THIN.replace(", friction: 1", "").replace("body_forces:", "symmetry: [plate.xmin, plate.ymin]\nbody_forces:").replace("[20, 0, -40]", "[0, 0, -40]"),
     "over": BRINK.replace("29.99", "30.01"),
