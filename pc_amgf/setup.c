@@ -71,7 +71,7 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
   error = PCSetUp(amgf->amg);
   PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPIU_BOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   if (!*failed) PetscFunctionReturn(0);
   PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED, "The set-up of the AMG failed: %s", guard.why);
   PetscCall(PetscInfo(pc, "An error in the set-up of the AMG: %s\n", guard.why));
