@@ -46,8 +46,9 @@ COMPILE = $(CC) -I$(<D) $(COMPILE_FLAGS) -c
 # Debian's Python packages serve Debian's Python only
 PYTHON := $(firstword $(wildcard /usr/bin/python3) python3)
 
-# As many jobs as cores, unless the caller chose
-PARALLEL := $(if $(findstring -j,$(MAKEFLAGS))$(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 1))
+# As many jobs as cores, unless the caller chose; nproc takes OMP_NUM_THREADS for their number
+CORES    := $(or $(shell env -u OMP_NUM_THREADS nproc 2>/dev/null),1)
+PARALLEL := $(if $(findstring -j,$(MAKEFLAGS))$(findstring jobserver,$(MAKEFLAGS)),,-j$(CORES))
 
 # Open MPI refuses to run as root unless asked twice, and counts a rank a core unless told otherwise
 ifeq ($(shell id -u),0)
