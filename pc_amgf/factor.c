@@ -137,7 +137,7 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   amg      = costs.setup + applications * costs.apply;
   *cheaper = (PetscBool)(f->memory < room && factor < amg);
   if (f->memory >= room) PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "a factorization would take %.0f MB, more than %g of the machine's memory", (double)(f->memory / 1e6), (double)f->share));
-  else PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "for %.0f solves a factorization of %.0f MB is estimated at %.2g s, %.0f applications of AMG at %.2g s", (double)solves, (double)(f->memory / 1e6), (double)factor, (double)applications, (double)amg));
+  else PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "estimated %.2g s instead of %.2g s with %s", (double)(*cheaper ? factor : amg), (double)(*cheaper ? amg : factor), *cheaper ? "AMG" : "a factorization"));
   PetscFunctionReturn(0);
 }
 

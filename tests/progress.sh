@@ -15,12 +15,12 @@ for scene in press linear; do
     "$PYTHON" - <<'PY'
 import re
 said = [line.rstrip("\n") for line in open("log") if line.startswith("Progress")]
-form = re.compile(r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+, 1e-\d\d ends it)?, (\d+) s so far, (what is left is known when a step is done|about \d+ s left)")
+form = re.compile(r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+, 1e-\d\d ends it)?, (\d+) s so far(|, about \d+ s left)")
 words = [form.fullmatch(line) for line in said]
 print("each line says it:", all(words) or said)
 print("load steps:", sorted({int(word[1]) for word in words}))
 print("in the midst of a step and between two:", {bool(word[2]) for word in words} == {True, False})
-print("what is left is known from the second on:", all((word[1] == "1") == word[4].startswith("what") for word in words) or said)
+print("what is left is known from the second on:", all((word[1] == "1") == (not word[4]) for word in words) or said)
 PY
   done
 done

@@ -10,28 +10,35 @@
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
 
+/* For messages */
+static const char *ContactPairName(const SceneContactPair *pair)
+{
+  return pair->name ? pair->name : pair->nonmortar;
+}
+
 static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneContactPair pairs[])
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < npairs; ++p) {
-    PetscBool same, has;
+    const char *name = ContactPairName(&pairs[p]);
+    PetscBool   same, has;
 
     PetscCall(PetscStrcmp(pairs[p].mortar, pairs[p].nonmortar, &same));
-    PetscCheck(!same, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names face \"%s\" twice", p, pairs[p].mortar);
+    PetscCheck(!same, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names face \"%s\" twice", name, pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names mortar face \"%s\", but the mesh has no such face", p, pairs[p].mortar);
-    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair %" PetscInt_FMT " asks for gap formulation %d, which there is not", p, (int)pairs[p].gap);
-    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair %" PetscInt_FMT " has search distance %g, but it must not be negative", p, (double)pairs[p].distance);
+    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
+    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair \"%s\" asks for gap formulation %d, which there is not", name, (int)pairs[p].gap);
+    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
     PetscCall(DMHasLabel(dm, pairs[p].nonmortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair %" PetscInt_FMT " names nonmortar face \"%s\", but the mesh has no such face", p, pairs[p].nonmortar);
+    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names nonmortar face \"%s\", but the mesh has no such face", name, pairs[p].nonmortar);
     for (PetscInt q = 0; q < p; ++q) {
       PetscBool mortar, nonmortar;
 
       PetscCall(PetscStrcmp(pairs[p].mortar, pairs[q].mortar, &mortar));
       PetscCall(PetscStrcmp(pairs[p].nonmortar, pairs[q].nonmortar, &nonmortar));
-      PetscCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG, "Contact pairs %" PetscInt_FMT " and %" PetscInt_FMT " are the same: mortar \"%s\", nonmortar \"%s\"", q, p, pairs[p].mortar, pairs[p].nonmortar);
+      PetscCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG, "Contact pairs \"%s\" and \"%s\" are the same: mortar \"%s\", nonmortar \"%s\"", ContactPairName(&pairs[q]), name, pairs[p].mortar, pairs[p].nonmortar);
     }
   }
   PetscFunctionReturn(0);
@@ -124,6 +131,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryThickness(&boundary, thickness));
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
+    PetscCall(PetscStrallocpy(ContactPairName(&pairs[p]), &c->pairs[p].name));
     c->pairs[p].gap    = pairs[p].gap;
     c->pairs[p].given  = pairs[p].distance;
     c->pairs[p].smooth = pairs[p].smooth;
@@ -320,7 +328,7 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
     PetscInt               nfacing;
 
     PetscCallMPI(MPI_Allreduce(&pair->nfacing, &nfacing, 1, MPIU_INT, MPI_SUM, contact->comm));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "pair %" PetscInt_FMT ": mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", p, pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
+    PetscCall(PetscViewerASCIIPrintf(viewer, "pair %s: mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", pair->name, pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
                                      nfacing, pair->gap == GAP_MORTAR ? "overlapping facets" : "vertices over a facet"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows below %g of the largest are left out\n", (double)contact->cosine, (double)contact->overlap_drop,
@@ -348,6 +356,7 @@ PetscErrorCode ContactDestroy(Contact *contact)
   PetscCall(ContactRowsDestroy(*contact));
   PetscCall(ContactSmoothReset(*contact));
   for (PetscInt p = 0; p < (*contact)->npairs; ++p) {
+    PetscCall(PetscFree((*contact)->pairs[p].name));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].mortar));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].nonmortar));
   }

@@ -258,6 +258,7 @@ PETSC_INTERN PetscErrorCode ContactNearDestroy(ContactNear *);
 
 /* The object */
 typedef struct {
+  char          *name; /* of the pair, for messages */
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;

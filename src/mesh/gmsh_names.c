@@ -3,6 +3,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Is the first section, past comments, that of a Gmsh file? */
+static PetscBool GmshIsGmsh(FILE *stream)
+{
+  char      line[PETSC_MAX_PATH_LEN];
+  PetscBool comments = PETSC_FALSE;
+
+  while (fgets(line, sizeof(line), stream)) {
+    const char *word = line + strspn(line, " \t\r\n");
+
+    if (!comments && !strncmp(word, "$MeshFormat", 11)) return PETSC_TRUE;
+    if (!strncmp(word, "$Comments", 9)) comments = PETSC_TRUE;
+    else if (*word && !comments) return PETSC_FALSE;
+    if (!strncmp(word, "$EndComments", 12)) comments = PETSC_FALSE;
+  }
+  return PETSC_FALSE;
+}
+
 /* The entries of one dimension in the section $PhysicalNames, each as tag, blank, name, new line */
 static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
 {
@@ -32,14 +49,16 @@ static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *
 static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim, size_t *length, char **entries)
 {
   FILE     *stream;
-  PetscBool exists;
+  PetscBool exists, gmsh;
 
   PetscFunctionBegin;
   PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
   stream = exists ? fopen(body->gmsh.file, "r") : NULL;
   PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "there is no readable mesh file \"%s\"", body->gmsh.file);
-  PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
+  gmsh = GmshIsGmsh(stream);
+  if (gmsh) PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
   (void)fclose(stream);
+  PetscCheck(gmsh, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s is not a Gmsh mesh (no $MeshFormat)", body->gmsh.file);
   PetscFunctionReturn(0);
 }
 

@@ -154,9 +154,9 @@ static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepRepor
   const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
 
   PetscFunctionBegin;
-  if (single) PetscCall(PetscSNPrintf(reason, sizeof(reason), "converged, with one linearization of the gap as asked for: it is off by %g", (double)report->gap_change));
-  else if (slid) PetscCall(PetscSNPrintf(reason, sizeof(reason), "the gap is not true: after %" PetscInt_FMT " linearizations vertices under pressure still slide off the face that they press on", report->contact_updates));
-  else PetscCall(PetscSNPrintf(reason, sizeof(reason), "the gap is not true: after %" PetscInt_FMT " linearizations it is still off by %g, more than %g of the largest displacement", report->contact_updates, (double)report->gap_change, (double)sim->tolerances.gap_untrue));
+  if (single) PetscCall(PetscSNPrintf(reason, sizeof(reason), "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
+  else if (slid) PetscCall(PetscSNPrintf(reason, sizeof(reason), "contact did not converge: after %" PetscInt_FMT " contact updates contact nodes still slide over the edge of the opposite face", report->contact_updates));
+  else PetscCall(PetscSNPrintf(reason, sizeof(reason), "contact did not converge: after %" PetscInt_FMT " contact updates the gap still changes by %g, more than %g of the largest displacement", report->contact_updates, (double)report->gap_change, (double)sim->tolerances.gap_untrue));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
@@ -187,7 +187,7 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
-    PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "faces that press on each other ended %g deep in one another, where they lose sight of each other", -(double)least));
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
     if (least < -depth) PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   PetscCall(PetscFree(lost));
@@ -201,7 +201,7 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
-  if (!before) PetscCall(ReportWarn(sim->comm, &sim->report, "load step %" PetscInt_FMT ": linearizing the gap again makes it no truer, so that the linearizations are made short of the solutions; smaller load steps, or the sides of the pairs exchanged, may do better", report->step));
+  if (!before) PetscCall(ReportWarn(sim->comm, &sim->report, "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load steps, or swap mortar and nonmortar", report->step));
   PetscFunctionReturn(0);
 }
 
@@ -247,7 +247,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
-  if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Gap linearized %" PetscInt_FMT " times: smallest true gap %g, off the linearized one by %g\n", report->contact_updates, (double)report->gap_true, (double)report->gap_change));
+  if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g\n", report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change));
   PetscFunctionReturn(0);
 }
 

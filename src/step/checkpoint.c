@@ -136,7 +136,8 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   LoadPath *path = &sim->path;
 
   PetscFunctionBegin;
-  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT, "the run that is to go on is at time %g, and the scene's load program ends at time %" PetscInt_FMT ": nothing is left to do", (double)checkpoint->time, sim->scene->nsteps);
+  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT, "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT ": the analysis is already complete",
+             (double)checkpoint->time, sim->scene->nsteps);
   *step = sim->first_step = checkpoint->step;
   sim->increment          = checkpoint->increment;
   path->time              = checkpoint->time;

@@ -46,7 +46,7 @@ PetscErrorCode LooseTest(const StepProblem *p, Vec u, StepReport *report)
     const PetscReal *c = &carried[4 * b], force = PetscSqrtReal(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
     char             reason[256];
 
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; something real must hold it, or stiffer ones than weak_springs: %g", scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; add a support, or stiffer springs than weak_springs: %g", scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
     if (force > loose_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree(carried));

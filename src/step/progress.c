@@ -43,7 +43,7 @@ static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char
   PetscFunctionBegin;
   PetscCall(ProgressDuration(now - sim->start.total, so_far));
   PetscCall(ProgressDuration(PetscMax(left, 0.0), to_come));
-  PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far, %s%s%s\n", PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, sim->scene->nsteps), sim->scene->nsteps, inside, so_far, left < 0.0 ? "what is left is known when a step is done" : "about ", left < 0.0 ? "" : to_come, left < 0.0 ? "" : " left"));
+  PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n", PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, sim->scene->nsteps), sim->scene->nsteps, inside, so_far, left < 0.0 ? "" : ", about ", left < 0.0 ? "" : to_come, left < 0.0 ? "" : " left"));
   PetscFunctionReturn(0);
 }
 

@@ -91,7 +91,8 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
     PetscReal area = 0.0;
 
     for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
-    if (area == 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "the faces of contact pair \"%s\" met at the end of no load step: mortar %s, nonmortar %s", sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
+    if (area == 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, faces and clearance",
+                                  sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
   }
   PetscFunctionReturn(0);
 }

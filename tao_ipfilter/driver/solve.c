@@ -322,8 +322,9 @@ static PetscErrorCode EndTerms(Tao tao)
 
   PetscFunctionBegin;
   if (ip->rec.best_error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for", (double)ip->rec.best_error, (double)ip->tol));
-  else if (ip->rec.best_error < PETSC_INFINITY) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws: KKT error %g", (double)ip->rec.best_error));
-  else PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no point is found where the norm terms keep their laws; they take inequality constraints and no others, and a Hessian that is positive definite on what they touch"));
+  else if (ip->rec.best_error < PETSC_INFINITY) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)", (double)ip->rec.best_error));
+  else PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "friction: no equilibrium with stick and slip consistent everywhere was found. "
+                          "The method needs inequality constraints alone and a Hessian that is positive definite on the unknowns with friction"));
   PetscFunctionReturn(0);
 }
 

@@ -83,7 +83,7 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored, &why));
   if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0))) PetscFunctionReturn(0);
-  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "%s: %s\n", factored ? "MUMPS in place of AMG" : "AMG", why));
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n", factored ? "direct (MUMPS)" : "CG with AMG", why));
   PetscFunctionReturn(0);
 }
 

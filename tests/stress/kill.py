@@ -80,7 +80,7 @@ def compare(args, event, ranks):
                 result["wrong"].append(f"after {seconds:.2f} s it goes on to an answer that is off by {off:.1e}")
         elif code == 1 and len(said) == 1 and "there is no checkpoint" in said[0] and not os.path.exists(base + ".h5"):
             result["before"] += 1
-        elif code == 1 and len(said) == 1 and "nothing is left to do" in said[0]:
+        elif code == 1 and len(said) == 1 and "the analysis is already complete" in said[0]:
             result["done"] += 1
         else:
             result["wrong"].append(f"after {seconds:.2f} s: exit code {code}, {' '.join(said)}")
