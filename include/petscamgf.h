@@ -21,6 +21,7 @@
 #define PETSCAMGF_VERSION_GE(major, minor, subminor) (!PETSCAMGF_VERSION_LT(major, minor, subminor))
 
 #define PCAMGF      "amgf"
+#define PCBLOCKAMG  "blockamg"
 #define TAOIPFILTER "ipfilter"
 
 /* The key under which an IS (filtered unknowns) or a Mat (filter interpolation) is composed on the Pmat */

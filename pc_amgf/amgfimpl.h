@@ -118,7 +118,7 @@ typedef struct {
 /* The files of this folder, each after those it builds on, and what they define for others */
 
 /* log.c */
-PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply;
+PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp, PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
 PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
 /* stamp.c */
 PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);
@@ -142,6 +142,8 @@ PETSC_INTERN PetscErrorCode PCAMGFFewRanksBegin_Private(PC, AMGFFewRanks *);
 PETSC_INTERN PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *);
 PETSC_INTERN PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC, PetscInt);
 PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
+/* boomeramg.c */
+PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt);
 /* inner.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
@@ -172,6 +174,8 @@ PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
 PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 /* amgf.c */
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
+/* blockamg.c, above the other files of blockamg.h */
+PETSC_EXTERN PetscErrorCode PCCreate_BlockAMG(PC);
 /* library.c */
 PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
 /* version.c: a public function */

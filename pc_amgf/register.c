@@ -34,6 +34,7 @@ PetscErrorCode PetscAMGFInitializePackage(void)
   initialized = PETSC_TRUE;
   PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
 #if !defined(PETSC_USE_COMPLEX)
+  PetscCall(PCRegister(PCBLOCKAMG, PCCreate_BlockAMG));
   PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
 #endif
   PetscCall(PCAMGFLogRegister_Private());

@@ -1,0 +1,131 @@
+/* Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets up */
+#ifndef BLOCKAMG_H
+#define BLOCKAMG_H
+
+#include <petsccompat.h>
+#include <petsc/private/pcimpl.h>
+#include <petscsf.h>
+#include <petscamgf.h>
+
+/* At most so many unknowns of all ranks are solved for by a dense inverse */
+#define BLOCKAMG_DENSE 256
+
+/*
+   The rows of a matrix that this rank owns. Columns of this rank have local numbers; columns of other ranks have numbers of ghosts, and ghosts[] has their
+   global numbers.
+*/
+typedef struct {
+  PetscInt           n, nghosts;
+  const PetscInt    *ia, *ja, *oia, *oja, *ghosts;
+  const PetscScalar *a, *oa;
+  PetscLayout        columns;
+  Mat                held, diag, off;
+} BlockRows;
+
+/* Values of unknowns of other ranks */
+typedef struct {
+  int     nghosts;
+  PetscSF sf; /* NULL on one rank */
+} BlockHalo;
+
+/* Rows with columns of other ranks: entries beside the blocks, and half of the sum of their absolute values, which is added to the diagonal */
+typedef struct {
+  int    n;
+  int   *place, *ptr, *col; /* place of the row; number of the ghost */
+  float *val, *shift;
+} BlockBorder;
+
+/* Interpolation from the next level, rows by place; columns are places of the next level, ghosts behind them */
+typedef struct {
+  int      *ptr, *col;
+  float    *val;
+  BlockHalo halo;
+} BlockInterpolation;
+
+/*
+   A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L, the strictly lower triangle of
+   the matrix without columns of other ranks, has blocks of B x B floats by rows, and D^-1, the inverses of the diagonal blocks, blocks of B columns of 4 floats.
+   Places that no unknown has hold zeros.
+*/
+typedef struct {
+  int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
+  int               *position;
+  int               *ptr, *col; /* blocks of L by rows; col: the first place of the block's columns */
+  float             *L, *Dinv;
+  BlockBorder        border;
+  BlockHalo          halo;
+  BlockInterpolation P;
+  int                nslots;   /* of a vector */
+  float             *x, *b, *t; /* iterate, right-hand side, L^T x */
+
+  PetscLogDouble unknowns, entries, blocks, bytes; /* of all ranks; entries: of the matrix; blocks: floats of L and D */
+} BlockLevel;
+
+/* The last level, by its inverse: rows of this rank, columns of all ranks */
+typedef struct {
+  int          n, N; /* rows of this rank, of all ranks */
+  float       *inverse, *b;
+  PetscMPIInt *counts, *starts; /* of all ranks */
+} BlockDense;
+
+typedef struct {
+  MPI_Comm    comm;
+  PetscMPIInt size;
+  int         nlevels; /* that are smoothed */
+  BlockLevel *levels;
+  BlockLevel  bottom; /* vectors and places of the dense level */
+  BlockDense  dense;  /* N = 0: there is none, and the last of the levels is smoothed alone */
+  double      scale;  /* matrices are divided by it: a power of 2 */
+} BlockHierarchy;
+
+typedef struct {
+  PC              hypre; /* sets up the hierarchy; holds none between set-ups */
+  BlockHierarchy *h;
+  char            why[200]; /* there is no hierarchy */
+} PC_BlockAMG;
+
+/* The files of blockamg, each after those it builds on */
+
+/* blockamg_rows.c */
+PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
+PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
+/* blockamg_order.c */
+PETSC_INTERN PetscErrorCode BlockOrderNodes_Private(const BlockRows *, PetscInt bs, int position[]);
+PETSC_INTERN PetscErrorCode BlockOrderGroups_Private(const BlockRows *, int position[]);
+/* blockamg_invert.c */
+PETSC_INTERN PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[]);
+/* blockamg_halo.c */
+PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghosts, const PetscInt ghosts[], const BlockLevel *, BlockHalo *);
+PETSC_INTERN PetscErrorCode BlockHaloFetch_Private(const BlockHalo *, const BlockLevel *, float x[]);
+PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockLevel *, float x[]);
+PETSC_INTERN PetscErrorCode BlockHaloDestroy_Private(BlockHalo *);
+/* blockamg_level.c */
+PETSC_INTERN PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *, const BlockRows *, PetscInt bs, double scale);
+PETSC_INTERN PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *);
+PETSC_INTERN PetscErrorCode BlockLevelDestroy_Private(BlockLevel *);
+/* blockamg_interpolation.c */
+PETSC_INTERN PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *, const BlockRows *, BlockLevel *);
+PETSC_INTERN PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *);
+/* blockamg_sweep.c */
+PETSC_INTERN void  BlockSweepDown_Private(const BlockLevel *);
+PETSC_INTERN void  BlockSweepUp_Private(const BlockLevel *);
+PETSC_INTERN void  BlockRestrict_Private(const BlockLevel *, float coarse[]);
+PETSC_INTERN void  BlockInterpolateAdd_Private(const BlockLevel *, const float coarse[]);
+PETSC_INTERN float BlockDot_Private(int n, const float a[], const float b[]);
+/* blockamg_dense.c */
+PETSC_INTERN PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *, const BlockRows *);
+PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);
+PETSC_INTERN PetscErrorCode BlockDenseDestroy_Private(BlockDense *);
+/* blockamg_hierarchy.c */
+PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, Mat coarse[], Mat interpolations[], BlockHierarchy **);
+PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
+PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
+/* blockamg_cycle.c */
+PETSC_INTERN PetscErrorCode BlockCycle_Private(BlockHierarchy *);
+PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
+/* blockamg_setup.c */
+PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
+/* blockamg_view.c */
+PETSC_INTERN PetscErrorCode PCView_BlockAMG(PC, PetscViewer);
+
+#endif

@@ -1,0 +1,152 @@
+/*
+   One V-cycle, and its application to a vector in double precision.
+
+   A = L + D + L^T on each rank, S on the diagonal of rows with entries E of other ranks' columns, of half of the sums of their absolute values:
+   down, from zero:   x = (L + D + S)^-1 b,  then the residual b - A x = S x - L^T x - E x
+   up:                x = (D + S + L^T)^-1 (b - L x + S x - E x)
+*/
+#include "amgfimpl.h"
+#include "blockamg.h"
+#include <float.h>
+#if defined(__SSE__)
+  #include <xmmintrin.h>
+#endif
+
+/* Numbers below the smallest normal float take a hundred times as long as others on many processors: they are zero until CycleRestoreTiny() */
+static unsigned CycleFlushTiny(void)
+{
+#if defined(__SSE__)
+  const unsigned mode = _mm_getcsr();
+
+  _mm_setcsr(mode | 0x8040);
+  return mode;
+#else
+  return 0;
+#endif
+}
+
+static void CycleRestoreTiny(unsigned mode)
+{
+#if defined(__SSE__)
+  _mm_setcsr(mode);
+#else
+  (void)mode;
+#endif
+}
+
+/* y = y + sign (E x - S x) on rows with columns of other ranks, of which x has the ghosts */
+static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
+{
+  const BlockBorder *border = &l->border;
+  const float       *ghosts = l->x + 4 * (size_t)l->nb;
+
+  for (int i = 0; i < border->n; i++) {
+    const int place = border->place[i];
+    float     s     = -border->shift[i] * l->x[place];
+
+    for (int k = border->ptr[i]; k < border->ptr[i + 1]; k++) s += border->val[k] * ghosts[border->col[k]];
+    y[place] += sign * s;
+  }
+}
+
+/* x of this level, and b of the next one, if any */
+static PetscErrorCode CycleDown(const BlockLevel *l, const BlockLevel *next)
+{
+  PetscFunctionBegin;
+  BlockSweepDown_Private(l);
+  if (!next) PetscFunctionReturn(0);
+  PetscCall(BlockHaloFetch_Private(&l->halo, l, l->x));
+  CycleAddBorder(l, 1.0f, l->t);
+  PetscCall(PetscArrayzero(next->b, next->nslots));
+  BlockRestrict_Private(l, next->b);
+  PetscCall(BlockHaloAdd_Private(&l->P.halo, next, next->b));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CycleUp(const BlockLevel *l, const BlockLevel *next)
+{
+  PetscFunctionBegin;
+  if (next) {
+    PetscCall(BlockHaloFetch_Private(&l->P.halo, next, next->x));
+    BlockInterpolateAdd_Private(l, next->x);
+  }
+  PetscCall(BlockHaloFetch_Private(&l->halo, l, l->x));
+  CycleAddBorder(l, -1.0f, l->b);
+  BlockSweepUp_Private(l);
+  PetscFunctionReturn(0);
+}
+
+static const BlockLevel *CycleNext(const BlockHierarchy *h, int i)
+{
+  if (i + 1 < h->nlevels) return &h->levels[i + 1];
+  return h->dense.N ? &h->bottom : NULL;
+}
+
+/*
+  BlockCycle_Private - x of the first level from its b
+*/
+PetscErrorCode BlockCycle_Private(BlockHierarchy *h)
+{
+  PetscFunctionBegin;
+  for (int i = 0; i < h->nlevels; i++) PetscCall(CycleDown(&h->levels[i], CycleNext(h, i)));
+  if (h->dense.N) PetscCall(BlockDenseSolve_Private(h));
+  for (int i = h->nlevels - 1; i >= 0; i--) PetscCall(CycleUp(&h->levels[i], CycleNext(h, i)));
+  PetscFunctionReturn(0);
+}
+
+/* The power of 2 above the largest entry of all ranks: 1 for zeros; not finite where an entry is not */
+static PetscErrorCode ApplyFindScale(const BlockHierarchy *h, PetscInt n, const PetscScalar r[], double *scale)
+{
+  double largest = 0.0, nan = 0.0;
+  int    exponent;
+
+  PetscFunctionBegin;
+  for (PetscInt u = 0; u < n; u++) {
+    const double value = PetscAbsReal(PetscRealPart(r[u]));
+
+    largest = PetscMax(largest, value);
+    nan += 0.0 * value;
+  }
+  if (nan != 0.0) largest = PETSC_INFINITY;
+  if (h->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, h->comm));
+  if (!(largest <= DBL_MAX)) *scale = PETSC_INFINITY;
+  else if (largest == 0.0) *scale = 1.0;
+  else {
+    (void)frexp(largest, &exponent);
+    *scale = ldexp(1.0, PetscMax(exponent, -1000));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
+{
+  BlockHierarchy    *h = ((PC_BlockAMG *)pc->data)->h;
+  const BlockLevel  *fine;
+  const PetscScalar *from;
+  PetscScalar       *to;
+  double             scale, inverse;
+  unsigned           mode;
+
+  PetscFunctionBegin;
+  if (!h) { /* the set-up has failed */
+    PetscCall(VecSet(z, 0.0));
+    PetscCall(VecFlag(z, 1));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscLogEventBegin(PC_BLOCKAMG_Apply, pc, r, z, 0));
+  fine = h->nlevels ? &h->levels[0] : &h->bottom;
+  PetscCall(VecGetArrayRead(r, &from));
+  PetscCall(VecGetArrayWrite(z, &to));
+  PetscCall(ApplyFindScale(h, fine->n, from, &scale));
+  inverse = 1.0 / scale;
+  mode    = CycleFlushTiny();
+  for (int u = 0; u < fine->n; u++) fine->b[fine->position[u]] = (float)(inverse * PetscRealPart(from[u]));
+  PetscCall(BlockCycle_Private(h));
+  CycleRestoreTiny(mode);
+  scale /= h->scale;
+  for (int u = 0; u < fine->n; u++) to[u] = scale * fine->x[fine->position[u]];
+  PetscCall(VecRestoreArrayWrite(z, &to));
+  PetscCall(VecRestoreArrayRead(r, &from));
+  PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Apply, pc, r, z, 0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,79 @@
+/* The last level, by its inverse, of which every rank has the rows of its unknowns */
+#include "blockamg.h"
+
+/* The matrix of all ranks, on each of them */
+static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows, PetscScalar full[])
+{
+  const PetscInt N = h->dense.N, first = rows->columns->rstart;
+
+  PetscFunctionBegin;
+  for (PetscInt u = 0; u < rows->n; u++) {
+    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) full[N * (first + u) + first + rows->ja[k]] = rows->a[k] / h->scale;
+    for (PetscInt k = rows->oia ? rows->oia[u] : 0; k < (rows->oia ? rows->oia[u + 1] : 0); k++) full[N * (first + u) + rows->ghosts[rows->oja[k]]] = rows->oa[k] / h->scale;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, full, (PetscMPIInt)(N * N), MPIU_SCALAR, MPIU_SUM, h->comm));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockDenseCreate_Private - the bottom level and its inverse; its places are its unknowns
+*/
+PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows)
+{
+  BlockDense  *dense = &h->dense;
+  BlockLevel  *level = &h->bottom;
+  PetscScalar *full;
+  size_t       first;
+
+  PetscFunctionBegin;
+  dense->n  = level->n = (int)rows->n;
+  dense->N  = (int)rows->columns->N;
+  level->B  = 4;
+  level->nb = (level->n + 3) / 4;
+  PetscCall(PetscMalloc1(level->n, &level->position));
+  for (int u = 0; u < level->n; u++) level->position[u] = u;
+  level->nslots = 4 * level->nb;
+  PetscCall(PetscMalloc2(h->size, &dense->counts, h->size, &dense->starts));
+  for (PetscMPIInt r = 0; r < h->size; r++) {
+    dense->starts[r] = (PetscMPIInt)rows->columns->range[r];
+    dense->counts[r] = (PetscMPIInt)(rows->columns->range[r + 1] - rows->columns->range[r]);
+  }
+  PetscCall(PetscCalloc1((size_t)dense->N * dense->N, &full));
+  PetscCall(DenseGather(h, rows, full));
+  PetscCall(BlockInvert_Private(dense->N, full));
+  PetscCall(PetscMalloc1((size_t)dense->n * dense->N, &dense->inverse));
+  PetscCall(PetscCalloc1(dense->N, &dense->b));
+  first = (size_t)rows->columns->rstart * dense->N;
+  for (size_t k = 0; k < (size_t)dense->n * dense->N; k++) dense->inverse[k] = (float)PetscRealPart(full[first + k]);
+  PetscCall(PetscFree(full));
+  level->unknowns = dense->N;
+  level->entries = level->blocks = (double)dense->N * dense->N;
+  level->bytes                   = 4.0 * dense->N * dense->N;
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockDenseSolve_Private - x = A^-1 b on the bottom level
+*/
+PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *h)
+{
+  const BlockDense *dense = &h->dense;
+  const float      *b     = h->bottom.b;
+
+  PetscFunctionBegin;
+  if (h->size > 1) {
+    PetscCallMPI(MPI_Allgatherv(h->bottom.b, dense->n, MPI_FLOAT, dense->b, dense->counts, dense->starts, MPI_FLOAT, h->comm));
+    b = dense->b;
+  }
+  for (int i = 0; i < dense->n; i++) h->bottom.x[i] = BlockDot_Private(dense->N, dense->inverse + (size_t)dense->N * i, b);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BlockDenseDestroy_Private(BlockDense *dense)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(dense->inverse));
+  PetscCall(PetscFree(dense->b));
+  PetscCall(PetscFree2(dense->counts, dense->starts));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,73 @@
+/* Values of unknowns of other ranks, in floats: fetched from their owners, or added to what those have */
+#include "blockamg.h"
+
+/*
+  BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
+
+  Input Parameters:
++ layout - of the level's unknowns
+. ghosts - unknowns of other ranks
+- level  - with the places of its unknowns
+*/
+PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[], const BlockLevel *level, BlockHalo *halo)
+{
+  PetscMPIInt        size;
+  PetscSF            numbers;
+  const PetscSFNode *owned;
+  PetscSFNode       *places;
+  int               *theirs;
+
+  PetscFunctionBegin;
+  halo->nghosts = (int)nghosts;
+  halo->sf      = NULL;
+  PetscCallMPI(MPI_Comm_size(layout->comm, &size));
+  if (size == 1) PetscFunctionReturn(0);
+  PetscCall(PetscSFCreate(layout->comm, &numbers));
+  PetscCall(PetscSFSetGraphLayout(numbers, layout, nghosts, NULL, PETSC_OWN_POINTER, ghosts));
+  PetscCall(PetscMalloc1(nghosts, &theirs));
+  PetscCall(PetscSFBcastBegin(numbers, MPI_INT, level->position, theirs, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(numbers, MPI_INT, level->position, theirs, MPI_REPLACE));
+  PetscCall(PetscSFGetGraph(numbers, NULL, NULL, NULL, &owned));
+  PetscCall(PetscMalloc1(nghosts, &places));
+  for (PetscInt g = 0; g < nghosts; g++) {
+    places[g].rank  = owned[g].rank;
+    places[g].index = theirs[g];
+  }
+  PetscCall(PetscSFCreate(layout->comm, &halo->sf));
+  PetscCall(PetscSFSetGraph(halo->sf, 4 * level->nb, nghosts, NULL, PETSC_OWN_POINTER, places, PETSC_OWN_POINTER));
+  PetscCall(PetscSFSetUp(halo->sf));
+  PetscCall(PetscSFDestroy(&numbers));
+  PetscCall(PetscFree(theirs));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockHaloFetch_Private - ghosts of x get their owners' values
+*/
+PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
+{
+  PetscFunctionBegin;
+  if (!halo->sf) PetscFunctionReturn(0);
+  PetscCall(PetscSFBcastBegin(halo->sf, MPI_FLOAT, x, x + 4 * (size_t)level->nb, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(halo->sf, MPI_FLOAT, x, x + 4 * (size_t)level->nb, MPI_REPLACE));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockHaloAdd_Private - owners add what the ghosts of x have
+*/
+PetscErrorCode BlockHaloAdd_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
+{
+  PetscFunctionBegin;
+  if (!halo->sf) PetscFunctionReturn(0);
+  PetscCall(PetscSFReduceBegin(halo->sf, MPI_FLOAT, x + 4 * (size_t)level->nb, x, MPI_SUM));
+  PetscCall(PetscSFReduceEnd(halo->sf, MPI_FLOAT, x + 4 * (size_t)level->nb, x, MPI_SUM));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BlockHaloDestroy_Private(BlockHalo *halo)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSFDestroy(&halo->sf));
+  PetscFunctionReturn(0);
+}

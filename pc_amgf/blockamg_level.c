@@ -1,0 +1,252 @@
+/* A matrix of the hierarchy as blocks of floats: the strictly lower triangle, inverse diagonal blocks, and entries of columns of other ranks */
+#include "blockamg.h"
+
+/* Blocks of the rows so far; grows */
+typedef struct {
+  int    n, room;
+  int   *col;
+  float *val;
+} LevelBlocks;
+
+static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
+{
+  PetscFunctionBegin;
+  if (blocks->n + more <= blocks->room) PetscFunctionReturn(0);
+  blocks->room = blocks->n + more + blocks->n / 4;
+  PetscCall(PetscRealloc((size_t)blocks->room * sizeof(*blocks->col), &blocks->col));
+  PetscCall(PetscRealloc(((size_t)blocks->room * size + 4) * sizeof(*blocks->val), &blocks->val));
+  PetscFunctionReturn(0);
+}
+
+/* The unknowns of places; -1 where there is none */
+static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(4 * level->nb, unknown));
+  for (int i = 0; i < 4 * level->nb; i++) (*unknown)[i] = -1;
+  for (int u = 0; u < level->n; u++) (*unknown)[level->position[u]] = u;
+  PetscFunctionReturn(0);
+}
+
+/* A short list, mostly sorted */
+static void LevelSort(int n, int a[])
+{
+  for (int i = 1; i < n; i++) {
+    const int key = a[i];
+    int       j   = i;
+
+    for (; j > 0 && a[j - 1] > key; j--) a[j] = a[j - 1];
+    a[j] = key;
+  }
+}
+
+/* The columns of block row i of L, sorted; slot[] gets their blocks */
+static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i, LevelBlocks *blocks, int slot[])
+{
+  const int first = blocks->n, size = level->B * level->B;
+  PetscInt  most = 0;
+
+  PetscFunctionBegin;
+  for (int r = 0; r < level->B; r++) {
+    const int u = unknown[4 * i + r];
+
+    if (u >= 0) most += rows->ia[u + 1] - rows->ia[u];
+  }
+  PetscCall(BlocksReserve(blocks, size, (int)PetscMin(most, i)));
+  for (int r = 0; r < level->B; r++) {
+    const int u = unknown[4 * i + r];
+
+    if (u < 0) continue;
+    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
+      const int j = level->position[rows->ja[k]] / 4;
+
+      if (j >= i || slot[j] >= first) continue;
+      slot[j]                  = blocks->n;
+      blocks->col[blocks->n++] = 4 * j;
+    }
+  }
+  LevelSort(blocks->n - first, blocks->col + first);
+  for (int k = first; k < blocks->n; k++) slot[blocks->col[k] / 4] = k;
+  PetscCall(PetscArrayzero(blocks->val + (size_t)size * first, (size_t)size * (blocks->n - first)));
+  PetscFunctionReturn(0);
+}
+
+/* Their entries, and those of the diagonal block */
+static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i, double inverse_scale, const int slot[], float val[], PetscScalar D[16])
+{
+  const int B = level->B;
+
+  for (int k = 0; k < B * B; k++) D[k] = 0.0;
+  for (int r = 0; r < B; r++) {
+    const int u = unknown[4 * i + r];
+
+    if (u < 0) continue;
+    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
+      const int p = level->position[rows->ja[k]], j = p / 4;
+
+      if (j < i) val[(size_t)B * B * slot[j] + B * r + p % 4] = (float)(inverse_scale * PetscRealPart(rows->a[k]));
+      else if (j == i) D[B * r + p % 4] = inverse_scale * rows->a[k];
+    }
+  }
+}
+
+/* Half of what other ranks' columns have is added to the diagonal: with it the sweeps of all ranks together converge, and the cycle stays positive definite */
+static void LevelShiftDiagonal(const BlockLevel *level, int *next, int i, PetscScalar D[16])
+{
+  const BlockBorder *border = &level->border;
+
+  for (; *next < border->n && border->place[*next] < 4 * (i + 1); ++*next) D[(level->B + 1) * (border->place[*next] % 4)] += border->shift[*next];
+}
+
+static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, double scale)
+{
+  const int   B = level->B, size = B * B;
+  LevelBlocks blocks = {0, 0, NULL, NULL};
+  int        *unknown, *slot, border = 0;
+  PetscScalar D[16];
+
+  PetscFunctionBegin;
+  PetscCall(LevelGetUnknowns(level, &unknown));
+  PetscCall(PetscMalloc1(level->nb, &slot));
+  for (int i = 0; i < level->nb; i++) slot[i] = -1;
+  PetscCall(PetscMalloc1(level->nb + 1, &level->ptr));
+  PetscCall(PetscCalloc1(4 * (size_t)B * level->nb, &level->Dinv));
+  PetscCall(BlocksReserve(&blocks, size, (int)(rows->n ? rows->ia[rows->n] / (B == 3 ? 18 : 10) : 0)));
+  for (int i = 0; i < level->nb; i++) {
+    level->ptr[i] = blocks.n;
+    PetscCall(LevelFindBlocks(level, rows, unknown, i, &blocks, slot));
+    LevelFillBlocks(level, rows, unknown, i, 1.0 / scale, slot, blocks.val, D);
+    LevelShiftDiagonal(level, &border, i, D);
+    PetscCall(BlockInvert_Private(B, D));
+    for (int r = 0; r < B; r++) {
+      for (int c = 0; c < B; c++) level->Dinv[4 * ((size_t)B * i + c) + r] = (float)PetscRealPart(D[B * r + c]);
+    }
+  }
+  level->ptr[level->nb] = blocks.n;
+  PetscCall(PetscRealloc((size_t)blocks.n * sizeof(*blocks.col), &blocks.col));
+  PetscCall(PetscRealloc(((size_t)blocks.n * size + 4) * sizeof(*blocks.val), &blocks.val));
+  if (blocks.val) PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4 floats */
+  level->col = blocks.col;
+  level->L   = blocks.val;
+  PetscCall(PetscFree(slot));
+  PetscCall(PetscFree(unknown));
+  PetscFunctionReturn(0);
+}
+
+/* Rows with entries in columns of other ranks, in the order of their places */
+static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, double scale)
+{
+  BlockBorder *border = &level->border;
+  int         *unknown, n = 0;
+
+  PetscFunctionBegin;
+  border->n = 0;
+  if (!rows->oia || !rows->n) PetscFunctionReturn(0);
+  for (PetscInt u = 0; u < rows->n; u++) border->n += rows->oia[u + 1] > rows->oia[u];
+  PetscCall(LevelGetUnknowns(level, &unknown));
+  PetscCall(PetscMalloc1(border->n, &border->place));
+  PetscCall(PetscMalloc1(border->n, &border->shift));
+  PetscCall(PetscMalloc1(border->n + 1, &border->ptr));
+  PetscCall(PetscMalloc1(rows->oia[rows->n], &border->col));
+  PetscCall(PetscMalloc1(rows->oia[rows->n], &border->val));
+  border->ptr[0] = 0;
+  for (int i = 0; i < 4 * level->nb; i++) {
+    const int u = unknown[i];
+    int       k = border->ptr[n];
+    double    s = 0.0;
+
+    if (u < 0 || rows->oia[u + 1] == rows->oia[u]) continue;
+    for (PetscInt m = rows->oia[u]; m < rows->oia[u + 1]; m++, k++) {
+      border->col[k] = (int)rows->oja[m];
+      border->val[k] = (float)(PetscRealPart(rows->oa[m]) / scale);
+      s += PetscAbsScalar(rows->oa[m]) / scale;
+    }
+    border->place[n]   = i;
+    border->shift[n]   = (float)(0.5 * s);
+    border->ptr[n + 1] = k;
+    n++;
+  }
+  PetscCall(PetscFree(unknown));
+  PetscFunctionReturn(0);
+}
+
+/* Sums over all ranks, for whoever looks at the preconditioner */
+static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
+{
+  const int    B = level->B;
+  const double border = level->border.n ? level->border.ptr[level->border.n] : 0;
+  double       sums[4];
+
+  PetscFunctionBegin;
+  sums[0] = level->n;
+  sums[1] = rows->n ? (double)rows->ia[rows->n] + border : 0.0;
+  sums[2] = (double)B * B * (2.0 * level->ptr[level->nb] + level->nb) + border;
+  sums[3] = (4.0 * B * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 4.0) * level->nb + 4.0 * level->n + 8.0 * border + 12.0 * level->border.n;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, rows->columns->comm));
+  level->unknowns = sums[0];
+  level->entries  = sums[1];
+  level->blocks   = sums[2];
+  level->bytes    = sums[3];
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockLevelSetMatrix_Private - the level's places, and its matrix divided by scale
+
+  Input Parameter:
+. bs - unknowns of a node, which follow one another; 1 where that is not known
+*/
+PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *rows, PetscInt bs, double scale)
+{
+  const PetscInt largest = PETSC_MAX_INT < 2147483647 ? PETSC_MAX_INT : 2147483647;
+
+  PetscFunctionBegin;
+  PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks", largest / 8, rows->n);
+  level->n = (int)rows->n;
+  level->B = bs % 3 == 0 ? 3 : 4;
+  PetscCall(PetscMalloc1(level->n, &level->position));
+  if (bs % level->B == 0) PetscCall(BlockOrderNodes_Private(rows, level->B, level->position));
+  else PetscCall(BlockOrderGroups_Private(rows, level->position));
+  level->nb = 0;
+  for (int u = 0; u < level->n; u++) level->nb = PetscMax(level->nb, level->position[u] / 4 + 1);
+  PetscCall(LevelSetBorder(level, rows, scale));
+  PetscCall(LevelSetBlocks(level, rows, scale));
+  PetscCall(BlockHaloCreate_Private(rows->columns, rows->nghosts, rows->ghosts, level, &level->halo));
+  level->nslots = 4 * level->nb + level->halo.nghosts;
+  PetscCall(LevelCount(level, rows));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockLevelCreateVectors_Private - once the ghosts that the interpolation to this level needs are known
+*/
+PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *level)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(level->nslots, &level->x));
+  PetscCall(PetscCalloc1(level->nslots, &level->b));
+  PetscCall(PetscCalloc1(4 * level->nb, &level->t));
+  level->bytes += 4.0 * (2.0 * level->nslots + 4.0 * level->nb);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(level->position));
+  PetscCall(PetscFree(level->ptr));
+  PetscCall(PetscFree(level->col));
+  PetscCall(PetscFree(level->L));
+  PetscCall(PetscFree(level->Dinv));
+  PetscCall(PetscFree(level->border.place));
+  PetscCall(PetscFree(level->border.ptr));
+  PetscCall(PetscFree(level->border.col));
+  PetscCall(PetscFree(level->border.val));
+  PetscCall(PetscFree(level->border.shift));
+  PetscCall(BlockHaloDestroy_Private(&level->halo));
+  PetscCall(BlockInterpolationDestroy_Private(&level->P));
+  PetscCall(PetscFree(level->x));
+  PetscCall(PetscFree(level->b));
+  PetscCall(PetscFree(level->t));
+  PetscFunctionReturn(0);
+}

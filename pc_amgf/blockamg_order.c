@@ -1,0 +1,62 @@
+/* The places of a level's unknowns: which share a block, and in which order the blocks come */
+#include "blockamg.h"
+
+/*
+  BlockOrderNodes_Private - blocks of bs unknowns each, 3 or 4, that follow one another
+*/
+PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int position[])
+{
+  PetscFunctionBegin;
+  for (PetscInt u = 0; u < rows->n; u++) position[u] = (int)(4 * (u / bs) + u % bs);
+  PetscFunctionReturn(0);
+}
+
+/* The three neighbours of an unknown that have the most columns in common with it, of those that have no place yet; mark[] has the unknown's columns */
+static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[], PetscInt best[3])
+{
+  PetscInt count[3] = {0, 0, 0};
+
+  best[0] = best[1] = best[2] = -1;
+  for (PetscInt k = rows->ia[seed]; k < rows->ia[seed + 1]; k++) {
+    const PetscInt j = rows->ja[k];
+    PetscInt       common, w;
+
+    if (position[j] >= 0) continue;
+    common = rows->ia[j] - rows->ia[j + 1];
+    for (PetscInt m = rows->ia[j]; m < rows->ia[j + 1]; m++) common += mark[rows->ja[m]] == seed ? 2 : 0;
+    for (w = 3; w > 0 && (best[w - 1] < 0 || common > count[w - 1]); w--) {
+      if (w == 3) continue;
+      best[w]  = best[w - 1];
+      count[w] = count[w - 1];
+    }
+    if (w == 3) continue;
+    best[w]  = j;
+    count[w] = common;
+  }
+}
+
+/*
+  BlockOrderGroups_Private - blocks of 4 unknowns that have as many columns as possible in common: the first that has no place, and the best of its neighbours
+*/
+PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
+{
+  PetscInt *mark, best[3];
+  int       next = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(rows->n, &mark));
+  for (PetscInt u = 0; u < rows->n; u++) {
+    position[u] = -1;
+    mark[u]     = -1;
+  }
+  for (PetscInt seed = 0; seed < rows->n; seed++) {
+    if (position[seed] >= 0) continue;
+    for (PetscInt k = rows->ia[seed]; k < rows->ia[seed + 1]; k++) mark[rows->ja[k]] = seed;
+    position[seed] = next++;
+    GroupFindNeighbours(rows, seed, position, mark, best);
+    for (PetscInt w = 0; w < 3 && best[w] >= 0; w++) position[best[w]] = next++;
+    next = (next + 3) / 4 * 4;
+  }
+  PetscCall(PetscFree(mark));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,119 @@
+/* Set-up: hypre's BoomerAMG sets up its hierarchy, which is converted and freed */
+#include "amgfimpl.h"
+#include "blockamg.h"
+#include "guard.h"
+
+/* The preconditioner has failed, on all ranks */
+static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
+{
+  PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(amg->why, why, sizeof(amg->why)));
+  PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED, "PCBLOCKAMG: %s", why);
+  PetscCall(PetscInfo(pc, "PCBLOCKAMG failed: %s\n", why));
+  PetscCall(PCSetFailedReason(pc, reason));
+  PetscFunctionReturn(0);
+}
+
+/* The first row of all ranks whose diagonal entry is zero or no finite number; -1: there is none */
+static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
+{
+  Vec                diagonal;
+  const PetscScalar *d;
+  PetscInt           n, start, first = PETSC_MAX_INT;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(A, &diagonal, NULL));
+  PetscCall(MatGetDiagonal(A, diagonal));
+  PetscCall(VecGetLocalSize(diagonal, &n));
+  PetscCall(VecGetOwnershipRange(diagonal, &start, NULL));
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  for (PetscInt i = n - 1; i >= 0; i--) {
+    if (d[i] == 0.0 || PetscIsInfOrNanScalar(d[i])) first = start + i;
+  }
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(VecDestroy(&diagonal));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, PetscObjectComm((PetscObject)A)));
+  *row = first == PETSC_MAX_INT ? -1 : first;
+  PetscFunctionReturn(0);
+}
+
+/* An error of hypre may be one rank's alone */
+static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
+{
+  PC_BlockAMG   *amg = (PC_BlockAMG *)pc->data;
+  AMGFGuard      guard;
+  PetscErrorCode error;
+  PetscInt       bs;
+  const char    *prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amg->hypre));
+  PetscCall(PetscObjectIncrementTabLevel((PetscObject)amg->hypre, (PetscObject)pc, 1));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
+  PetscCall(MatGetBlockSize(pc->pmat, &bs));
+  PetscCall(PCSetOperators(amg->hypre, pc->pmat, pc->pmat));
+  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs));
+  PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
+  error = PCSetUp(amg->hypre);
+  PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  if (*failed) PetscCall(PetscInfo(pc, "An error of hypre: %s\n", guard.why));
+  PetscFunctionReturn(0);
+}
+
+/* What is left of hypre's memory goes before the finest level is converted */
+static PetscErrorCode SetUpConvert(PC pc)
+{
+  PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
+  PetscInt     ncoarse, nlevels;
+  Mat         *coarse, *interpolations;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(PC_BLOCKAMG_Convert, pc, 0, 0, 0));
+  PetscCall(PCGetCoarseOperators(amg->hypre, &ncoarse, &coarse));
+  PetscCall(PCGetInterpolations(amg->hypre, &nlevels, &interpolations));
+  PetscCall(PCDestroy(&amg->hypre));
+  PetscCall(BlockHierarchyCreate_Private(pc->pmat, nlevels, coarse, interpolations, &amg->h));
+  PetscCall(PetscFree(coarse));
+  PetscCall(PetscFree(interpolations));
+  PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Convert, pc, 0, 0, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCSetUp_BlockAMG(PC pc)
+{
+  PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
+  PetscInt     M, N, row = -1;
+  PetscBool    failed, finite;
+  char         why[160];
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(pc->pmat, &M, &N));
+  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
+  PetscCall(PCSetFailedReason(pc, PC_NOERROR));
+  amg->why[0] = '\0';
+  PetscCall(BlockHierarchyDestroy_Private(&amg->h));
+  PetscCall(SetUpFindBadRow(pc->pmat, &row));
+  if (row >= 0) {
+    PetscCall(PetscSNPrintf(why, sizeof(why), "the diagonal entry of row %" PetscInt_FMT " is zero or not finite, so the operator is not positive definite", row));
+    PetscCall(SetUpFail(pc, PC_FACTOR_NUMERIC_ZEROPIVOT, why));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscLogEventBegin(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
+  PetscCall(SetUpHypre(pc, &failed));
+  PetscCall(PetscLogEventEnd(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
+  if (failed) {
+    PetscCall(PCDestroy(&amg->hypre));
+    PetscCall(SetUpFail(pc, PC_SUBPC_ERROR, "the set-up of hypre's BoomerAMG failed"));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SetUpConvert(pc));
+  PetscCall(BlockHierarchyIsFinite_Private(amg->h, &finite));
+  if (finite) PetscFunctionReturn(0);
+  PetscCall(BlockHierarchyDestroy_Private(&amg->h));
+  PetscCall(SetUpFail(pc, PC_FACTOR_OTHER, "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which single precision does not hold"));
+  PetscFunctionReturn(0);
+}

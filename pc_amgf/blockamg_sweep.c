@@ -1,0 +1,117 @@
+/* The arithmetic of the cycle on this rank, in floats: sweeps that read a row of L once for the sweep and the residual, and interpolation */
+#include "blockamg.h"
+#include "vec4.h"
+
+/*
+   x_i = D^-1 (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are read in the direction of the sweep: memory
+   that is read downwards throughout is fetched ahead by the processor.
+*/
+VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
+{
+  const int          k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
+  const float *const D = l->Dinv + 4 * B * (size_t)i;
+  const Vec4         zero = Vec4Same(0.0f);
+  Vec4               a[4] = {zero, zero, zero, zero}, xi = zero, copies[4];
+
+  for (int k = first; k != end; k += step) {
+    const float *v  = l->L + B * B * (size_t)k;
+    const Vec4   xj = Vec4Load(l->x + l->col[k]);
+
+    for (int r = 0; r < B; r++) a[r] = Vec4MultiplyAdd(a[r], Vec4Load(v + B * r), xj);
+  }
+  f = Vec4Subtract(f, Vec4Sums(a));
+  for (int c = 0; c < B; c++) xi = Vec4MultiplyAdd(xi, Vec4Load(D + 4 * c), Vec4Same(Vec4Get(f, c)));
+  Vec4Store(l->x + 4 * (size_t)i, xi);
+  for (int r = 0; r < B; r++) copies[r] = Vec4Same(Vec4Get(xi, r));
+  for (int k = k0; k < k1; k++) { /* the row is in the cache now */
+    const float *v = l->L + B * B * (size_t)k;
+    Vec4         s = Vec4Load(l->t + l->col[k]);
+
+    for (int r = 0; r < B; r++) s = Vec4MultiplyAdd(s, Vec4Load(v + B * r), copies[r]);
+    Vec4Store(l->t + l->col[k], s);
+  }
+}
+
+VEC4_CLONES static void SweepDown3(const BlockLevel *l)
+{
+  for (int i = 0; i < l->nb; i++) SweepRow(l, i, Vec4Load(l->b + 4 * (size_t)i), 3, 1);
+}
+
+VEC4_CLONES static void SweepDown4(const BlockLevel *l)
+{
+  for (int i = 0; i < l->nb; i++) SweepRow(l, i, Vec4Load(l->b + 4 * (size_t)i), 4, 1);
+}
+
+VEC4_CLONES static void SweepUp3(const BlockLevel *l)
+{
+  for (int i = l->nb - 1; i >= 0; i--) SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 3, -1);
+}
+
+VEC4_CLONES static void SweepUp4(const BlockLevel *l)
+{
+  for (int i = l->nb - 1; i >= 0; i--) SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 4, -1);
+}
+
+/*
+  BlockSweepDown_Private - x = (L + D)^-1 b and t = L^T x
+*/
+void BlockSweepDown_Private(const BlockLevel *l)
+{
+  memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
+  if (l->B == 3) SweepDown3(l);
+  else SweepDown4(l);
+}
+
+/*
+  BlockSweepUp_Private - x = (D + L^T)^-1 (b - L x)
+*/
+void BlockSweepUp_Private(const BlockLevel *l)
+{
+  memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
+  if (l->B == 3) SweepUp3(l);
+  else SweepUp4(l);
+}
+
+/*
+  BlockRestrict_Private - coarse = -P^T t, with its ghosts
+*/
+VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
+{
+  const BlockInterpolation *P = &l->P;
+
+  for (int i = 0; i < 4 * l->nb; i++) {
+    const float t = l->t[i];
+
+    for (int k = P->ptr[i]; k < P->ptr[i + 1]; k++) coarse[P->col[k]] -= P->val[k] * t;
+  }
+}
+
+/*
+  BlockInterpolateAdd_Private - x = x + P coarse, which has its ghosts
+*/
+VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float coarse[])
+{
+  const BlockInterpolation *P = &l->P;
+
+  for (int i = 0; i < 4 * l->nb; i++) {
+    float s = 0.0f;
+
+    for (int k = P->ptr[i]; k < P->ptr[i + 1]; k++) s += P->val[k] * coarse[P->col[k]];
+    l->x[i] += s;
+  }
+}
+
+VEC4_CLONES float BlockDot_Private(int n, const float a[], const float b[])
+{
+  Vec4  s[4] = {Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f)};
+  float sum  = 0.0f;
+  int   i    = 0;
+
+  for (; i + 16 <= n; i += 16) {
+    for (int k = 0; k < 4; k++) s[k] = Vec4MultiplyAdd(s[k], Vec4Load(a + i + 4 * k), Vec4Load(b + i + 4 * k));
+  }
+  for (; i < n; i++) sum += a[i] * b[i];
+  s[0] = Vec4Sums(s);
+  for (int k = 0; k < 4; k++) sum += Vec4Get(s[0], k);
+  return sum;
+}

@@ -1,0 +1,107 @@
+/* Four floats at once: vectors of gcc and clang, which any processor of theirs takes, or an array elsewhere */
+#ifndef AMGF_VEC4_H
+#define AMGF_VEC4_H
+
+#include <string.h>
+
+#if defined(__GNUC__) && !defined(AMGF_PLAIN_C)
+  #define VEC4_INLINE static inline __attribute__((always_inline))
+
+typedef float Vec4 __attribute__((vector_size(16)));
+
+VEC4_INLINE Vec4 Vec4Same(float s)
+{
+  return (Vec4){s, s, s, s};
+}
+
+/* a + b c */
+VEC4_INLINE Vec4 Vec4MultiplyAdd(Vec4 a, Vec4 b, Vec4 c)
+{
+  return a + b * c;
+}
+
+VEC4_INLINE Vec4 Vec4Subtract(Vec4 a, Vec4 b)
+{
+  return a - b;
+}
+
+VEC4_INLINE float Vec4Get(Vec4 a, int i)
+{
+  return a[i];
+}
+
+  #if defined(__clang__)
+    #define VEC4_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+  #else
+typedef int Vec4Places __attribute__((vector_size(16)));
+    #define VEC4_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle(a, b, (Vec4Places){i, j, k, l})
+  #endif
+
+/* The sums of the entries of each of four vectors */
+VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
+{
+  const Vec4 p = VEC4_SHUFFLE(a[0], a[1], 0, 4, 1, 5) + VEC4_SHUFFLE(a[0], a[1], 2, 6, 3, 7);
+  const Vec4 q = VEC4_SHUFFLE(a[2], a[3], 0, 4, 1, 5) + VEC4_SHUFFLE(a[2], a[3], 2, 6, 3, 7);
+
+  return VEC4_SHUFFLE(p, q, 0, 1, 4, 5) + VEC4_SHUFFLE(p, q, 2, 3, 6, 7);
+}
+#else
+  #define VEC4_INLINE static inline
+
+typedef struct {
+  float v[4];
+} Vec4;
+
+VEC4_INLINE Vec4 Vec4Same(float s)
+{
+  return (Vec4){{s, s, s, s}};
+}
+
+VEC4_INLINE Vec4 Vec4MultiplyAdd(Vec4 a, Vec4 b, Vec4 c)
+{
+  for (int i = 0; i < 4; i++) a.v[i] += b.v[i] * c.v[i];
+  return a;
+}
+
+VEC4_INLINE Vec4 Vec4Subtract(Vec4 a, Vec4 b)
+{
+  for (int i = 0; i < 4; i++) a.v[i] -= b.v[i];
+  return a;
+}
+
+VEC4_INLINE float Vec4Get(Vec4 a, int i)
+{
+  return a.v[i];
+}
+
+VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
+{
+  Vec4 sums;
+
+  for (int i = 0; i < 4; i++) sums.v[i] = (a[i].v[0] + a[i].v[2]) + (a[i].v[1] + a[i].v[3]);
+  return sums;
+}
+#endif
+
+/* From and to any address */
+VEC4_INLINE Vec4 Vec4Load(const float *p)
+{
+  Vec4 a;
+
+  memcpy(&a, p, sizeof(a));
+  return a;
+}
+
+VEC4_INLINE void Vec4Store(float *p, Vec4 a)
+{
+  memcpy(p, &a, sizeof(a));
+}
+
+/* A function is compiled for several processors, of which the loader chooses; a sanitizer is not up yet where the loader does */
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
+  #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+  #define VEC4_CLONES
+#endif
+
+#endif
