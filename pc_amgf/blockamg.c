@@ -37,7 +37,7 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    A row of L serves both the sweep and the residual while it is in the cache, so that a cycle reads half of every matrix twice. Levels of at
    most 256 unknowns are solved by a dense inverse.
 
-   With several ranks each sweeps over its own rows; half of the absolute sum of the entries in columns of other ranks is added to the diagonal.
+   With several ranks each sweeps over its own rows; where entries in columns of other ranks exceed the diagonal, half of the excess is added to it.
 
    The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it attains the same residuals as with one in
    double precision. Matrices and vectors are scaled by powers of 2, so units have no influence. Only the lower triangle is used on each rank.

@@ -28,7 +28,7 @@ typedef struct {
   PetscSF sf; /* NULL on one rank */
 } BlockHalo;
 
-/* Rows with columns of other ranks: entries beside the blocks, and half of the sum of their absolute values, which is added to the diagonal */
+/* Rows with columns of other ranks: entries beside the blocks, and what is added to the diagonal for them */
 typedef struct {
   int    n;
   int   *place, *ptr, *col; /* place of the row; number of the ghost */

@@ -1,7 +1,7 @@
 /*
    One V-cycle, and its application to a vector in double precision.
 
-   A = L + D + L^T on each rank, S on the diagonal of rows with entries E of other ranks' columns, of half of the sums of their absolute values:
+   A = L + D + L^T on each rank, S on the diagonal of rows with entries E of other ranks' columns:
    down, from zero:   x = (L + D + S)^-1 b,  then the residual b - A x = S x - L^T x - E x
    up:                x = (D + S + L^T)^-1 (b - L x + S x - E x)
 */

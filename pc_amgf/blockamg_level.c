@@ -90,12 +90,27 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
   }
 }
 
-/* Half of what other ranks' columns have is added to the diagonal: with it the sweeps of all ranks together converge, and the cycle stays positive definite */
-static void LevelShiftDiagonal(const BlockLevel *level, int *next, int i, PetscScalar D[16])
+/*
+   Other ranks' columns have l, the sum of their absolute values, in a row, and the diagonal block exceeds its own off-diagonal entries by g: with (l - 0.9 g)/2 added to the
+   diagonal, where that is positive, the sweeps of all ranks together converge, and the cycle stays positive definite.
+*/
+static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
 {
-  const BlockBorder *border = &level->border;
+  BlockBorder *border = &level->border;
+  const int    B      = level->B;
+  double       excess[4];
 
-  for (; *next < border->n && border->place[*next] < 4 * (i + 1); ++*next) D[(level->B + 1) * (border->place[*next] % 4)] += border->shift[*next];
+  if (*next >= border->n || border->place[*next] >= 4 * (i + 1)) return;
+  for (int r = 0; r < B; r++) {
+    excess[r] = 2.0 * PetscAbsScalar(D[(B + 1) * r]);
+    for (int c = 0; c < B; c++) excess[r] -= PetscAbsScalar(D[B * r + c]);
+  }
+  for (; *next < border->n && border->place[*next] < 4 * (i + 1); ++*next) {
+    const int r = border->place[*next] % 4;
+
+    border->shift[*next] = (float)PetscMax(0.0, border->shift[*next] - 0.45 * PetscMax(excess[r], 0.0));
+    D[(B + 1) * r] += border->shift[*next];
+  }
 }
 
 static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, double scale)

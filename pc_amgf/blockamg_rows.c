@@ -27,8 +27,9 @@ static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt *
 */
 PetscErrorCode BlockRowsGet_Private(Mat A, BlockRows *rows)
 {
-  PetscBool aij, parallel;
-  PetscInt  m;
+  PetscObjectState state;
+  PetscBool        aij, parallel;
+  PetscInt         m;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(rows, sizeof(*rows)));
@@ -36,7 +37,11 @@ PetscErrorCode BlockRowsGet_Private(Mat A, BlockRows *rows)
   if (aij) {
     PetscCall(PetscObjectReference((PetscObject)A));
     rows->held = A;
-  } else PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &rows->held));
+  } else { /* a conversion of parallel formats says that A has changed, upon which every application would set up again */
+    PetscCall(PetscObjectStateGet((PetscObject)A, &state));
+    PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &rows->held));
+    PetscCall(PetscObjectStateSet((PetscObject)A, state));
+  }
   PetscCall(PetscObjectBaseTypeCompare((PetscObject)rows->held, MATMPIAIJ, &parallel));
   if (parallel) {
     PetscCall(MatMPIAIJGetSeqAIJ(rows->held, &rows->diag, &rows->off, &rows->ghosts));

@@ -1,6 +1,7 @@
 static char help[] = "PCBLOCKAMG: symmetric and positive definite; CG in any units, of matrices of any format and block size, beside hypre's own cycle.\n\n";
 
 #include "amgf_problem.h"
+#include <petsc/private/petscimpl.h>
 
 /* Laplacian on a cube of n^3 nodes, Dirichlet outside, times an SPD block of bs x bs, times unit */
 static PetscErrorCode CubeCreate(MPI_Comm comm, MatType type, PetscInt n, PetscInt bs, PetscReal unit, Mat *A)
@@ -126,15 +127,19 @@ static PetscErrorCode CheckCounts(MPI_Comm comm, const char what[], PetscInt our
 
 static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
 {
-  const MPI_Comm comm = PETSC_COMM_WORLD;
-  Mat            A;
-  KSP            ksp = NULL, hypre = NULL;
-  PetscInt       its[2], again;
+  const MPI_Comm   comm = PETSC_COMM_WORLD;
+  Mat              A;
+  KSP              ksp = NULL, hypre = NULL;
+  PetscInt         its[2], again;
+  PetscObjectState before, after;
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(comm, "%s, block size %" PetscInt_FMT ", %" PetscInt_FMT " unknowns\n", type, bs, n * n * n * bs));
   PetscCall(CubeCreate(comm, type, n, bs, 1.0, &A));
+  PetscCall(PetscObjectStateGet((PetscObject)A, &before));
   PetscCall(Solve(A, PCBLOCKAMG, 1.0, &ksp, &its[0]));
+  PetscCall(PetscObjectStateGet((PetscObject)A, &after));
+  if (after != before) PetscCall(PetscPrintf(comm, "    the set-up marks the matrix as changed, so that every application sets up again\n"));
   PetscCall(Solve(A, PCHYPRE, 1.0, &hypre, &its[1]));
   PetscCall(CheckCounts(comm, "counts", its[0], its[1]));
   PetscCall(CheckSymmetry(ksp, A));

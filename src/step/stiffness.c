@@ -37,7 +37,7 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   PCType      set;
   const char *prefix;
   char        type[64];
-  PetscBool   filtered, hypre, nodal;
+  PetscBool   filtered, hypre, blocked, nodal;
 
   PetscFunctionBegin;
   *uses = PETSC_TRUE;
@@ -52,8 +52,9 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
                          sizeof(type)));
   PetscCall(PetscOptionsGetString(NULL, prefix, "-pc_type", type, sizeof(type), NULL));
   PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
+  PetscCall(PetscStrcmp(type, PCBLOCKAMG, &blocked));
   PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_hypre_boomeramg_nodal_coarsen", &nodal));
-  *uses = (PetscBool)(!hypre || nodal);
+  *uses = (PetscBool)(!(hypre || blocked) || nodal);
   PetscFunctionReturn(0);
 }
 
