@@ -32,6 +32,8 @@ PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscR
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
+/* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been linearized; of how many */
+PETSC_EXTERN PetscErrorCode ContactGetMuted(Contact, PetscInt pair, PetscInt *nmuted, PetscInt *nnodes);
 /* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);

@@ -34,6 +34,26 @@ ramps:
 """
 
 
+# The shaft is pushed at its end, in the plane that the hub's end is held on
+HELD = ("held_1", "held_5", "held_swapped")
+
+
+def held(name):
+    along, law = 1 if name == "held_1" else 5, "stick: true" if name == "held_sticks" else f"friction: {FRICTION}"
+    sides = ("hub.inner", "shaft.outer") if name == "held_swapped" else ("shaft.outer", "hub.inner")
+    return f"""problem: held
+bodies:
+{tube("hub", FIT, RIM, 12, along)}{tube("shaft", BORE, FIT + INTERFERENCE, 10, along)}displacements:
+  - push: {{face: shaft.lmin, value: [free, free, 0.02], ramp: push}}
+symmetry: [hub.amin, hub.amax, shaft.amin, shaft.amax, hub.lmin]
+contact:
+  - fit: {{mortar: {sides[0]}, nonmortar: {sides[1]}, {law}, interference: true}}
+load: {{steps: 3}}
+ramps:
+  - push: {{factors: [0, 0.1, 1]}}
+"""
+
+
 def stiffness(bound):
     """Of a tube held at radius `bound`, against a pressure on the fit: u = A (r - bound^2 / r) there, stress E A (1 + bound^2 / r^2)"""
     return YOUNG * (1 + bound**2 / FIT**2) / abs(FIT - bound**2 / FIT)
@@ -43,6 +63,9 @@ if sys.argv[1:] == ["scenes"]:
     for name, cells in MESHES.items():
         with open(name + ".yaml", "w") as file:
             file.write(scene(*cells))
+    for name in (*HELD, "held_sticks"):
+        with open(name + ".yaml", "w") as file:
+            file.write(held(name))
 else:
     normal = INTERFERENCE / (1 / stiffness(RIM) + 1 / stiffness(BORE)) * 2 * math.pi * FIT * LENGTH
     for name, limit in LIMITS.items():
@@ -54,3 +77,10 @@ else:
         say(f"{name}: force within {limit:g} of friction x pressure x 2 pi r L", within(force, FRICTION * normal, limit), force / FRICTION / normal)
     one, three = (load(name)["steps"][2]["pairs"][0]["force"][2] for name in ("axial_16", "axial_16_3"))
     say("3 ranks as 1", within(three, one, 1e-6), (three, one))
+    for name in HELD:
+        run = load(name)
+        pair = run["steps"][2]["pairs"][0]
+        say(f"{name}: friction acts on nodes that are held", within(abs(pair["force"][2]), FRICTION * pair["normal_force"], 2e-3), pair["force"][2] / FRICTION / pair["normal_force"])
+        say(f"{name}: no warning of nodes without friction", not any("no friction" in warning for warning in run["warnings"]), run["warnings"])
+    warnings = load("held_sticks")["warnings"]
+    say("what sticks and is driven apart: 13 of 78 nodes", any("no friction at 13 of the 78 nodes of hub.inner" in warning for warning in warnings), warnings)

@@ -115,6 +115,53 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscFunctionReturn(0);
 }
 
+/* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all */
+static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
+{
+  const SceneDisplacement *d = &displacements[k];
+  PetscInt                 first = 0;
+
+  if (d->value[axis] == 0.0) return CONTACT_AT_REST;
+  while (first < k && !(displacements[first].fixed[axis] && displacements[first].value[axis] == d->value[axis] && displacements[first].ramp == d->ramp)) ++first;
+  return first;
+}
+
+/* Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a displacement, CONTACT_AT_REST or CONTACT_FREE */
+PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis, const ContactSurface *s, PetscInt motion[])
+{
+  PetscSF  sf;
+  PetscInt npoints, *marks;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscMalloc1(npoints, &marks));
+  for (PetscInt v = 0; v < npoints; ++v) marks[v] = CONTACT_FREE;
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt  by = BorderFindMotion(displacements, k, axis);
+    IS              facets;
+    const PetscInt *f;
+    PetscInt        nfacets;
+
+    if (displacements[k].moves || !displacements[k].fixed[axis]) continue;
+    PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
+    PetscCall(ISGetLocalSize(facets, &nfacets));
+    PetscCall(ISGetIndices(facets, &f));
+    for (PetscInt i = 0; i < nfacets; ++i) {
+      PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
+
+      PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
+      for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = PetscMax(marks[nodes[a]], by);
+    }
+    PetscCall(ISRestoreIndices(facets, &f));
+    PetscCall(ISDestroy(&facets));
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) motion[i] = marks[s->vertex[i]];
+  PetscCall(PetscFree(marks));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which vertex a of facet i is; 0: none */
 PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[], const ContactSurface *s, PetscInt plane[])
 {

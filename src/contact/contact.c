@@ -136,6 +136,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
     c->pairs[p].given  = pairs[p].distance;
     c->pairs[p].smooth = pairs[p].smooth;
     c->pairs[p].rubs   = SceneContactPairRubs(&pairs[p]);
+    c->pairs[p].sticks = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
     c->rubs            = (PetscBool)(c->rubs || c->pairs[p].rubs);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
@@ -241,6 +242,33 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   contact->displacements  = displacements;
   PetscCall(PetscFree(contact->rows.held));
   PetscCall(ContactSmoothReset(contact));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactGetMuted - At how many nodes of a pair friction cannot act, though the faces slide there
+
+  Collective
+
+  Input Parameters:
++ contact - the contact, whose gap has been linearized
+- pair    - number of the pair
+
+  Output Parameters:
++ nmuted - nodes, on all ranks, whose pair sticks while both of its faces are driven there, unlike one another
+- nnodes - nodes of the nonmortar face, on all ranks
+
+  Level: intermediate
+
+.seealso: `ContactSetDisplacements()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactGetMuted(Contact contact, PetscInt pair, PetscInt *nmuted, PetscInt *nnodes)
+{
+  PetscInt n = contact->rows.first[pair + 1] - contact->rows.first[pair];
+
+  PetscFunctionBegin;
+  *nmuted = contact->pairs[pair].nmuted;
+  PetscCallMPI(MPI_Allreduce(&n, nnodes, 1, MPIU_INT, MPI_SUM, contact->comm));
   PetscFunctionReturn(0);
 }
 

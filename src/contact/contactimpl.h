@@ -160,8 +160,11 @@ PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which,
 PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 
 /* border.c: fills in a surface's border; where it is held */
+#define CONTACT_FREE    -2 /* no displacement is prescribed */
+#define CONTACT_AT_REST -1 /* it is, as 0 */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindMotions(DM, PetscInt n, const SceneDisplacement[], PetscInt axis, const ContactSurface *, PetscInt motion[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindPlanes(DM, PetscInt n, const SceneDisplacement[], const ContactSurface *, PetscInt plane[]);
 
 /* exchange.c: mortar facets that may face this rank's part of the nonmortar face, whoever owns them */
@@ -263,6 +266,8 @@ typedef struct {
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
   PetscBool      rubs;     /* whether the pair's slip is asked for */
+  PetscBool      sticks;   /* whether none is allowed */
+  PetscInt       nmuted;   /* rows, on all ranks, where friction cannot act though the faces slide: known once there are rows of slip */
   PetscBool      smooth;   /* whether the gap is to be that of the smooth surfaces */
   PetscReal      bulge;    /* these stand off the undeformed facets of the two faces by no more than this together [length] */
   PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */
@@ -355,6 +360,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, PetscInt n, const PetscInt block[], const PetscReal value[]);
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
+
+/* held.c: rows->held, once: along what the rows of pairs that rub have no slip */
+PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 
 /* slip.c: the rows of slip that go with those of the gap */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);

@@ -5,8 +5,7 @@
 
    for any displacement u of the vertices. Where both faces touch, a rigid motion of both has none.
 
-   Where a vertex is held along an axis and its face is not, as on planes of symmetry that the face ends on, there is no slip along that axis, or across that plane: the
-   rows about it depend on less than one another's unknowns, and forces of friction there would be any.
+   Of a row that has no slip along an axis, or across a plane (held.c), the tangent along it is zero.
 */
 #include "contactimpl.h"
 
@@ -53,77 +52,6 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
     if (!(held >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
     for (PetscInt d = 0; d < 3; ++d) t[(c == axis ? 3 : 0) + d] = 0.0;
   }
-}
-
-/* held[c]: the rows of the pair whose vertices are held along axis c; none where all are */
-static PetscErrorCode SlipMarkHeld(Contact contact, ContactPairData *pair, Vec held[3])
-{
-  PetscInt        free[3] = {0, 0, 0};
-  ContactSurface *s       = &pair->nonmortar;
-
-  PetscFunctionBegin;
-  PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, s));
-  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    for (PetscInt c = 0; c < 3; ++c) free[c] = free[c] || !(s->held[i / 4] >> (3 * (i % 4) + c) & 1);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, free, 3, MPIU_INT, MPI_MAX, contact->comm));
-  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-    for (PetscInt c = 0; c < 3; ++c) {
-      if (free[c] && s->held[i / 4] >> (3 * (i % 4) + c) & 1) PetscCall(VecSetValue(held[c], pair->row[i], 1.0, INSERT_VALUES));
-    }
-  }
-  PetscFunctionReturn(0);
-}
-
-/* plane: the rows of the pair whose vertices are on an inclined plane, and which: none where all are */
-static PetscErrorCode SlipMarkPlanes(Contact contact, ContactPairData *pair, Vec plane)
-{
-  ContactSurface *s = &pair->nonmortar;
-  PetscInt       *planes, off = 0;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(4 * s->nfacets, &planes));
-  PetscCall(ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, s, planes));
-  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) off = off || !planes[i];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_INT, MPI_MAX, contact->comm));
-  for (PetscInt i = 0; off && i < 4 * s->nfacets; ++i) {
-    if (planes[i]) PetscCall(VecSetValue(plane, pair->row[i], planes[i], INSERT_VALUES));
-  }
-  PetscCall(PetscFree(planes));
-  PetscFunctionReturn(0);
-}
-
-/* contact->rows.held: bits of the axes along which each row has no slip, and planes */
-static PetscErrorCode SlipFindHeld(Contact contact)
-{
-  ContactRows *rows = &contact->rows;
-  Vec          held[4];
-
-  PetscFunctionBegin;
-  if (rows->held) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
-  for (PetscInt c = 0; c < 4; ++c) {
-    PetscCall(VecDuplicate(rows->mass, &held[c]));
-    PetscCall(VecZeroEntries(held[c]));
-  }
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    if (!contact->pairs[p].rubs) continue;
-    PetscCall(SlipMarkHeld(contact, &contact->pairs[p], held));
-    PetscCall(SlipMarkPlanes(contact, &contact->pairs[p], held[3]));
-  }
-  for (PetscInt c = 0; c < 4; ++c) {
-    const PetscScalar *a;
-
-    PetscCall(VecAssemblyBegin(held[c]));
-    PetscCall(VecAssemblyEnd(held[c]));
-    PetscCall(VecGetArrayRead(held[c], &a));
-    for (PetscInt i = 0; i < rows->nlocal; ++i) rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0 ? 1
-                                                                                                                                     : 0)
-                                                                 << c;
-    PetscCall(VecRestoreArrayRead(held[c], &a));
-    PetscCall(VecDestroy(&held[c]));
-  }
-  PetscFunctionReturn(0);
 }
 
 /* A tangent along which, more than across, the vertex is held becomes zero */
@@ -218,7 +146,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscInt           rstart, start;
 
   PetscFunctionBegin;
-  PetscCall(SlipFindHeld(contact));
+  PetscCall(ContactFindHeld(contact));
   PetscCall(SlipCreateMatrix(contact, couplings, kept, lin));
   PetscCall(PetscCalloc1(6 * lin->nlocal, &lin->tangent));
   PetscCall(PetscCalloc1(lin->nlocal, &lin->covered));

@@ -60,7 +60,19 @@ static const char *StartJudge(const SceneContactPair *pair, const PairStart *sta
   return -start->least > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * pair->interference ? "more than the interference that the scene allows" : NULL;
 }
 
-/* Of overlaps at the start that the scene has not declared, or otherwise; lin: at zero displacement */
+/* Of nodes that are to stick while both faces are driven there, unlike one another */
+static PetscErrorCode StartWarnOfMuted(Simulation sim, PetscInt p)
+{
+  const SceneContactPair *pair = &sim->scene->pairs[p];
+  PetscInt                nmuted, nnodes;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGetMuted(sim->contact, p, &nmuted, &nnodes));
+  if (nmuted) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction", pair->name, nmuted, nnodes, pair->nonmortar));
+  PetscFunctionReturn(0);
+}
+
+/* Of overlaps at the start that the scene has not declared, or otherwise, and of friction that cannot act; lin: at zero displacement */
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
   Scene      scene = sim->scene;
@@ -73,6 +85,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);
 
+    PetscCall(StartWarnOfMuted(sim, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name, -(double)starts[p].least, (double)starts[p].overlap, wanted));
     else PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s", pair->name, wanted));
