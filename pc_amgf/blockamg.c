@@ -1,6 +1,8 @@
 /* The preconditioner type PCBLOCKAMG: its page, and its life from creation to destruction */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 static PetscErrorCode PCReset_BlockAMG(PC pc)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
@@ -64,3 +66,4 @@ PetscErrorCode PCCreate_BlockAMG(PC pc)
   pc->ops->destroy        = PCDestroy_BlockAMG;
   PetscFunctionReturn(0);
 }
+#endif

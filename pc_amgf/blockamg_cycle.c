@@ -8,6 +8,8 @@
 #include "amgfimpl.h"
 #include "blockamg.h"
 #include <float.h>
+
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
 #if defined(__SSE__)
   #include <xmmintrin.h>
 #endif
@@ -150,3 +152,4 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Apply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }
+#endif

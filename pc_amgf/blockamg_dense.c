@@ -1,6 +1,8 @@
 /* The last level, by its inverse, of which every rank has the rows of its unknowns */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /* The matrix of all ranks, on each of them */
 static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows, PetscScalar full[])
 {
@@ -77,3 +79,4 @@ PetscErrorCode BlockDenseDestroy_Private(BlockDense *dense)
   PetscCall(PetscFree2(dense->counts, dense->starts));
   PetscFunctionReturn(0);
 }
+#endif

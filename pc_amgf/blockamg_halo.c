@@ -1,6 +1,8 @@
 /* Values of unknowns of other ranks, in floats: fetched from their owners, or added to what those have */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /*
   BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
 
@@ -71,3 +73,4 @@ PetscErrorCode BlockHaloDestroy_Private(BlockHalo *halo)
   PetscCall(PetscSFDestroy(&halo->sf));
   PetscFunctionReturn(0);
 }
+#endif

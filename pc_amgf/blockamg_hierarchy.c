@@ -1,6 +1,8 @@
 /* The hierarchy: matrices and interpolations of BoomerAMG converted level by level, each of which is freed at once */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /* Matrices are divided by a power of 2 near the largest diagonal entry, so that floats hold them in any units */
 static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
 {
@@ -126,3 +128,4 @@ PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **h)
   PetscCall(PetscFree(*h));
   PetscFunctionReturn(0);
 }
+#endif

@@ -1,6 +1,8 @@
 /* Interpolation from the next level, in the places of both levels */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /*
   BlockInterpolationCreate_Private - level->P from rows of this rank, whose columns are unknowns of the next level; its vectors get places for ghosts
 */
@@ -43,3 +45,4 @@ PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *P)
   PetscCall(BlockHaloDestroy_Private(&P->halo));
   PetscFunctionReturn(0);
 }
+#endif

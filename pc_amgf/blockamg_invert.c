@@ -2,6 +2,8 @@
 #include "blockamg.h"
 #include <petscblaslapack.h>
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /*
    By eigenvalues: |A|^-1, which is the inverse where A is positive definite. Eigenvalues of nothing but rounding errors have an inverse of zero.
 */
@@ -86,3 +88,4 @@ PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[])
   if (work != few) PetscCall(PetscFree(work));
   PetscFunctionReturn(0);
 }
+#endif

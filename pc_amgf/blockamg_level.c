@@ -1,6 +1,8 @@
 /* A matrix of the hierarchy as blocks of floats: the strictly lower triangle, inverse diagonal blocks, and entries of columns of other ranks */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /* Blocks of the rows so far; grows */
 typedef struct {
   int    n, room;
@@ -265,3 +267,4 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->t));
   PetscFunctionReturn(0);
 }
+#endif

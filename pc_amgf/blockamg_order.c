@@ -1,6 +1,8 @@
 /* The places of a level's unknowns: which share a block, and in which order the blocks come */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /*
   BlockOrderNodes_Private - blocks of bs unknowns each, 3 or 4, that follow one another
 */
@@ -60,3 +62,4 @@ PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
   PetscCall(PetscFree(mark));
   PetscFunctionReturn(0);
 }
+#endif

@@ -1,6 +1,8 @@
 /* The rows of a matrix that this rank owns, as compressed rows. Formats other than AIJ are copied. */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja, const PetscScalar **a)
 {
   PetscBool done;
@@ -63,3 +65,4 @@ PetscErrorCode BlockRowsRestore_Private(BlockRows *rows)
   PetscCall(MatDestroy(&rows->held));
   PetscFunctionReturn(0);
 }
+#endif

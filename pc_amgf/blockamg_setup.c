@@ -3,6 +3,8 @@
 #include "blockamg.h"
 #include "guard.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /* The preconditioner has failed, on all ranks */
 static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
 {
@@ -117,3 +119,4 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   PetscCall(SetUpFail(pc, PC_FACTOR_OTHER, "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which single precision does not hold"));
   PetscFunctionReturn(0);
 }
+#endif

@@ -2,6 +2,8 @@
 #include "blockamg.h"
 #include "vec4.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 /*
    x_i = D^-1 (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are read in the direction of the sweep: memory
    that is read downwards throughout is fetched ahead by the processor.
@@ -115,3 +117,4 @@ VEC4_CLONES float BlockDot_Private(int n, const float a[], const float b[])
   for (int k = 0; k < 4; k++) sum += Vec4Get(s[0], k);
   return sum;
 }
+#endif

@@ -1,6 +1,8 @@
 /* What -ksp_view says of PCBLOCKAMG */
 #include "blockamg.h"
 
+#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+
 static PetscErrorCode ViewLevel(const BlockHierarchy *h, int i, PetscViewer viewer)
 {
   const PetscBool   dense = (PetscBool)(i == h->nlevels);
@@ -40,3 +42,4 @@ PetscErrorCode PCView_BlockAMG(PC pc, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  levels=%d, memory=%.1f MB, %.0f bytes an unknown\n", n, bytes / 1e6, bytes / PetscMax(unknowns, 1.0)));
   PetscFunctionReturn(0);
 }
+#endif

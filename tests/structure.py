@@ -44,7 +44,7 @@ def symbols():
         kind, name = row.split()[-2:]
         if kind == "U":
             taken[objects[place]].add(name)
-        elif kind in "TDBRC":
+        elif kind in "TDBRCi":
             defined[objects[place]].add(name)
     return defined, taken
 
