@@ -32,27 +32,19 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.violation > small);
 }
 
-/* Whether equality constraints are met beside their present terms, too: beside the first ones, which a far start makes huge, anything is met */
-static PetscBool EqualitiesMet(const TAO_IPFILTER *ip)
-{
-  const PetscReal trace = 1e-6;
-
-  return (PetscBool)(ip->kkt.own <= PetscMax(trace, ip->tol));
-}
-
 /* Whether the iterate meets the tolerance in both measures of the KKT error, and the absolute limits */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = &ip->kkt;
 
-  if (IPBothErrors(ip) > ip->tol || !EqualitiesMet(ip)) return PETSC_FALSE;
+  if (IPBothErrors(ip) > ip->tol) return PETSC_FALSE;
   return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) && k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) && k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
 }
 
 /* Whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol && EqualitiesMet(ip));
+  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
 }
 
 /* Counts steps in a row that rounding makes of x, or of a small fraction of the first x where x goes to zero */
@@ -97,7 +89,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && EqualitiesMet(ip) && ip->relax.by == 0.0);
+  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && ip->relax.by == 0.0);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));

@@ -75,12 +75,8 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscBool     other_fixed, other_scales;
-  PetscReal     size;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  *finite = (PetscBool)!IPUndefined(size); /* bounds would put a number in the place of what is none */
-  if (!*finite) PetscFunctionReturn(0);
   PetscCall(TaoComputeVariableBounds(tao));
   PetscCall(IPFixedSetUp(tao, &other_fixed));
   PetscCall(IPRowScaleReset(tao, &other_scales));
@@ -368,7 +364,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(GetStates(tao, before));
   PetscCall(FirstPoint(tao, finite));
   if (!*finite) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient, a constraint or an unknown is not a number at the starting point"));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSetMultipliers(tao));

@@ -57,7 +57,6 @@ typedef struct {
   PetscReal error;                         /* max(dual, primal, complementarity): decides convergence, together with */
   PetscReal work;                          /* what the residuals are worth in the objective, over a multiple of its size */
   PetscReal work_dual;                     /* the stationarity residual's share of it */
-  PetscReal own;                           /* largest violation of an equality constraint over its terms now; 0 without scales */
   PetscReal violation;                     /* of constraints, slacks apart, over their first size */
   PetscReal unscaled;                      /* largest absolute entry of all residuals, mu = 0 */
   PetscReal dual_norm;                     /* 2-norm of the stationarity residual */

@@ -36,71 +36,18 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscFunctionReturn(0);
 }
 
-/* sum_j |J_ij x_j| of every row, and the largest: terms, which cancel where a homogeneous constraint is met */
-static PetscErrorCode EqualityTerms(Tao tao, Vec sums, PetscReal *largest)
-{
-  Mat          terms;
-  PetscScalar *a;
-  PetscInt     rstart, rend;
-
-  PetscFunctionBegin;
-  PetscCall(MatDuplicate(((TAO_IPFILTER *)tao->data)->jac.equality, MAT_COPY_VALUES, &terms));
-  PetscCall(MatDiagonalScale(terms, NULL, tao->solution));
-  PetscCall(MatGetOwnershipRange(terms, &rstart, &rend));
-  PetscCall(VecGetArrayWrite(sums, &a));
-  for (PetscInt i = rstart; i < rend; i++) {
-    const PetscScalar *v;
-    PetscInt           n;
-    PetscReal          sum = 0.0;
-
-    PetscCall(MatGetRow(terms, i, &n, NULL, &v));
-    for (PetscInt k = 0; k < n; k++) sum += PetscAbsScalar(v[k]);
-    PetscCall(MatRestoreRow(terms, i, &n, NULL, &v));
-    a[i - rstart] = sum;
-  }
-  PetscCall(VecRestoreArrayWrite(sums, &a));
-  PetscCall(MatDestroy(&terms));
-  PetscCall(VecNorm(sums, NORM_INFINITY, largest));
-  PetscFunctionReturn(0);
-}
-
-/* Largest violation of a row over its own terms now, which a far start says nothing of; rows whose terms vanish beside those of others, or all of them do beside the
-   first ones, have no less than these leave in rounding */
-static PetscErrorCode EqualityOwn(Tao tao, Vec sums, PetscReal largest, PetscReal *own)
-{
-  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal    trace = 1e-8, least = PetscMax(trace * largest, PETSC_MACHINE_EPSILON * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x));
-  const PetscScalar *c, *t;
-  PetscReal          local = 0.0;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sums, &n));
-  PetscCall(VecGetArrayRead(sums, &t));
-  PetscCall(VecGetArrayRead(ip->at.ce, &c));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal size = PetscMax(PetscRealPart(t[i]), least);
-
-    if (size > 0.0) local = PetscMax(local, PetscAbsScalar(c[i]) / size);
-  }
-  PetscCall(VecRestoreArrayRead(ip->at.ce, &c));
-  PetscCall(VecRestoreArrayRead(sums, &t));
-  PetscCallMPI(MPI_Allreduce(&local, own, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  PetscFunctionReturn(0);
-}
-
-/* Values of the equality constraints: the first, or the terms of their linear parts */
+/* Values of the equality constraints: the first, or those of their linear parts */
 static PetscErrorCode EqualityScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           linear;
   PetscReal     norm;
-  Vec           sums;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_EQUALITIES, &sums));
-  PetscCall(EqualityTerms(tao, sums, &norm));
-  PetscCall(EqualityOwn(tao, sums, norm, &ip->kkt.own));
-  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &sums));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &linear));
+  PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
+  PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
   ip->scale.equality = PetscMax(ip->first.equality, Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
   PetscFunctionReturn(0);
 }
@@ -143,7 +90,6 @@ PetscErrorCode IPComputeScale(Tao tao)
   IPScale      *s = &ip->scale;
 
   PetscFunctionBegin;
-  ip->kkt.own = 0.0;
   *s = (IPScale){ip->first.unit, 1.0, 1.0, ip->first.unit, 0.0, ip->first.unit, PETSC_INFINITY};
   if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){.dual = 0.0};
