@@ -33,7 +33,7 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 /* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been linearized; of how many */
-PETSC_EXTERN PetscErrorCode ContactGetMuted(Contact, PetscInt pair, PetscInt *nmuted, PetscInt *nnodes);
+PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
 /* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);

@@ -174,8 +174,6 @@ PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
 PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 /* amgf.c */
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
-/* blockamg.c, above the other files of blockamg.h */
-PETSC_EXTERN PetscErrorCode PCCreate_BlockAMG(PC);
 /* library.c */
 PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
 /* version.c: a public function */

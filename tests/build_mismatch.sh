@@ -35,7 +35,7 @@ try() {
   done
 }
 
-objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'pc_amgf/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
+objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'pc_amgf/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
 
 # pretend WHAT DEFINITIONS...: a plugin whose library.c was compiled after them
 pretend() {

@@ -7,7 +7,7 @@ import statistics
 import subprocess
 
 TOP = os.environ["AMGF_DIR"]
-FOLDERS = ("pc_amgf", "tao_ipfilter", "tao_ipfilter/*", "src/*", "apps")
+FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "apps")
 LONGEST, MEDIAN = 60, 12  # lines between the braces of a function
 LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "space", "step", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
 MEMBERS = 40  # of the solver's object, a structure in it is one

@@ -69,30 +69,25 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* Of the nodes of faces with these displacements, all ranks' facets. Not inclined: bits of the axes along which they are held; inclined: 1 + the number of a
-   symmetry plane along no axis that they are on */
-static PetscErrorCode BorderMarkHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscBool inclined, PetscInt marks[])
+/* marks of the nodes of a face, of all its facets on this rank: joined with a value by MPI_BOR or MPI_MAX */
+static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscInt value, PetscInt marks[])
 {
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        nfacets;
+
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < n; ++k) {
-    const PetscInt  axes = (displacements[k].fixed[0] ? 1 : 0) | (displacements[k].fixed[1] ? 2 : 0) | (displacements[k].fixed[2] ? 4 : 0);
-    IS              facets;
-    const PetscInt *f;
-    PetscInt        nfacets;
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &nfacets));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < nfacets; ++i) {
+    PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
 
-    if (displacements[k].moves || (inclined && !displacements[k].inclined)) continue;
-    PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
-    PetscCall(ISGetLocalSize(facets, &nfacets));
-    PetscCall(ISGetIndices(facets, &f));
-    for (PetscInt i = 0; i < nfacets; ++i) {
-      PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
-
-      PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
-      for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = inclined ? k + 1 : marks[nodes[a]] | axes;
-    }
-    PetscCall(ISRestoreIndices(facets, &f));
-    PetscCall(ISDestroy(&facets));
+    PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
+    for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = op == MPI_BOR ? marks[nodes[a]] | value : PetscMax(marks[nodes[a]], value);
   }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
 }
 
@@ -106,7 +101,12 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscCall(DMGetPointSF(dm, &sf));
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
   PetscCall(PetscCalloc1(npoints, &bits));
-  PetscCall(BorderMarkHeld(dm, n, displacements, PETSC_FALSE, bits));
+  for (PetscInt k = 0; k < n; ++k) {
+    const SceneDisplacement *d    = &displacements[k];
+    const PetscInt           axes = (d->fixed[0] ? 1 : 0) | (d->fixed[1] ? 2 : 0) | (d->fixed[2] ? 4 : 0);
+
+    if (!d->moves) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
+  }
   PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscCalloc1(s->nfacets, &s->held));
@@ -118,7 +118,7 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
 /* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all */
 static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
 {
-  const SceneDisplacement *d = &displacements[k];
+  const SceneDisplacement *d     = &displacements[k];
   PetscInt                 first = 0;
 
   if (d->value[axis] == 0.0) return CONTACT_AT_REST;
@@ -126,7 +126,10 @@ static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscI
   return first;
 }
 
-/* Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a displacement, CONTACT_AT_REST or CONTACT_FREE */
+/*
+   Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a displacement,
+   CONTACT_AT_REST or CONTACT_FREE
+*/
 PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis, const ContactSurface *s, PetscInt motion[])
 {
   PetscSF  sf;
@@ -138,23 +141,8 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
   PetscCall(PetscMalloc1(npoints, &marks));
   for (PetscInt v = 0; v < npoints; ++v) marks[v] = CONTACT_FREE;
   for (PetscInt k = 0; k < n; ++k) {
-    const PetscInt  by = BorderFindMotion(displacements, k, axis);
-    IS              facets;
-    const PetscInt *f;
-    PetscInt        nfacets;
-
     if (displacements[k].moves || !displacements[k].fixed[axis]) continue;
-    PetscCall(MeshGetFacets(dm, displacements[k].face, &facets));
-    PetscCall(ISGetLocalSize(facets, &nfacets));
-    PetscCall(ISGetIndices(facets, &f));
-    for (PetscInt i = 0; i < nfacets; ++i) {
-      PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
-
-      PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
-      for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = PetscMax(marks[nodes[a]], by);
-    }
-    PetscCall(ISRestoreIndices(facets, &f));
-    PetscCall(ISDestroy(&facets));
+    PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, BorderFindMotion(displacements, k, axis), marks));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) motion[i] = marks[s->vertex[i]];
@@ -172,7 +160,9 @@ PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplaceme
   PetscCall(DMGetPointSF(dm, &sf));
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
   PetscCall(PetscCalloc1(npoints, &marks));
-  PetscCall(BorderMarkHeld(dm, n, displacements, PETSC_TRUE, marks));
+  for (PetscInt k = 0; k < n; ++k) {
+    if (displacements[k].inclined && !displacements[k].moves) PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
+  }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) plane[i] = marks[s->vertex[i]];
   PetscCall(PetscFree(marks));

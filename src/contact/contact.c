@@ -246,7 +246,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
 }
 
 /*@
-  ContactGetMuted - At how many nodes of a pair friction cannot act, though the faces slide there
+  ContactGetFrictionless - At how many nodes of a pair friction cannot act, though the faces slide there
 
   Collective
 
@@ -255,19 +255,19 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
 - pair    - number of the pair
 
   Output Parameters:
-+ nmuted - nodes, on all ranks, whose pair sticks while both of its faces are driven there, unlike one another
++ nfrictionless - nodes, on all ranks, whose pair sticks while both of its faces are driven there, unlike one another
 - nnodes - nodes of the nonmortar face, on all ranks
 
   Level: intermediate
 
 .seealso: `ContactSetDisplacements()`, `ContactLinearize()`
 @*/
-PetscErrorCode ContactGetMuted(Contact contact, PetscInt pair, PetscInt *nmuted, PetscInt *nnodes)
+PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes)
 {
   PetscInt n = contact->rows.first[pair + 1] - contact->rows.first[pair];
 
   PetscFunctionBegin;
-  *nmuted = contact->pairs[pair].nmuted;
+  *nfrictionless = contact->pairs[pair].nfrictionless;
   PetscCallMPI(MPI_Allreduce(&n, nnodes, 1, MPIU_INT, MPI_SUM, contact->comm));
   PetscFunctionReturn(0);
 }

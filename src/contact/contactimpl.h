@@ -267,7 +267,7 @@ typedef struct {
   GapType        gap;
   PetscBool      rubs;     /* whether the pair's slip is asked for */
   PetscBool      sticks;   /* whether none is allowed */
-  PetscInt       nmuted;   /* rows, on all ranks, where friction cannot act though the faces slide: known once there are rows of slip */
+  PetscInt       nfrictionless;   /* rows, on all ranks, where friction cannot act though the faces slide: known once there are rows of slip */
   PetscBool      smooth;   /* whether the gap is to be that of the smooth surfaces */
   PetscReal      bulge;    /* these stand off the undeformed facets of the two faces by no more than this together [length] */
   PetscReal      given;    /* the pair's own search distance; 0: from the size of the faces [length] */

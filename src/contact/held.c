@@ -1,9 +1,12 @@
 /*
-   Along what the rows of pairs that rub have no slip, and so no friction.
+   The directions along which the rows of a pair with friction have no slip, and so no friction.
 
-   Where both faces end on one plane of symmetry, or are driven there alike, nothing slips across the plane by what is prescribed. The rows about it depend on less than one
-   another's unknowns then, and forces of friction across the plane would be any: there are none. A vertex that is held while the other face is free, or driven otherwise, has
-   friction. Where a pair sticks and both faces are driven, no forces of friction can hold them together: there are none either, and the rows are counted.
+   - Both faces end on the same symmetry plane, or both are driven by the same displacement: the prescribed
+     displacements allow no slip along that direction. The slip rows of these vertices are linearly dependent, so the
+     friction force is not unique. It is set to zero.
+   - A vertex is held, and the other face is free or driven by another displacement: friction acts.
+   - The pair sticks, and both faces are driven by different displacements: no friction force can prevent that slip.
+     The friction force is set to zero, and the rows are counted as frictionless for a warning.
 */
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +41,8 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 
   qsort(places, (size_t)*n, sizeof(*places), HeldPlaceCompare);
   for (PetscInt i = 0; i < *n; ++i) {
-    if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding) places[kept++] = places[i];
+    if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding)
+      places[kept++] = places[i];
   }
   *n = kept;
 }
@@ -69,7 +73,10 @@ static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
   PetscFunctionReturn(0);
 }
 
-/* What moves a rigid body along an axis: a displacement, CONTACT_AT_REST, CONTACT_FREE where it turns or forces drive it; false: the body is not rigid */
+/*
+   What moves a rigid body along an axis: a displacement, CONTACT_AT_REST, CONTACT_FREE where it turns or forces
+   drive it; false: the body is not rigid
+*/
 static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
   const size_t length = strcspn(face, ".");
@@ -104,7 +111,8 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     bounds[0] = PetscMax(bounds[0], -motion[i]);
     bounds[1] = PetscMax(bounds[1], motion[i]);
-    if (motion[i] != CONTACT_FREE) face->places[face->n++] = (HeldPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
+    if (motion[i] != CONTACT_FREE)
+      face->places[face->n++] = (HeldPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
   }
   PetscCall(PetscFree(motion));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_INT, MPI_MAX, contact->comm));
@@ -115,7 +123,10 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Whether the face is held along the axis where a vertex of the other one is, and by the same motion */
+/*
+   held: the face is held along the axis at this coordinate, that of a vertex of the other face; alike: by the same
+   motion as that vertex
+*/
 static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
 {
   *held  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
@@ -127,29 +138,30 @@ static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place,
   }
 }
 
-/* held: the rows of the pair that have no slip along an axis; muted: those of them where the faces slide all the same. None where the whole nonmortar face is held */
-static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, PetscInt axis, Vec held, Vec muted)
+/*
+   held: the rows of the pair that have no slip along an axis. frictionless: those of them where the faces slide
+   nevertheless. There are none where the whole nonmortar face is held.
+*/
+static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
+                                   Vec held, Vec frictionless)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *motion, free = 0;
-  HeldFace              mortar;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
   PetscCall(ContactSurfaceFindMotions(contact->dm, contact->ndisplacements, contact->displacements, axis, s, motion));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) free = free || motion[i] == CONTACT_FREE;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &free, 1, MPIU_INT, MPI_MAX, contact->comm));
-  PetscCall(HeldFaceCreate(contact, &pair->mortar, axis, &mortar));
   for (PetscInt i = 0; free && i < 4 * s->nfacets; ++i) {
     PetscBool both, alike;
 
     if (motion[i] == CONTACT_FREE) continue;
-    HeldFaceFind(&mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
+    HeldFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
     if (!alike && !(both && pair->sticks)) continue;
     PetscCall(VecSetValue(held, pair->row[i], 1.0, INSERT_VALUES));
-    if (!alike) PetscCall(VecSetValue(muted, pair->row[i], 1.0, INSERT_VALUES));
+    if (!alike) PetscCall(VecSetValue(frictionless, pair->row[i], 1.0, INSERT_VALUES));
   }
-  PetscCall(PetscFree(mortar.places));
   PetscCall(PetscFree(motion));
   PetscFunctionReturn(0);
 }
@@ -172,8 +184,12 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
   return (PetscBool)(PetscAbsReal(ContactDot(m, n)) > 1.0 - held_rounding);
 }
 
-/* Whether the mortar face as a whole does not move across a plane; plane: of its vertices, of ContactSurfaceFindPlanes() */
-static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
+/*
+   Whether the mortar face does not move across symmetry plane k: it ends on the same plane, or is held as a whole
+   without such a motion. planes: of its vertices, as ContactSurfaceFindPlanes() has them; faces: along each axis
+*/
+static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
+                                   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
 {
   const SceneDisplacement *plane  = &contact->displacements[k];
   PetscInt                 found  = 0;
@@ -190,19 +206,21 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt axis = 0; axis < 3; ++axis) {
-    HeldFace face;
+    const HeldFace *face = &faces[axis];
 
-    PetscCall(HeldFaceCreate(contact, mortar, axis, &face));
-    whole = (PetscBool)(whole && face.whole && face.motion != CONTACT_FREE);
-    if (face.whole && face.motion >= 0) moved += plane->normal[axis] * contact->displacements[face.motion].value[axis];
-    PetscCall(PetscFree(face.places));
+    whole = (PetscBool)(whole && face->whole && face->motion != CONTACT_FREE);
+    if (face->whole && face->motion >= 0)
+      moved += plane->normal[axis] * contact->displacements[face->motion].value[axis];
   }
   *across = (PetscBool)(found || (whole && PetscAbsReal(moved) <= margin));
   PetscFunctionReturn(0);
 }
 
-/* plane: the rows of the pair whose vertices are on an inclined plane that the other face is held on, too, and which: none where all are */
-static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, Vec plane)
+/*
+   plane: the inclined symmetry plane, from 1, on which a row's vertex is, if the mortar face does not move across
+   it; none where all vertices are on planes
+*/
+static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const HeldFace mortar[3], Vec plane)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *planes, *others, off = 0;
@@ -210,7 +228,8 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, Vec
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(4 * s->nfacets, &planes, 4 * pair->mortar.nfacets, &others));
   PetscCall(ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, s, planes));
-  PetscCall(ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, &pair->mortar, others));
+  PetscCall(
+    ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, &pair->mortar, others));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) off = off || !planes[i];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt k = 0; off && k < contact->ndisplacements; ++k) {
@@ -222,7 +241,7 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, Vec
       if (planes[i] == k + 1) offset = HeldOffset(s, i, &contact->displacements[k]);
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &offset, 1, MPIU_REAL, MPIU_MAX, contact->comm));
-    PetscCall(HeldIsAcross(contact, &pair->mortar, others, k, offset, &across));
+    PetscCall(HeldIsAcross(contact, &pair->mortar, mortar, others, k, offset, &across));
     for (PetscInt i = 0; across && i < 4 * s->nfacets; ++i) {
       if (planes[i] == k + 1) PetscCall(VecSetValue(plane, pair->row[i], planes[i], INSERT_VALUES));
     }
@@ -231,31 +250,40 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, Vec
   PetscFunctionReturn(0);
 }
 
-/* contact->rows.held: bits of the axes along which each row has no slip, and planes; how many rows of each pair are muted */
+/*
+   contact->rows.held: bits of the axes along which each row has no slip, and planes; how many rows of each pair are
+   frictionless
+*/
 PetscErrorCode ContactFindHeld(Contact contact)
 {
   ContactRows *rows = &contact->rows;
-  Vec          held[4], muted;
+  Vec          held[4], frictionless;
 
   PetscFunctionBegin;
   if (rows->held) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
-  PetscCall(VecDuplicate(rows->mass, &muted));
+  PetscCall(VecDuplicate(rows->mass, &frictionless));
   for (PetscInt c = 0; c < 4; ++c) {
     PetscCall(VecDuplicate(rows->mass, &held[c]));
     PetscCall(VecZeroEntries(held[c]));
   }
   for (PetscInt p = 0; p < contact->npairs; ++p) {
-    PetscScalar sum;
+    ContactPairData *pair = &contact->pairs[p];
+    HeldFace         mortar[3];
+    PetscScalar      sum;
 
-    if (!contact->pairs[p].rubs) continue;
-    PetscCall(VecZeroEntries(muted));
-    for (PetscInt c = 0; c < 3; ++c) PetscCall(HeldMarkAxis(contact, &contact->pairs[p], c, held[c], muted));
-    PetscCall(HeldMarkPlanes(contact, &contact->pairs[p], held[3]));
-    PetscCall(VecAssemblyBegin(muted));
-    PetscCall(VecAssemblyEnd(muted));
-    PetscCall(VecSum(muted, &sum));
-    contact->pairs[p].nmuted = (PetscInt)PetscRealPart(sum);
+    if (!pair->rubs) continue;
+    PetscCall(VecZeroEntries(frictionless));
+    for (PetscInt c = 0; c < 3; ++c) {
+      PetscCall(HeldFaceCreate(contact, &pair->mortar, c, &mortar[c]));
+      PetscCall(HeldMarkAxis(contact, pair, &mortar[c], c, held[c], frictionless));
+    }
+    PetscCall(HeldMarkPlanes(contact, pair, mortar, held[3]));
+    for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].places));
+    PetscCall(VecAssemblyBegin(frictionless));
+    PetscCall(VecAssemblyEnd(frictionless));
+    PetscCall(VecSum(frictionless, &sum));
+    pair->nfrictionless = (PetscInt)PetscRealPart(sum);
   }
   for (PetscInt c = 0; c < 4; ++c) {
     const PetscScalar *a;
@@ -263,10 +291,11 @@ PetscErrorCode ContactFindHeld(Contact contact)
     PetscCall(VecAssemblyBegin(held[c]));
     PetscCall(VecAssemblyEnd(held[c]));
     PetscCall(VecGetArrayRead(held[c], &a));
-    for (PetscInt i = 0; i < rows->nlocal; ++i) rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0) << c;
+    for (PetscInt i = 0; i < rows->nlocal; ++i)
+      rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0) << c;
     PetscCall(VecRestoreArrayRead(held[c], &a));
     PetscCall(VecDestroy(&held[c]));
   }
-  PetscCall(VecDestroy(&muted));
+  PetscCall(VecDestroy(&frictionless));
   PetscFunctionReturn(0);
 }

@@ -61,14 +61,14 @@ static const char *StartJudge(const SceneContactPair *pair, const PairStart *sta
 }
 
 /* Of nodes that are to stick while both faces are driven there, unlike one another */
-static PetscErrorCode StartWarnOfMuted(Simulation sim, PetscInt p)
+static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair = &sim->scene->pairs[p];
-  PetscInt                nmuted, nnodes;
+  PetscInt                nfrictionless, nnodes;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetMuted(sim->contact, p, &nmuted, &nnodes));
-  if (nmuted) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction", pair->name, nmuted, nnodes, pair->nonmortar));
+  PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
+  if (nfrictionless) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction", pair->name, nfrictionless, nnodes, pair->nonmortar));
   PetscFunctionReturn(0);
 }
 
@@ -85,7 +85,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);
 
-    PetscCall(StartWarnOfMuted(sim, p));
+    PetscCall(StartWarnOfFrictionless(sim, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name, -(double)starts[p].least, (double)starts[p].overlap, wanted));
     else PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s", pair->name, wanted));

@@ -1,20 +1,21 @@
 /* The rows of a matrix that this rank owns, as compressed rows. Formats other than AIJ are copied. */
-#include "blockamg.h"
+#include "blockamgimpl.h"
 
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
-
-static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja, const PetscScalar **a)
+static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja,
+                                        const PetscScalar **a)
 {
   PetscBool done;
 
   PetscFunctionBegin;
   PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, n, ia, ja, &done));
-  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed rows", ((PetscObject)A)->type_name);
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed rows",
+             ((PetscObject)A)->type_name);
   PetscCall(MatSeqAIJGetArrayRead(A, a));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja, const PetscScalar **a)
+static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja,
+                                            const PetscScalar **a)
 {
   PetscBool done;
 
@@ -39,7 +40,8 @@ PetscErrorCode BlockRowsGet_Private(Mat A, BlockRows *rows)
   if (aij) {
     PetscCall(PetscObjectReference((PetscObject)A));
     rows->held = A;
-  } else { /* a conversion of parallel formats says that A has changed, upon which every application would set up again */
+  } else {
+    /* Converting a parallel format increases the state of A; without a reset every application would set up again */
     PetscCall(PetscObjectStateGet((PetscObject)A, &state));
     PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &rows->held));
     PetscCall(PetscObjectStateSet((PetscObject)A, state));
@@ -65,4 +67,3 @@ PetscErrorCode BlockRowsRestore_Private(BlockRows *rows)
   PetscCall(MatDestroy(&rows->held));
   PetscFunctionReturn(0);
 }
-#endif

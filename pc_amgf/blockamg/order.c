@@ -1,7 +1,5 @@
 /* The places of a level's unknowns: which share a block, and in which order the blocks come */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+#include "blockamgimpl.h"
 
 /*
   BlockOrderNodes_Private - blocks of bs unknowns each, 3 or 4, that follow one another
@@ -13,8 +11,12 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
   PetscFunctionReturn(0);
 }
 
-/* The three neighbours of an unknown that have the most columns in common with it, of those that have no place yet; mark[] has the unknown's columns */
-static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[], PetscInt best[3])
+/*
+   The three neighbours of an unknown that have the most columns in common with it, of those that have no place yet;
+   mark[] has the unknown's columns
+*/
+static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[],
+                                PetscInt best[3])
 {
   PetscInt count[3] = {0, 0, 0};
 
@@ -38,7 +40,9 @@ static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int 
 }
 
 /*
-  BlockOrderGroups_Private - blocks of 4 unknowns that have as many columns as possible in common: the first that has no place, and the best of its neighbours
+  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown
+  without a
+  place, and the best of its neighbours
 */
 PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
 {
@@ -62,4 +66,3 @@ PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
   PetscCall(PetscFree(mark));
   PetscFunctionReturn(0);
 }
-#endif

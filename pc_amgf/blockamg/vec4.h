@@ -1,4 +1,7 @@
-/* Four floats at once: vectors of gcc and clang, which any processor of theirs takes, or an array elsewhere */
+/*
+   Four floats as one value: the vector extension of gcc and clang, which compiles for any processor, or an array
+   with other compilers
+*/
 #ifndef AMGF_VEC4_H
 #define AMGF_VEC4_H
 
@@ -97,8 +100,12 @@ VEC4_INLINE void Vec4Store(float *p, Vec4 a)
   memcpy(p, &a, sizeof(a));
 }
 
-/* A function is compiled for several processors, of which the loader chooses; a sanitizer is not up yet where the loader does */
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
+/*
+   A function is compiled for several processors, of which the loader chooses; a sanitizer is not up yet where the
+   loader does
+*/
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && \
+  !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
   #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
   #define VEC4_CLONES

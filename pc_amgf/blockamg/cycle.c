@@ -5,16 +5,17 @@
    down, from zero:   x = (L + D + S)^-1 b,  then the residual b - A x = S x - L^T x - E x
    up:                x = (D + S + L^T)^-1 (b - L x + S x - E x)
 */
-#include "amgfimpl.h"
-#include "blockamg.h"
+#include "../amgfimpl.h"
+#include "blockamgimpl.h"
 #include <float.h>
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
 #if defined(__SSE__)
   #include <xmmintrin.h>
 #endif
 
-/* Numbers below the smallest normal float take a hundred times as long as others on many processors: they are zero until CycleRestoreTiny() */
+/*
+   Numbers below the smallest normal float take a hundred times as long as others on many processors: they are zero
+   until CycleRestoreTiny()
+*/
 static unsigned CycleFlushTiny(void)
 {
 #if defined(__SSE__)
@@ -152,4 +153,3 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Apply, pc, r, z, 0));
   PetscFunctionReturn(0);
 }
-#endif

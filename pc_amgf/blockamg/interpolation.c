@@ -1,10 +1,12 @@
-/* Interpolation from the next level, in the places of both levels */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+/*
+   The interpolation from the next coarser level, with rows and columns in the order of the block vectors of both
+   levels
+*/
+#include "blockamgimpl.h"
 
 /*
-  BlockInterpolationCreate_Private - level->P from rows of this rank, whose columns are unknowns of the next level; its vectors get places for ghosts
+  BlockInterpolationCreate_Private - level->P from rows of this rank, whose columns are unknowns of the next level; the
+  vectors of the next level get room for the ghosts
 */
 PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRows *rows, BlockLevel *next)
 {
@@ -12,11 +14,15 @@ PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRo
   const PetscInt      ndiag = rows->n ? rows->ia[rows->n] : 0, noff = rows->n && rows->oia ? rows->oia[rows->n] : 0;
 
   PetscFunctionBegin;
-  PetscCheck(ndiag + noff <= 2147483647, PETSC_COMM_SELF, PETSC_ERR_SUP, "PCBLOCKAMG: an interpolation has too many entries on one rank, %" PetscInt_FMT ": use more ranks", ndiag + noff);
+  PetscCheck(ndiag + noff <= 2147483647, PETSC_COMM_SELF, PETSC_ERR_SUP,
+             "PCBLOCKAMG: an interpolation has too many entries on one rank, %" PetscInt_FMT ": use more ranks",
+             ndiag + noff);
   PetscCall(PetscCalloc1(4 * level->nb + 1, &P->ptr));
   PetscCall(PetscMalloc1(ndiag + noff, &P->col));
   PetscCall(PetscMalloc1(ndiag + noff, &P->val));
-  for (int u = 0; u < level->n; u++) P->ptr[level->position[u] + 1] = (int)(rows->ia[u + 1] - rows->ia[u] + (rows->oia ? rows->oia[u + 1] - rows->oia[u] : 0));
+  for (int u = 0; u < level->n; u++)
+    P->ptr[level->position[u] + 1] =
+      (int)(rows->ia[u + 1] - rows->ia[u] + (rows->oia ? rows->oia[u + 1] - rows->oia[u] : 0));
   for (int i = 0; i < 4 * level->nb; i++) P->ptr[i + 1] += P->ptr[i];
   for (int u = 0; u < level->n; u++) {
     int p = P->ptr[level->position[u]];
@@ -45,4 +51,3 @@ PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *P)
   PetscCall(BlockHaloDestroy_Private(&P->halo));
   PetscFunctionReturn(0);
 }
-#endif

@@ -1,9 +1,7 @@
 /* Set-up: hypre's BoomerAMG sets up its hierarchy, which is converted and freed */
-#include "amgfimpl.h"
-#include "blockamg.h"
-#include "guard.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+#include "../amgfimpl.h"
+#include "blockamgimpl.h"
+#include "../guard.h"
 
 /* The preconditioner has failed, on all ranks */
 static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
@@ -94,13 +92,18 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &M, &N));
-  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
+  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ,
+             "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M,
+             N);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   amg->why[0] = '\0';
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFindBadRow(pc->pmat, &row));
   if (row >= 0) {
-    PetscCall(PetscSNPrintf(why, sizeof(why), "the diagonal entry of row %" PetscInt_FMT " is zero or not finite, so the operator is not positive definite", row));
+    PetscCall(PetscSNPrintf(why, sizeof(why),
+                            "the diagonal entry of row %" PetscInt_FMT
+                            " is zero or not finite, so the operator is not positive definite",
+                            row));
     PetscCall(SetUpFail(pc, PC_FACTOR_NUMERIC_ZEROPIVOT, why));
     PetscFunctionReturn(0);
   }
@@ -116,7 +119,8 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   PetscCall(BlockHierarchyIsFinite_Private(amg->h, &finite));
   if (finite) PetscFunctionReturn(0);
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
-  PetscCall(SetUpFail(pc, PC_FACTOR_OTHER, "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which single precision does not hold"));
+  PetscCall(SetUpFail(pc, PC_FACTOR_OTHER,
+                      "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which "
+                      "single precision does not hold"));
   PetscFunctionReturn(0);
 }
-#endif

@@ -1,17 +1,18 @@
-/* The arithmetic of the cycle on this rank, in floats: sweeps that read a row of L once for the sweep and the residual, and interpolation */
-#include "blockamg.h"
+/*
+   The arithmetic of the cycle on this rank, in floats: sweeps that read a row of L once for the sweep and the
+   residual, and interpolation
+*/
+#include "blockamgimpl.h"
 #include "vec4.h"
 
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
-
 /*
-   x_i = D^-1 (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are read in the direction of the sweep: memory
-   that is read downwards throughout is fetched ahead by the processor.
+   x_i = D^-1 (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are
+   read in the direction of the sweep: memory that is read downwards throughout is fetched ahead by the processor.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
 {
   const int          k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
-  const float *const D = l->Dinv + 4 * B * (size_t)i;
+  const float *const D    = l->Dinv + 4 * B * (size_t)i;
   const Vec4         zero = Vec4Same(0.0f);
   Vec4               a[4] = {zero, zero, zero, zero}, xi = zero, copies[4];
 
@@ -46,12 +47,14 @@ VEC4_CLONES static void SweepDown4(const BlockLevel *l)
 
 VEC4_CLONES static void SweepUp3(const BlockLevel *l)
 {
-  for (int i = l->nb - 1; i >= 0; i--) SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 3, -1);
+  for (int i = l->nb - 1; i >= 0; i--)
+    SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 3, -1);
 }
 
 VEC4_CLONES static void SweepUp4(const BlockLevel *l)
 {
-  for (int i = l->nb - 1; i >= 0; i--) SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 4, -1);
+  for (int i = l->nb - 1; i >= 0; i--)
+    SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 4, -1);
 }
 
 /*
@@ -117,4 +120,3 @@ VEC4_CLONES float BlockDot_Private(int n, const float a[], const float b[])
   for (int k = 0; k < 4; k++) sum += Vec4Get(s[0], k);
   return sum;
 }
-#endif

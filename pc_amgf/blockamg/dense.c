@@ -1,7 +1,5 @@
 /* The last level, by its inverse, of which every rank has the rows of its unknowns */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+#include "blockamgimpl.h"
 
 /* The matrix of all ranks, on each of them */
 static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows, PetscScalar full[])
@@ -10,8 +8,10 @@ static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows
 
   PetscFunctionBegin;
   for (PetscInt u = 0; u < rows->n; u++) {
-    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) full[N * (first + u) + first + rows->ja[k]] = rows->a[k] / h->scale;
-    for (PetscInt k = rows->oia ? rows->oia[u] : 0; k < (rows->oia ? rows->oia[u + 1] : 0); k++) full[N * (first + u) + rows->ghosts[rows->oja[k]]] = rows->oa[k] / h->scale;
+    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++)
+      full[N * (first + u) + first + rows->ja[k]] = rows->a[k] / h->scale;
+    for (PetscInt k = rows->oia ? rows->oia[u] : 0; k < (rows->oia ? rows->oia[u + 1] : 0); k++)
+      full[N * (first + u) + rows->ghosts[rows->oja[k]]] = rows->oa[k] / h->scale;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, full, (PetscMPIInt)(N * N), MPIU_SCALAR, MPIU_SUM, h->comm));
   PetscFunctionReturn(0);
@@ -28,10 +28,10 @@ PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows
   size_t       first;
 
   PetscFunctionBegin;
-  dense->n  = level->n = (int)rows->n;
-  dense->N  = (int)rows->columns->N;
-  level->B  = 4;
-  level->nb = (level->n + 3) / 4;
+  dense->n = level->n = (int)rows->n;
+  dense->N            = (int)rows->columns->N;
+  level->B            = 4;
+  level->nb           = (level->n + 3) / 4;
   PetscCall(PetscMalloc1(level->n, &level->position));
   for (int u = 0; u < level->n; u++) level->position[u] = u;
   level->nslots = 4 * level->nb;
@@ -64,10 +64,12 @@ PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *h)
 
   PetscFunctionBegin;
   if (h->size > 1) {
-    PetscCallMPI(MPI_Allgatherv(h->bottom.b, dense->n, MPI_FLOAT, dense->b, dense->counts, dense->starts, MPI_FLOAT, h->comm));
+    PetscCallMPI(
+      MPI_Allgatherv(h->bottom.b, dense->n, MPI_FLOAT, dense->b, dense->counts, dense->starts, MPI_FLOAT, h->comm));
     b = dense->b;
   }
-  for (int i = 0; i < dense->n; i++) h->bottom.x[i] = BlockDot_Private(dense->N, dense->inverse + (size_t)dense->N * i, b);
+  for (int i = 0; i < dense->n; i++)
+    h->bottom.x[i] = BlockDot_Private(dense->N, dense->inverse + (size_t)dense->N * i, b);
   PetscFunctionReturn(0);
 }
 
@@ -79,4 +81,3 @@ PetscErrorCode BlockDenseDestroy_Private(BlockDense *dense)
   PetscCall(PetscFree2(dense->counts, dense->starts));
   PetscFunctionReturn(0);
 }
-#endif

@@ -1,7 +1,5 @@
 /* The hierarchy: matrices and interpolations of BoomerAMG converted level by level, each of which is freed at once */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+#include "blockamgimpl.h"
 
 /* Matrices are divided by a power of 2 near the largest diagonal entry, so that floats hold them in any units */
 static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
@@ -37,9 +35,10 @@ static PetscErrorCode HierarchyCountLevels(BlockHierarchy *h, Mat A, PetscInt nl
 
 static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat P)
 {
-  BlockLevel *level = i < h->nlevels ? &h->levels[i] : &h->bottom, *next = i + 1 < h->nlevels ? &h->levels[i + 1] : &h->bottom;
-  BlockRows   rows;
-  PetscInt    bs = 1;
+  BlockLevel *level = i < h->nlevels ? &h->levels[i] : &h->bottom,
+             *next  = i + 1 < h->nlevels ? &h->levels[i + 1] : &h->bottom;
+  BlockRows rows;
+  PetscInt  bs = 1;
 
   PetscFunctionBegin;
   if (i == 0) PetscCall(MatGetBlockSize(A, &bs));
@@ -64,7 +63,8 @@ static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat
 . coarse         - the matrices of the other levels, the coarsest first; NULL afterwards
 - interpolations - to each level from the one below, the coarsest first; NULL afterwards
 */
-PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[], Mat interpolations[], BlockHierarchy **created)
+PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[], Mat interpolations[],
+                                            BlockHierarchy **created)
 {
   BlockHierarchy *h;
   PetscBool       dense;
@@ -128,4 +128,3 @@ PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **h)
   PetscCall(PetscFree(*h));
   PetscFunctionReturn(0);
 }
-#endif

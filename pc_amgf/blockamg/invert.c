@@ -1,11 +1,10 @@
 /* Inverses of small symmetric matrices, positive definite whatever the matrix is */
-#include "blockamg.h"
+#include "blockamgimpl.h"
 #include <petscblaslapack.h>
 
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
-
 /*
-   By eigenvalues: |A|^-1, which is the inverse where A is positive definite. Eigenvalues of nothing but rounding errors have an inverse of zero.
+   a = |A|^-1 from the eigenvalues of A. If A is positive definite, this is its inverse. An eigenvalue within rounding
+   of zero contributes nothing.
 */
 static PetscErrorCode InvertByEigenvalues(PetscBLASInt n, PetscScalar a[])
 {
@@ -20,7 +19,8 @@ static PetscErrorCode InvertByEigenvalues(PetscBLASInt n, PetscScalar a[])
   PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &n, v, &n, w, work, &lwork, &info));
   PetscCheck(info == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACKsyev: error %" PetscBLASInt_FMT, info);
   for (PetscBLASInt k = 0; k < n; k++) largest = PetscMax(largest, PetscAbsReal(w[k]));
-  for (PetscBLASInt k = 0; k < n; k++) w[k] = PetscAbsReal(w[k]) > n * 100.0 * PETSC_MACHINE_EPSILON * largest ? 1.0 / PetscAbsReal(w[k]) : 0.0;
+  for (PetscBLASInt k = 0; k < n; k++)
+    w[k] = PetscAbsReal(w[k]) > n * 100.0 * PETSC_MACHINE_EPSILON * largest ? 1.0 / PetscAbsReal(w[k]) : 0.0;
   for (PetscBLASInt i = 0; i < n; i++) {
     for (PetscBLASInt j = 0; j <= i; j++) {
       PetscScalar s = 0.0;
@@ -33,7 +33,10 @@ static PetscErrorCode InvertByEigenvalues(PetscBLASInt n, PetscScalar a[])
   PetscFunctionReturn(0);
 }
 
-/* Gauss-Jordan without pivoting, for which positive definite matrices need none; returns whether all pivots are well above rounding errors */
+/*
+   Gauss-Jordan without pivoting, for which positive definite matrices need none; returns whether all pivots are well
+   above rounding errors
+*/
 static PetscBool InvertByElimination(PetscInt n, PetscScalar a[], const PetscScalar diagonal[])
 {
   for (PetscInt p = 0; p < n; p++) {
@@ -55,7 +58,8 @@ static PetscBool InvertByElimination(PetscInt n, PetscScalar a[], const PetscSca
 }
 
 /*
-  BlockInvert_Private - the inverse of a symmetric n x n matrix in its place: |A|^-1 where it is indefinite. Rows and columns of zeros stay.
+  BlockInvert_Private - inverts a symmetric n x n matrix in place; the result is |A|^-1 if A is indefinite. Rows and
+  columns of zeros stay zero.
 */
 PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[])
 {
@@ -88,4 +92,3 @@ PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[])
   if (work != few) PetscCall(PetscFree(work));
   PetscFunctionReturn(0);
 }
-#endif

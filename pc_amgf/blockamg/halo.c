@@ -1,7 +1,5 @@
 /* Values of unknowns of other ranks, in floats: fetched from their owners, or added to what those have */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+#include "blockamgimpl.h"
 
 /*
   BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
@@ -11,7 +9,8 @@
 . ghosts - unknowns of other ranks
 - level  - with the places of its unknowns
 */
-PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[], const BlockLevel *level, BlockHalo *halo)
+PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],
+                                       const BlockLevel *level, BlockHalo *halo)
 {
   PetscMPIInt        size;
   PetscSF            numbers;
@@ -73,4 +72,3 @@ PetscErrorCode BlockHaloDestroy_Private(BlockHalo *halo)
   PetscCall(PetscSFDestroy(&halo->sf));
   PetscFunctionReturn(0);
 }
-#endif

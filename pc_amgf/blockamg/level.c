@@ -1,7 +1,8 @@
-/* A matrix of the hierarchy as blocks of floats: the strictly lower triangle, inverse diagonal blocks, and entries of columns of other ranks */
-#include "blockamg.h"
-
-#if !defined(PETSC_USE_COMPLEX) /* PCBLOCKAMG needs real scalars */
+/*
+   A matrix of the hierarchy as blocks of floats: the strictly lower triangle, inverse diagonal blocks, and entries
+   of columns of other ranks
+*/
+#include "blockamgimpl.h"
 
 /* Blocks of the rows so far; grows */
 typedef struct {
@@ -43,7 +44,8 @@ static void LevelSort(int n, int a[])
 }
 
 /* The columns of block row i of L, sorted; slot[] gets their blocks */
-static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i, LevelBlocks *blocks, int slot[])
+static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
+                                      LevelBlocks *blocks, int slot[])
 {
   const int first = blocks->n, size = level->B * level->B;
   PetscInt  most = 0;
@@ -74,7 +76,8 @@ static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *
 }
 
 /* Their entries, and those of the diagonal block */
-static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i, double inverse_scale, const int slot[], float val[], PetscScalar D[16])
+static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
+                            double inverse_scale, const int slot[], float val[], PetscScalar D[16])
 {
   const int B = level->B;
 
@@ -93,8 +96,9 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
 }
 
 /*
-   Other ranks' columns have l, the sum of their absolute values, in a row, and the diagonal block exceeds its own off-diagonal entries by g: with (l - 0.9 g)/2 added to the
-   diagonal, where that is positive, the sweeps of all ranks together converge, and the cycle stays positive definite.
+   Other ranks' columns have l, the sum of their absolute values, in a row, and the diagonal block exceeds its own
+   off-diagonal entries by g: with (l - 0.9 g)/2 added to the diagonal, where that is positive, the sweeps of all ranks
+   together converge, and the cycle stays positive definite.
 */
 static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
 {
@@ -142,7 +146,9 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   level->ptr[level->nb] = blocks.n;
   PetscCall(PetscRealloc((size_t)blocks.n * sizeof(*blocks.col), &blocks.col));
   PetscCall(PetscRealloc(((size_t)blocks.n * size + 4) * sizeof(*blocks.val), &blocks.val));
-  if (blocks.val) PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4 floats */
+  if (blocks.val)
+    PetscCall(
+      PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4 floats */
   level->col = blocks.col;
   level->L   = blocks.val;
   PetscCall(PetscFree(slot));
@@ -190,7 +196,7 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
 /* Sums over all ranks, for whoever looks at the preconditioner */
 static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 {
-  const int    B = level->B;
+  const int    B      = level->B;
   const double border = level->border.n ? level->border.ptr[level->border.n] : 0;
   double       sums[4];
 
@@ -198,7 +204,8 @@ static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
   sums[0] = level->n;
   sums[1] = rows->n ? (double)rows->ia[rows->n] + border : 0.0;
   sums[2] = (double)B * B * (2.0 * level->ptr[level->nb] + level->nb) + border;
-  sums[3] = (4.0 * B * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 4.0) * level->nb + 4.0 * level->n + 8.0 * border + 12.0 * level->border.n;
+  sums[3] = (4.0 * B * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 4.0) * level->nb + 4.0 * level->n + 8.0 * border +
+            12.0 * level->border.n;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, rows->columns->comm));
   level->unknowns = sums[0];
   level->entries  = sums[1];
@@ -218,7 +225,9 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
   const PetscInt largest = PETSC_MAX_INT < 2147483647 ? PETSC_MAX_INT : 2147483647;
 
   PetscFunctionBegin;
-  PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks", largest / 8, rows->n);
+  PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
+             "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks",
+             largest / 8, rows->n);
   level->n = (int)rows->n;
   level->B = bs % 3 == 0 ? 3 : 4;
   PetscCall(PetscMalloc1(level->n, &level->position));
@@ -267,4 +276,3 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->t));
   PetscFunctionReturn(0);
 }
-#endif

@@ -1,4 +1,7 @@
-/* Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets up */
+/*
+   Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets
+   up
+*/
 #ifndef BLOCKAMG_H
 #define BLOCKAMG_H
 
@@ -11,8 +14,8 @@
 #define BLOCKAMG_DENSE 256
 
 /*
-   The rows of a matrix that this rank owns. Columns of this rank have local numbers; columns of other ranks have numbers of ghosts, and ghosts[] has their
-   global numbers.
+   The rows of a matrix that this rank owns. Columns of this rank have local numbers; columns of other ranks have
+   numbers of ghosts, and ghosts[] has their global numbers.
 */
 typedef struct {
   PetscInt           n, nghosts;
@@ -43,9 +46,9 @@ typedef struct {
 } BlockInterpolation;
 
 /*
-   A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L, the strictly lower triangle of
-   the matrix without columns of other ranks, has blocks of B x B floats by rows, and D^-1, the inverses of the diagonal blocks, blocks of B columns of 4 floats.
-   Places that no unknown has hold zeros.
+   A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L,
+   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows, and
+   D^-1, the inverses of the diagonal blocks, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
 */
 typedef struct {
   int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
@@ -55,7 +58,7 @@ typedef struct {
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
-  int                nslots;   /* of a vector */
+  int                nslots;    /* of a vector */
   float             *x, *b, *t; /* iterate, right-hand side, L^T x */
 
   PetscLogDouble unknowns, entries, blocks, bytes; /* of all ranks; entries: of the matrix; blocks: floats of L and D */
@@ -86,46 +89,50 @@ typedef struct {
 
 /* The files of blockamg, each after those it builds on */
 
-/* blockamg_rows.c */
+/* rows.c */
 PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
 PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
-/* blockamg_order.c */
+/* order.c */
 PETSC_INTERN PetscErrorCode BlockOrderNodes_Private(const BlockRows *, PetscInt bs, int position[]);
 PETSC_INTERN PetscErrorCode BlockOrderGroups_Private(const BlockRows *, int position[]);
-/* blockamg_invert.c */
+/* invert.c */
 PETSC_INTERN PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[]);
-/* blockamg_halo.c */
-PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghosts, const PetscInt ghosts[], const BlockLevel *, BlockHalo *);
+/* halo.c */
+PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghosts, const PetscInt ghosts[],
+                                                    const BlockLevel *, BlockHalo *);
 PETSC_INTERN PetscErrorCode BlockHaloFetch_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloDestroy_Private(BlockHalo *);
-/* blockamg_level.c */
+/* level.c */
 PETSC_INTERN PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *, const BlockRows *, PetscInt bs, double scale);
 PETSC_INTERN PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockLevelDestroy_Private(BlockLevel *);
-/* blockamg_interpolation.c */
+/* interpolation.c */
 PETSC_INTERN PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *, const BlockRows *, BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *);
-/* blockamg_sweep.c */
+/* sweep.c */
 PETSC_INTERN void  BlockSweepDown_Private(const BlockLevel *);
 PETSC_INTERN void  BlockSweepUp_Private(const BlockLevel *);
 PETSC_INTERN void  BlockRestrict_Private(const BlockLevel *, float coarse[]);
 PETSC_INTERN void  BlockInterpolateAdd_Private(const BlockLevel *, const float coarse[]);
 PETSC_INTERN float BlockDot_Private(int n, const float a[], const float b[]);
-/* blockamg_dense.c */
+/* dense.c */
 PETSC_INTERN PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *, const BlockRows *);
 PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode BlockDenseDestroy_Private(BlockDense *);
-/* blockamg_hierarchy.c */
-PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, Mat coarse[], Mat interpolations[], BlockHierarchy **);
+/* hierarchy.c */
+PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, Mat coarse[], Mat interpolations[],
+                                                         BlockHierarchy **);
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
-/* blockamg_cycle.c */
+/* cycle.c */
 PETSC_INTERN PetscErrorCode BlockCycle_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
-/* blockamg_setup.c */
+/* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
-/* blockamg_view.c */
+/* view.c */
 PETSC_INTERN PetscErrorCode PCView_BlockAMG(PC, PetscViewer);
+/* blockamg.c */
+PETSC_EXTERN PetscErrorCode PCCreate_BlockAMG(PC);
 
 #endif

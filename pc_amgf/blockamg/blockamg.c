@@ -1,0 +1,71 @@
+/* The preconditioner type PCBLOCKAMG: its page, and its life from creation to destruction */
+#include "blockamgimpl.h"
+
+static PetscErrorCode PCReset_BlockAMG(PC pc)
+{
+  PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
+
+  PetscFunctionBegin;
+  PetscCall(PCDestroy(&amg->hypre));
+  PetscCall(BlockHierarchyDestroy_Private(&amg->h));
+  amg->why[0] = '\0';
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCDestroy_BlockAMG(PC pc)
+{
+  PetscFunctionBegin;
+  PetscCall(PCReset_BlockAMG(pc));
+  PetscCall(PetscFree(pc->data));
+  PetscFunctionReturn(0);
+}
+
+/*MC
+   PCBLOCKAMG - a fast V-cycle on the hierarchy of hypre's BoomerAMG, in dense blocks of single precision
+
+   Options Database Keys:
+.  -pc_hypre_boomeramg_ - options of `PCHYPRE` for the set-up; those of hypre's own cycle have no effect
+
+   Level: intermediate
+
+   Notes:
+   For real symmetric positive definite operators of type AIJ, BAIJ or SBAIJ, on any number of ranks. PETSc must have
+   hypre.
+
+   hypre sets up the matrices and interpolations, with the defaults that `PCAMGF` documents. They are converted level by
+   level and hypre's copy is freed. Each level holds the strictly lower triangle L of A = L + D + L^T in blocks of
+   floats, and the inverses of the diagonal blocks: blocks of 3 x 3 on the finest level where the block size of the
+   matrix is a multiple of 3, else of 4 x 4. The cycle has one forward Gauss-Seidel sweep down and one backward sweep
+   up. A row of L serves both the sweep and the residual while it is in the cache, so that a cycle reads half of every
+   matrix twice. Levels of at most 256 unknowns are solved by a dense inverse.
+
+   With several ranks each sweeps over its own rows; where entries in columns of other ranks exceed the diagonal, half
+   of the excess is added to it.
+
+   The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it
+   attains the same residuals as with one in double precision. Matrices and vectors are scaled by powers of 2, so units
+   have no influence. Only the lower triangle is used on each rank.
+
+   Where the operator is indefinite, inverses of diagonal blocks are those of their absolute values: the preconditioner
+   stays positive definite, and `KSPCG` ends with `KSP_DIVERGED_INDEFINITE_MAT`. A diagonal entry of zero, or one that
+   is not finite, makes the set-up fail: `KSP_DIVERGED_PC_FAILED`, or an error under `-ksp_error_if_not_converged`.
+
+.seealso: `PCAMGF`, `PCHYPRE`, `PCGAMG`, `KSPCG`
+M*/
+PetscErrorCode PCCreate_BlockAMG(PC pc)
+{
+  PC_BlockAMG *amg;
+
+  PetscFunctionBegin;
+  PetscCheck(PetscDefined(HAVE_HYPRE), PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
+             "PCBLOCKAMG needs a PETSc with hypre, which sets up its hierarchy");
+  PetscCall(PetscNew(&amg));
+  pc->data                = amg;
+  pc->ops->setup          = PCSetUp_BlockAMG;
+  pc->ops->apply          = PCApply_BlockAMG;
+  pc->ops->applytranspose = PCApply_BlockAMG;
+  pc->ops->view           = PCView_BlockAMG;
+  pc->ops->reset          = PCReset_BlockAMG;
+  pc->ops->destroy        = PCDestroy_BlockAMG;
+  PetscFunctionReturn(0);
+}
