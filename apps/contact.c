@@ -2,17 +2,21 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -refine N            uniform refinements of the scene's level 0\n\
   -load_steps N        load steps of equal size\n\
   -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
-  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView, BASE.csv (a line a load step)\n\
+  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView,\n\
+                        BASE.csv (a line a load step)\n\
   -output_gauss        also stress at the quadrature points, BASE_gauss.xmf\n\
   -checkpoint_every N  after every N load steps write the state to go on from; a run that a signal ends always does\n\
   -checkpoint FILE     where to; by default BASE_checkpoint.h5 of -output BASE, else <problem>_checkpoint.h5\n\
-  -restart FILE        go on from such a state, also on other ranks, with -refine, with a load program that goes on otherwise\n\
+  -restart FILE        go on from such a state, also on other ranks, with -refine, with a load program that\n\
+                        goes on otherwise\n\
   -summary FILE.json   write the run's report\n\
   -contact_free        also solve the first step without contact, for comparison\n\
-  -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in energy and contact force\n\
+  -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in\n\
+                        energy and contact force\n\
   -accuracy_adaptive   refine for it where the error is, in place of everywhere\n\
   -accuracy_order 2    give the first mesh elements of that order before it is refined\n\
-  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too; displacement, of the scene's probes, and energy\n\
+  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too;\n\
+                        displacement, of the scene's probes, and energy\n\
   -accuracy_view       what -accuracy chose and attained (part of the table unless -quiet)\n\
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
@@ -20,7 +24,8 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -version, -help      alone: the release, or this text and every option of PETSc; --help: this text\n\
   -traceback           PETSc's own error traceback instead of one sentence\n\
 Exit code:\n\
-  0  every load step converged, to a true gap (or one linearization of it was asked for), and an accuracy asked for was reached\n\
+  0  every load step converged, to a true gap (or one linearization of it was asked for), and an accuracy asked\n\
+     for was reached\n\
   1  refused: the scene, an option or a file; \"contact: error: ...\"\n\
   2  a load step did not converge\n\
   3  a load step ended with a gap that is not true\n\
@@ -48,7 +53,8 @@ Exit code:\n\
 #endif
 
 typedef struct {
-  char      scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN], checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN];
+  char scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN],
+    checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN];
   PetscInt  checkpoint_every; /* load steps; 0: only where a signal ends the run */
   PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet;
 } AppOptions;
@@ -67,7 +73,8 @@ typedef struct {
 /* What is wrong with the input is an error of most kinds; some are of the machine's or of the program's making */
 static RunEnd AppClassifyError(PetscErrorCode n)
 {
-  static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC, PETSC_ERR_ARG_CORRUPT, PETSC_ERR_ARG_NULL, PETSC_ERR_POINTER, PETSC_ERR_ORDER, PETSC_ERR_MPI, PETSC_ERR_SYS};
+  static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC,
+    PETSC_ERR_ARG_CORRUPT, PETSC_ERR_ARG_NULL, PETSC_ERR_POINTER, PETSC_ERR_ORDER, PETSC_ERR_MPI, PETSC_ERR_SYS};
 
   if (n == PETSC_ERR_FILE_WRITE) return RUN_OUTPUT_LOST;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(faults); ++i) {
@@ -76,8 +83,10 @@ static RunEnd AppClassifyError(PetscErrorCode n)
   return RUN_REFUSED;
 }
 
-/* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one rank alone must end the others */
-static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+/* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one
+ * rank alone must end the others */
+static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
+  PetscErrorType type, const char *message, void *ctx)
 {
   AppError   *error = (AppError *)ctx;
   const char *text  = message;
@@ -96,10 +105,13 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
     fflush(stderr);
     if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, error->end);
   }
-  return error->traceback && !error->silent ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL) : n;
+  return error->traceback && !error->silent
+           ? PetscTraceBackErrorHandler(comm, line, function, file, n, type, message, NULL)
+           : n;
 }
 
-/* HDF5 closes its files when MPI ends, prints pages and crashes over one that it could not write: nobody is to hear of it, and the exit code stays */
+/* HDF5 closes its files when MPI ends, prints pages and crashes over one that it could not write: nobody is to hear of
+ * it, and the exit code stays */
 static int app_end;
 
 static void AppLeaveAtOnce(int sig)
@@ -118,8 +130,9 @@ static void AppLeaveFiles(int end)
 }
 
 /*
-   The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone the others wait for it in
-   the midst of their work, for ever if it does not end them. PETSc's traceback takes the same ten seconds for it.
+   The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone
+   the others wait for it in the midst of their work, for ever if it does not end them. PETSc's traceback takes the same
+   ten seconds for it.
 
    Objects are left as they are; PetscFinalize() would complain about them.
 */
@@ -150,7 +163,8 @@ static void AppLeave(const AppError *error)
 /* contact --help, contact -version: a text, and no run */
 static PetscBool AppAsksForText(int argc, char **argv)
 {
-  return (PetscBool)(argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version")));
+  return (PetscBool)(argc == 2 &&
+                     (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version")));
 }
 
 static PetscErrorCode AppSayText(const char word[])
@@ -161,7 +175,8 @@ static PetscErrorCode AppSayText(const char word[])
   if (!strcmp(word, "--help")) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", help));
   else {
     PetscCall(PetscAMGFGetVersion(version, sizeof(version)));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "contact %d.%d.%d\n%s\n", PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR, PETSCAMGF_VERSION_SUBMINOR, version));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "contact %d.%d.%d\n%s\n", PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR,
+      PETSCAMGF_VERSION_SUBMINOR, version));
     PetscCall(PetscGetVersion(version, sizeof(version)));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "running %s\n", version));
   }
@@ -173,19 +188,30 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
-  PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output, sizeof(app->output), &app->write));
-  PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss, &app->gauss, NULL));
-  PetscCall(PetscOptionsBoundedInt("-checkpoint_every", "Load steps between two checkpoints", NULL, app->checkpoint_every, &app->checkpoint_every, NULL, 0));
-  PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint, sizeof(app->checkpoint), NULL));
-  PetscCall(PetscOptionsString("-restart", "Checkpoint to go on from", NULL, app->restart, app->restart, sizeof(app->restart), &app->restarts));
-  PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary), &app->summarize));
-  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free, &app->contact_free, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy, &app->accuracy, NULL));
-  PetscCall(PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
-  PetscCall(PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
+  PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output,
+    sizeof(app->output), &app->write));
+  PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
+    &app->gauss, NULL));
+  PetscCall(PetscOptionsBoundedInt("-checkpoint_every", "Load steps between two checkpoints", NULL,
+    app->checkpoint_every, &app->checkpoint_every, NULL, 0));
+  PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
+    sizeof(app->checkpoint), NULL));
+  PetscCall(PetscOptionsString("-restart", "Checkpoint to go on from", NULL, app->restart, app->restart,
+    sizeof(app->restart), &app->restarts));
+  PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
+    &app->summarize));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
+    &app->contact_free, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy,
+    &app->accuracy, NULL));
+  PetscCall(
+    PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
+  PetscCall(
+    PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
   PetscOptionsEnd();
-  PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: contact SCENE.yaml [options], see contact -help");
+  PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "no scene given; usage: contact SCENE.yaml [options], see contact -help");
   PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
   PetscFunctionReturn(0);
 }
@@ -199,12 +225,15 @@ static PetscErrorCode AppCheckWords(int argc, char **argv)
 
     PetscCall(PetscOptionsValidKey(argv[i], &option));
     PetscCall(PetscOptionsValidKey(argv[i - 1], &after));
-    PetscCheck(option || (after && i > 2), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "\"%s\" is neither an option nor the value of one; usage: contact SCENE.yaml [options], see contact -help", argv[i]);
+    PetscCheck(option || (after && i > 2), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+      "\"%s\" is neither an option nor the value of one; usage: contact SCENE.yaml [options], see contact -help",
+      argv[i]);
   }
   PetscFunctionReturn(0);
 }
 
-/* One line a Newton step, unless the user has decided; the plugin's monitor is switched on by its option and by nothing else */
+/* One line a Newton step, unless the user has decided; the plugin's monitor is switched on by its option and by nothing
+ * else */
 static PetscErrorCode AppShowProgress(void)
 {
   PetscBool given;
@@ -215,7 +244,8 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy, const MeshMarks *marks, StepForecast *forecast, Simulation *sim)
+static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy,
+  const MeshMarks *marks, StepForecast *forecast, Simulation *sim)
 {
   StepTolerances tolerances;
 
@@ -253,11 +283,16 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
 {
   PetscFunctionBeginUser;
   if (!app->quiet) PetscCall(ReportView(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (app->accuracy && (app->quiet || !report->accuracy)) PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
+  if (app->accuracy && (app->quiet || !report->accuracy))
+    PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
   if (app->effects) PetscCall(ReportViewEffects(report, PETSC_VIEWER_STDOUT_WORLD));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
-  if (!report->converged) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n", report->nsteps, report->reason));
-  else if (report->exit_code == RUN_ACCURACY_MISSED) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: accuracy %g: %s\n", (double)report->accuracy->target, report->accuracy->end));
+  if (!report->converged)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n",
+      report->nsteps, report->reason));
+  else if (report->exit_code == RUN_ACCURACY_MISSED)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: accuracy %g: %s\n", (double)report->accuracy->target,
+      report->accuracy->end));
   PetscFunctionReturn(0);
 }
 
@@ -309,13 +344,16 @@ static PetscErrorCode AppBegin(const AppOptions *app, Scene scene, Simulation si
   PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, &same));
   PetscCall(SimulationSetCheckpoint(sim, checkpoint, step));
   if (output) PetscCall(OutputContinue(output, *step, same));
-  if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time, same ? "" : ", interpolated to this mesh and these ranks"));
+  if (!app->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time,
+      same ? "" : ", interpolated to this mesh and these ranks"));
   PetscCall(CheckpointDestroy(&checkpoint));
   PetscFunctionReturn(0);
 }
 
 /* Load steps until one fails; true: none did */
-static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output, CheckpointWriter writer, PetscBool *converged)
+static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output,
+  CheckpointWriter writer, PetscBool *converged)
 {
   StepState state;
   PetscInt  first;
@@ -324,17 +362,21 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
   *converged = PETSC_TRUE;
   PetscCall(AppBegin(app, scene, sim, output, &first));
   for (PetscInt step = first; step < scene->nsteps && *converged; ++step) {
-    if (!app->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n", step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
+    if (!app->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n",
+        step + 1, scene->nsteps, (double)scene->ramps[0].factor[step]));
     PetscCall(SimulationStep(sim, step, &state));
     *converged = state.report->converged;
     if (output && *converged) PetscCall(OutputWrite(output, &state));
-    if (*converged && app->checkpoint_every && (step + 1) % app->checkpoint_every == 0) PetscCall(AppWriteCheckpoint(app, scene, sim, writer));
+    if (*converged && app->checkpoint_every && (step + 1) % app->checkpoint_every == 0)
+      PetscCall(AppWriteCheckpoint(app, scene, sim, writer));
   }
   PetscFunctionReturn(0);
 }
 
 /* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
-static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, StepForecast *forecast, RunEnd *end, PetscBool *again)
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks,
+  StepForecast *forecast, RunEnd *end, PetscBool *again)
 {
   Simulation       sim;
   Output           output;
@@ -389,7 +431,8 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscFunctionBeginUser;
   PetscCall(AppCheckFiles(app, scene));
   PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
-  PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
+  PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
   PetscCall(SimulationCatchSignals());
   do {
     PetscCall(AppSimulate(app, scene, &accuracy, &marks, &forecast, end, &again));
@@ -414,7 +457,8 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* What is misspelt, and what of a scene's own options has no use, is told by ourselves; PETSc since 3.19 would warn of every option that this run did not need */
+/* What is misspelt, and what of a scene's own options has no use, is told by ourselves; PETSc since 3.19 would warn of
+ * every option that this run did not need */
 static PetscErrorCode AppLeaveUnusedOptions(void)
 {
   PetscBool given;
@@ -450,8 +494,8 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end
 }
 
 /*
-   The arrays of the AMG and of matrices come and go. glibc takes freed ones of up to 32 MB for a heap that fragments, which two_block
-   on mesh 2 pays for with 0.6 of 5.0 kB an unknown
+   The arrays of the AMG and of matrices come and go. glibc takes freed ones of up to 32 MB for a heap that fragments,
+   which two_block on mesh 2 pays for with 0.6 of 5.0 kB an unknown
 */
 static void AppLimitHeap(void)
 {
@@ -460,14 +504,19 @@ static void AppLimitHeap(void)
 #endif
 }
 
-/* A crash is a fault of the program or of a library, and ends the other ranks, too; PETSc's handler would say a page about it, and exit with a code of its own */
+/* A crash is a fault of the program or of a library, and ends the other ranks, too; PETSc's handler would say a page
+ * about it, and exit with a code of its own */
 static PetscErrorCode AppCrash(int sig, void *ctx)
 {
-  const PetscBool fault = (PetscBool)(sig == SIGSEGV || sig == SIGBUS || sig == SIGFPE || sig == SIGILL || sig == SIGABRT);
-  PetscMPIInt     size;
+  const PetscBool fault =
+    (PetscBool)(sig == SIGSEGV || sig == SIGBUS || sig == SIGFPE || sig == SIGILL || sig == SIGABRT);
+  PetscMPIInt size;
 
   if (!fault || ((AppError *)ctx)->traceback) return PetscSignalHandlerDefault(sig, NULL);
-  dprintf(((AppError *)ctx)->said, "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it with the scene; -traceback says more\n", sig);
+  dprintf(((AppError *)ctx)->said,
+    "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it "
+    "with the scene; -traceback says more\n",
+    sig);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   if (size > 1) MPI_Abort(PETSC_COMM_WORLD, RUN_BROKEN);
   _Exit(RUN_BROKEN);
@@ -475,9 +524,9 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
 
 int main(int argc, char **argv)
 {
-  RunEnd         end   = RUN_CONVERGED;
-  AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
-  const char    *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* which PETSc would take for an option of its own */
+  RunEnd      end   = RUN_CONVERGED;
+  AppError    error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
+  const char *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* which PETSc would take for an option of its own */
   PetscErrorCode ierr;
 
   AppLimitHeap();

@@ -10,8 +10,10 @@
 PETSC_EXTERN PetscErrorCode AccuracySetFromOptions(MPI_Comm, Accuracy *);
 /* Tolerances for the next run, in place of those that are there */
 PETSC_EXTERN PetscErrorCode AccuracyPlan(Accuracy *, Scene, StepTolerances *);
-/* Records a run and the tolerances that it had; where its mesh is too coarse, scene->refine is the next one's and *again is true */
-PETSC_EXTERN PetscErrorCode AccuracyAssess(Accuracy *, const StepTolerances *, const RunReport *, Scene, PetscBool *again);
+/* Records a run and the tolerances that it had; where its mesh is too coarse, scene->refine is the next one's and
+ *again is true */
+PETSC_EXTERN PetscErrorCode AccuracyAssess(Accuracy *, const StepTolerances *, const RunReport *, Scene,
+  PetscBool *again);
 PETSC_EXTERN PetscErrorCode AccuracyDestroy(Accuracy *);
 
 #endif

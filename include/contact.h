@@ -12,17 +12,21 @@ typedef struct _n_Contact *Contact;
 
 /* The constraints of one linearization. Rows are distributed as their nonmortar vertices are. */
 typedef struct {
-  Vec        g;          /* gap at u_ref, weighted and divided by the lumped mass: a length */
-  Mat        J;          /* m x n AIJ, dimensionless; columns are the DM's global rows */
-  Mat        derivative; /* of the gap, the normals' turning included; J is that with the patches of smooth pairs keeping their shape. NULL where no pair is smooth */
-  Mat        cover;      /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth or of order 2: it is J */
-  Vec        mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  Mat        slip;       /* 2m x n AIJ, dimensionless: along both tangents of a row, what the mortar side moves along the other. Rows of pairs that do not rub are empty; NULL: none does */
-  PetscReal *tangent;    /* [6 nlocal] of each row, and */
-  PetscReal *covered;    /* [nlocal] int phi_A over what the mortar side covers [length^2]; 0 where the pair does not rub. NULL where there is no slip */
-  PetscInt   nlocal;     /* rows of this rank */
-  PetscInt  *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */
-  PetscInt  *pair;       /* contact pair of each local row */
+  Vec g;          /* gap at u_ref, weighted and divided by the lumped mass: a length */
+  Mat J;          /* m x n AIJ, dimensionless; columns are the DM's global rows */
+  Mat derivative; /* of the gap, the normals' turning included; J is that with the patches of smooth pairs keeping their
+                     shape. NULL where no pair is smooth */
+  Mat cover; /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth or
+                of order 2: it is J */
+  Vec mass;  /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  Mat slip; /* 2m x n AIJ, dimensionless: along both tangents of a row, what the mortar side moves along the other. Rows
+               of pairs that do not rub are empty; NULL: none does */
+  PetscReal *tangent; /* [6 nlocal] of each row, and */
+  PetscReal *covered; /* [nlocal] int phi_A over what the mortar side covers [length^2]; 0 where the pair does not rub.
+                         NULL where there is no slip */
+  PetscInt  nlocal;   /* rows of this rank */
+  PetscInt *vertex;   /* nonmortar vertex (local DMPlex point) of each local row */
+  PetscInt *pair;     /* contact pair of each local row */
 } * ContactLinearization;
 
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
@@ -32,9 +36,11 @@ PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscR
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
-/* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been linearized; of how many */
+/* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been
+   linearized; of how many */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
-/* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero displacement */
+/* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero
+   displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* Of each node of a nonmortar face the weights of those of the mortar face that it is tied to */

@@ -14,7 +14,8 @@
 typedef struct _n_Elasticity *Elasticity;
 
 /* materials[b] and elements[b] belong to the cells whose "body" label is b; elements NULL: full integration */
-PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[], const ElementType elements[], Elasticity *);
+PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[],
+  const ElementType elements[], Elasticity *);
 /* Global rows (owned by this rank) whose displacement is prescribed */
 PETSC_EXTERN PetscErrorCode ElasticitySetPrescribed(Elasticity, IS rows);
 /* Type of the tangent, unless -elasticity_mat_type is given */
@@ -22,8 +23,8 @@ PETSC_EXTERN PetscErrorCode ElasticitySetMatType(Elasticity, MatType);
 /* Preallocated, values zero; BAIJ unless another type was set, marked symmetric; without a near null space */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
 PETSC_EXTERN PetscErrorCode ElasticitySetNearNullSpace(Elasticity, Mat);
-/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has not, and
-   the matrix is the one of the last call and unchanged since */
+/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has
+   not, and the matrix is the one of the last call and unchanged since */
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
 /* Whether no body's tangent depends on u; how often a body has been assembled into a tangent */
 PETSC_EXTERN PetscErrorCode ElasticityIsLinear(Elasticity, PetscBool *);
@@ -32,34 +33,44 @@ PETSC_EXTERN PetscErrorCode ElasticityGetAssemblies(Elasticity, PetscInt body, P
 PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
 /* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
 PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
-/* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference volume in a body
-   (PETSC_DECIDE: in every body) */
+/* Dead loads, added to a global vector [force]: -pressure x reference normal over a face; a force per reference
+   volume in a body (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
-/* A pressure on the deformed normal and area at u, and the symmetric part of its derivative, in a matrix from ElasticityCreateTangent(), or NULL */
-PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[], PetscReal pressure, Vec u, Vec force, Mat slope);
+/* A pressure on the deformed normal and area at u, and the symmetric part of its derivative, in a matrix from
+   ElasticityCreateTangent(), or NULL */
+PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[], PetscReal pressure, Vec u, Vec force,
+  Mat slope);
 PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[], Vec areas);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
-/* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area; the load of a traction with these resultants */
+/* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area;
+   the load of a traction with these resultants */
 PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);
-PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3], const PetscReal moment[3], const PetscReal point[3], Vec force);
-/* Stiffness of springs to the ground, one a row, in energy, force and tangent, and of springs between unknowns, in energy and force; NULL: none [force/length] */
+PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3],
+  const PetscReal moment[3], const PetscReal point[3], Vec force);
+/* Stiffness of springs to the ground, one a row, in energy, force and tangent, and of springs between unknowns, in
+   energy and force; NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness, Mat between);
-/* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient; fitted to a function of the
-   place, and set, NULL for none */
+/* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient;
+   fitted to a function of the place, and set, NULL for none */
 PETSC_EXTERN PetscErrorCode ElasticityGetCellCount(Elasticity, PetscInt *ncells);
-PETSC_EXTERN PetscErrorCode ElasticityFitTemperature(Elasticity, PetscInt body, PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[]);
+PETSC_EXTERN PetscErrorCode ElasticityFitTemperature(Elasticity, PetscInt                 body,
+  PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[]);
 PETSC_EXTERN PetscErrorCode ElasticitySetTemperature(Elasticity, const PetscReal fits[]);
-/* Lumped mass: integral of each node's shape function, or where that is negative of its square, scaled; for each of its 3 components [length^3] */
+/* Lumped mass: integral of each node's shape function, or where that is negative of its square, scaled; for each of
+   its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
-/* Fields to look at: stress at the nodes of the local section, by recovery, and at quadrature points; strain energy of cells per volume */
+/* Fields to look at: stress at the nodes of the local section, by recovery, and at quadrature points; strain energy
+   of cells per volume */
 PETSC_EXTERN PetscErrorCode ElasticityNodalStress(Elasticity, Vec u, PetscReal *stress[]);
-PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *npoints, PetscReal *places[], PetscReal *stress[]);
+PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *npoints, PetscReal *places[],
+  PetscReal *stress[]);
 PETSC_EXTERN PetscErrorCode ElasticityCellEnergy(Elasticity, Vec u, PetscReal *density[]);
 /* Principal values of a stress, xx yy zz xy yz zx, the largest first */
 PETSC_EXTERN PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3]);
-/* Discretization error in the energy norm, squared, estimated for each body; and for each local cell, unless cells is NULL [force length] */
+/* Discretization error in the energy norm, squared, estimated for each body; and for each local cell, unless cells is
+   NULL [force length] */
 PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal bodies[], PetscReal *cells[]);
 PETSC_EXTERN PetscErrorCode ElasticityDestroy(Elasticity *);
 

@@ -10,8 +10,8 @@
 
 /* Trilinear hexahedra, all of them */
 typedef enum {
-  ELEMENT_FULL,        /* full integration; locks as Poisson's ratio nears 1/2, and in bending */
-  ELEMENT_BBAR,        /* mean dilatation: the volume change is constant in an element (B-bar, F-bar at finite strain) */
+  ELEMENT_FULL, /* full integration; locks as Poisson's ratio nears 1/2, and in bending */
+  ELEMENT_BBAR, /* mean dilatation: the volume change is constant in an element (B-bar, F-bar at finite strain) */
   ELEMENT_INCOMPATIBLE /* incompatible modes: locks in neither way; small strain only */
 } ElementType;
 PETSC_EXTERN const char *const ElementTypes[];

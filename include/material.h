@@ -16,12 +16,15 @@ PETSC_EXTERN const char *const MaterialTypes[];
 
 typedef struct {
   MaterialType type;
-  PetscReal    young;                  /* Young's modulus E > 0; of laws with other constants about their stiffness, from MaterialSetScale() [force/length^2] */
-  PetscReal    poisson;                /* Poisson's ratio, -1 < nu < 1/2 */
-  PetscReal    c10, c01, bulk;         /* Mooney-Rivlin: of I1 and of I2, not negative; bulk modulus [force/length^2] */
-  PetscReal    youngs[3], poissons[3]; /* orthotropic: E1 E2 E3 [force/length^2]; nu12 nu23 nu13 */
-  PetscReal    shears[3], axes[2][3];  /* G12 G23 G13 [force/length^2]; first axis, and one with which it spans the first two; 0: x, y */
-  PetscReal    expansion[3];           /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
+  PetscReal young; /* Young's modulus E > 0; of laws with other constants about their stiffness, from MaterialSetScale()
+                      [force/length^2] */
+  PetscReal poisson;                /* Poisson's ratio, -1 < nu < 1/2 */
+  PetscReal c10, c01, bulk;         /* Mooney-Rivlin: of I1 and of I2, not negative; bulk modulus [force/length^2] */
+  PetscReal youngs[3], poissons[3]; /* orthotropic: E1 E2 E3 [force/length^2]; nu12 nu23 nu13 */
+  PetscReal shears[3],
+    axes[2][3]; /* G12 G23 G13 [force/length^2]; first axis, and one with which it spans the first two; 0: x, y */
+  PetscReal
+    expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
 } Material;
 
 /* What a law is evaluated with [force/length^2] */
@@ -36,11 +39,11 @@ typedef struct {
    A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j: small strains
    then keep all their digits.
 
-   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa and the dilatation theta; the isochoric
-   moduli of MaterialGetModuli() leave W_iso alone.
+   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa and the dilatation theta; the
+   isochoric moduli of MaterialGetModuli() leave W_iso alone.
 
-   Where the material is turned inside out (det F <= 0; linear laws do not know it) the energy is PETSC_INFINITY, and stress,
-   tangent and Cauchy stress return PETSC_FALSE and write nothing.
+   Where the material is turned inside out (det F <= 0; linear laws do not know it) the energy is PETSC_INFINITY, and
+   stress, tangent and Cauchy stress return PETSC_FALSE and write nothing.
 */
 typedef struct {
   PetscBool constant;  /* the tangent does not depend on H */

@@ -2,9 +2,10 @@
    Meshes: one DMPlex of hexahedra and tetrahedra for all bodies (disjoint components), distributed and refined.
 
    Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components per node, interleaved,
-   block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a body of order 2 also its edges, and of
-   hexahedra its facets and cells. Coordinates are the reference geometry.
+   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement
+   components per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its
+   vertices, those of a body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the
+   reference geometry.
 */
 #ifndef MESH_H
 #define MESH_H
@@ -48,9 +49,11 @@ PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
 /* Of the facets of this rank, from the first on, those that bound the bodies */
 PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
-/* Are the shape's parameters sound, or does the mesh file have the volume? Are the faces that the body cuts out of others sound? */
+/* Are the shape's parameters sound, or does the mesh file have the volume? Are the faces that the body cuts out of
+   others sound? */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
-/* Names of a body's faces, without the body's: the shape's, or the physical surfaces of the Gmsh file; then those that it cuts out of them */
+/* Names of a body's faces, without the body's: the shape's, or the physical surfaces of the Gmsh file; then those
+   that it cuts out of them */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
 /* Do the faces that a scene refers to have facets, and is every body held by displacements or contact? */
@@ -62,18 +65,23 @@ PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 4 vertices of a facet, counterclockwise seen from outside the body, the last of a triangle's twice; the 8 of a hexahedron in tensor order, x fastest */
+/* The 4 vertices of a facet, counterclockwise seen from outside the body, the last of a triangle's twice; the 8 of a
+   hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
-/* The nodes of a facet: 4 as above, or 9 with the edges and itself, of a triangle 3 or 6; of a hexahedron: 8, or 27, in tensor order; of a tetrahedron 4, or 10 */
+/* The nodes of a facet: 4 as above, or 9 with the edges and itself, of a triangle 3 or 6; of a hexahedron: 8, or 27,
+   in tensor order; of a tetrahedron 4, or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
-/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from outside, the last of a triangle's twice */
+/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from
+   outside, the last of a triangle's twice */
 #define MESH_MAX_FACET_PIECES 4
-PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
+PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n,
+  PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
 /* The corners that each node of a tetrahedron is between; values and derivatives of its shape functions */
 PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
-PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
+PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[],
+            PetscReal dN[3][MESH_MAX_NODES]);
 /* The integration points of a tetrahedron of 4 or 10 nodes, and their weights */
 PETSC_EXTERN void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[]);
 /* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
@@ -93,16 +101,20 @@ typedef struct {
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
-/* Fields of a mesh, global vectors, at points of this rank: nfields x 3 values a point; missing: points of all ranks that no cell is near */
-PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
+/* Fields of a mesh, global vectors, at points of this rank: nfields x 3 values a point; missing: points of all ranks
+   that no cell is near */
+PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints,
+  const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
 
 /* In which cells of a mesh are points? Of any cells, which need not be those of a DM */
 typedef struct _n_MeshLocator *MeshLocator;
-PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[]);
-PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *);
-PETSC_EXTERN PetscErrorCode    MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3]);
-PETSC_EXTERN PetscErrorCode    MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
-PETSC_EXTERN PetscErrorCode    MeshLocatorDestroy(MeshLocator *);
+PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[],
+     MeshPlace places[]);
+PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[],
+     MeshLocator *);
+PETSC_EXTERN PetscErrorCode MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3]);
+PETSC_EXTERN PetscErrorCode MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
+PETSC_EXTERN PetscErrorCode MeshLocatorDestroy(MeshLocator *);
 /* The points of a scene's probes; an error where one is in no body */
 PETSC_EXTERN PetscErrorCode MeshLocateProbes(DM, Scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[]);
 /* PETSCPARTITIONER type "metis" */

@@ -17,7 +17,10 @@
 #define PETSCAMGF_VERSION_MINOR    1
 #define PETSCAMGF_VERSION_SUBMINOR 0
 #define PETSCAMGF_VERSION_LT(major, minor, subminor) \
-  (PETSCAMGF_VERSION_MAJOR < (major) || (PETSCAMGF_VERSION_MAJOR == (major) && (PETSCAMGF_VERSION_MINOR < (minor) || (PETSCAMGF_VERSION_MINOR == (minor) && PETSCAMGF_VERSION_SUBMINOR < (subminor)))))
+  (PETSCAMGF_VERSION_MAJOR < (major) || \
+    (PETSCAMGF_VERSION_MAJOR == (major) && \
+      (PETSCAMGF_VERSION_MINOR < (minor) || \
+        (PETSCAMGF_VERSION_MINOR == (minor) && PETSCAMGF_VERSION_SUBMINOR < (subminor)))))
 #define PETSCAMGF_VERSION_GE(major, minor, subminor) (!PETSCAMGF_VERSION_LT(major, minor, subminor))
 
 #define PCAMGF      "amgf"

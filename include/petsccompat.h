@@ -1,4 +1,5 @@
-/* What differs between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of August 2026 (3.25). */
+/* What differs between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of
+   August 2026 (3.25). */
 #ifndef PETSCCOMPAT_H
 #define PETSCCOMPAT_H
 
@@ -56,7 +57,8 @@ typedef PetscErrorCodeFn AMGFOperation;
   #define TaoMonitorSet(tao, monitor, context, destroy) TaoSetMonitor(tao, monitor, context, destroy)
 #endif
 #if PETSC_VERSION_LT(3, 22, 0)
-  #define PetscOptionsCreateViewer(comm, options, prefix, name, viewer, format, set) PetscOptionsGetViewer(comm, options, prefix, name, viewer, format, set)
+  #define PetscOptionsCreateViewer(comm, options, prefix, name, viewer, format, set) \
+    PetscOptionsGetViewer(comm, options, prefix, name, viewer, format, set)
 #endif
 #if PETSC_VERSION_LT(3, 23, 0)
 typedef size_t PetscSegBufferCount;

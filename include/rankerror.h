@@ -1,6 +1,6 @@
 /*
-   What fails on one rank fails on all: work that is not collective, and may fail on some ranks only (the first one reads a file, or
-   has no memory for what it makes), stands between RankErrorBegin() and RankErrorEnd().
+   What fails on one rank fails on all: work that is not collective, and may fail on some ranks only (the first one
+   reads a file, or has no memory for what it makes), stands between RankErrorBegin() and RankErrorEnd().
 */
 #ifndef RANKERROR_H
 #define RANKERROR_H

@@ -20,7 +20,8 @@ typedef enum {
 } BodyShape;
 PETSC_EXTERN const char *const BodyShapes[];
 
-/* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to x) */
+/* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to
+   x) */
 typedef struct {
   PetscInt  axis;      /* 0, 1, 2: along x, y, z */
   PetscReal center[3]; /* a point on the axis [length] */
@@ -31,10 +32,10 @@ typedef struct {
 
 /* Prism over half an ellipse, or over the half of that on one side of its plane of symmetry */
 typedef struct {
-  PetscInt  axis;         /* of the prism: 0, 1, 2 */
-  PetscInt  depth;        /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
-  PetscInt  half;         /* direction from the plane of symmetry to the half that is meant; PETSC_DECIDE: both halves */
-  PetscReal center[3];    /* a point on the line where the flat side meets the plane of symmetry [length] */
+  PetscInt  axis;      /* of the prism: 0, 1, 2 */
+  PetscInt  depth;     /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
+  PetscInt  half;      /* direction from the plane of symmetry to the half that is meant; PETSC_DECIDE: both halves */
+  PetscReal center[3]; /* a point on the line where the flat side meets the plane of symmetry [length] */
   PetscReal semi_axes[2]; /* along depth, and across [length] */
   PetscReal extent[2];    /* from, to along the axis [length] */
 } SceneHalfEllipse;
@@ -68,21 +69,21 @@ typedef struct {
   PetscReal lower[3], upper[3]; /* bounds of the facets' centroids, may be infinite [length] */
 } SceneSubface;
 
-/* Refinement level 0 and the shape. An octant's patches are its cells along x, y and z; a half ellipse's are those of its
-   core along depth and across half of it, and those of the ring around the core. */
+/* Refinement level 0 and the shape. An octant's patches are its cells along x, y and z; a half ellipse's are those of
+   its core along depth and across half of it, and those of the ring around the core. */
 typedef struct {
-  char            *name;
-  BodyShape        shape;
-  PetscReal        lower[3], upper[3]; /* box: corners [length] */
-  PetscInt         cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
-  Material         material;
-  ElementType      element;
-  PetscInt         order;      /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
-  PetscReal        grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells; half_ellipse:
-                                          of the core along depth and across, of the ring to the arc; 0 stands for 1 */
-  PetscInt         even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt         layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
-  PetscBool        curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  char       *name;
+  BodyShape   shape;
+  PetscReal   lower[3], upper[3]; /* box: corners [length] */
+  PetscInt    cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
+  Material    material;
+  ElementType element;
+  PetscInt  order; /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
+  PetscReal grading[3];     /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
+                               half_ellipse:     core along depth, core across, ring to the arc; 0: 1 */
+  PetscInt         even[3]; /* equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt         layers;  /* half_ellipse: cells along the axis; octants: cells across the shell */
+  PetscBool        curved;  /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
   SceneTubeArc     tube;
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
@@ -106,16 +107,18 @@ typedef enum {
 #define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
 
 typedef struct {
-  char             *name;
-  char             *face;        /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>" SCENE_WHOLE_BODY */
-  PetscBool         fixed[3];    /* which components are prescribed */
-  PetscReal         value[3];    /* prescribed displacement at factor 1 [length] */
-  PetscBool         moves;       /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
-  PetscReal         rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
-  PetscReal         center[3];   /* which moves by value [length] */
-  PetscBool         released[6]; /* of a rigid body: its motions along, and about, the axes through the center that are free, for forces to drive */
-  PetscBool         inclined;    /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
-  PetscReal         normal[3];   /* of any length */
+  char *name;
+  char *face;         /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>"
+                         SCENE_WHOLE_BODY */
+  PetscBool fixed[3]; /* which components are prescribed */
+  PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
+  PetscBool moves;    /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
+  PetscReal rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
+  PetscReal center[3];   /* which moves by value [length] */
+  PetscBool released[6]; /* of a rigid body: its motions along, and about, the axes through the center that are free,
+                            for forces to drive */
+  PetscBool inclined;  /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
+  PetscReal normal[3]; /* of any length */
   DisplacementPlace at;
   PetscInt          body;           /* of a point or an edge */
   PetscReal         from[3], to[3]; /* ends of the edge; of a point the same [length] */
@@ -232,28 +235,29 @@ typedef struct {
   SceneTraction     *tractions;
   PetscInt           nsprings;
   SceneSpring       *springs;
-  PetscReal          weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube root of the volume; 0: they are not */
-  PetscInt           nforces;
-  SceneBodyForce    *forces;
-  PetscInt           ntemperatures;
-  SceneTemperature  *temperatures;
-  PetscInt           npairs;
-  SceneContactPair  *pairs;
-  PetscInt           nties;
-  SceneTie          *ties;
-  PetscInt           nrefinements;
-  SceneRefinement   *refinements;
-  PetscInt           nprobes;
-  SceneProbe        *probes;
-  PetscInt           nsteps; /* load steps, at least 1 */
-  PetscInt           nramps; /* at least 1: ramp 0 is the load itself, for whatever names no ramp */
-  SceneRamp         *ramps;
-  PetscInt           refine; /* uniform refinements of level 0 */
-  StepModel          model;
-  PetscInt           contact_updates;     /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
-  PetscInt           displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
-  PetscInt           noptions;            /* of the solver */
-  SceneOption       *options;
+  PetscReal weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube
+                             root of the volume; 0: they are not */
+  PetscInt          nforces;
+  SceneBodyForce   *forces;
+  PetscInt          ntemperatures;
+  SceneTemperature *temperatures;
+  PetscInt          npairs;
+  SceneContactPair *pairs;
+  PetscInt          nties;
+  SceneTie         *ties;
+  PetscInt          nrefinements;
+  SceneRefinement  *refinements;
+  PetscInt          nprobes;
+  SceneProbe       *probes;
+  PetscInt          nsteps; /* load steps, at least 1 */
+  PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for whatever names no ramp */
+  SceneRamp        *ramps;
+  PetscInt          refine; /* uniform refinements of level 0 */
+  StepModel         model;
+  PetscInt contact_updates; /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
+  PetscInt displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
+  PetscInt noptions;            /* of the solver */
+  SceneOption *options;
 } * Scene;
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
@@ -262,7 +266,8 @@ PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time,
 /* An expression of the place */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
-/* The text of a scene as it is viewed; what sets another one apart from such a text, but for how the load goes on, mesh and solver */
+/* The text of a scene as it is viewed; what sets another one apart from such a text, but for how the load goes on,
+   mesh and solver */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);
 PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char difference[], size_t length);
 /* What will be simulated, in words; dm: the scene's mesh */

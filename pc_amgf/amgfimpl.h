@@ -28,8 +28,9 @@ typedef struct {
 
 /* When to rebuild the AMG */
 typedef struct {
-  PetscInt  every; /* as PCAMGFSetAMGLag() */
-  PetscReal ratio; /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
+  PetscInt every; /* as PCAMGFSetAMGLag() */
+  PetscReal
+    ratio; /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
   PetscBool built;
   PetscInt  age;      /* changed operators since the last rebuild */
   AMGFStamp seen;     /* operator at the last set-up */
@@ -118,7 +119,8 @@ typedef struct {
 /* The files of this folder, each after those it builds on, and what they define for others */
 
 /* log.c */
-PETSC_INTERN PetscLogEvent  PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp, PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
+PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
+  PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
 PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
 /* stamp.c */
 PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);

@@ -12,7 +12,8 @@ static void PCAMGFRequestSetUp_Private(PC pc)
 static PetscErrorCode PCAMGFSetCycle_AMGF(PC pc, PCAMGFCycle cycle)
 {
   PetscFunctionBegin;
-  PetscCheck(cycle >= PC_AMGF_BFB && cycle <= PC_AMGF_ADDITIVE, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "Unknown cycle %d", (int)cycle);
+  PetscCheck(cycle >= PC_AMGF_BFB && cycle <= PC_AMGF_ADDITIVE, PetscObjectComm((PetscObject)pc),
+    PETSC_ERR_ARG_OUTOFRANGE, "Unknown cycle %d", (int)cycle);
   ((PC_AMGF *)pc->data)->cycle = cycle;
   PetscFunctionReturn(0);
 }
@@ -77,7 +78,8 @@ static PetscErrorCode PCAMGFSetFilterOptional_AMGF(PC pc, PetscBool optional)
 static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
 {
   PetscFunctionBegin;
-  PetscCheck(lag >= AMGF_LAG_NEVER, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "The AMG lag must be -1 (never rebuild), 0 (automatic) or positive, not %" PetscInt_FMT, lag);
+  PetscCheck(lag >= AMGF_LAG_NEVER, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "The AMG lag must be -1 (never rebuild), 0 (automatic) or positive, not %" PetscInt_FMT, lag);
   ((PC_AMGF *)pc->data)->lag.every = lag;
   PetscFunctionReturn(0);
 }
@@ -118,7 +120,8 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetCycle_C", PCAMGFSetCycle_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCycle_C", PCAMGFGetCycle_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterIS_C", PCAMGFSetFilterIS_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
+  PetscCall(
+    PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterActive_C", PCAMGFSetFilterActive_AMGF));
   PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterOptional_C", PCAMGFSetFilterOptional_AMGF));
@@ -137,12 +140,14 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
 
 PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
 {
-  static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C", "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C",
-                                      "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C", "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C", "PCAMGFSetFactor_C",
-                                      "PCAMGFExpect_C", "PCAMGFGetFactored_C", "PCAMGFSetFilterRanks_C", "PCAMGFGetFilterPivots_C"};
+  static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C",
+    "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C", "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C",
+    "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C",
+    "PCAMGFSetFactor_C", "PCAMGFExpect_C", "PCAMGFGetFactored_C", "PCAMGFSetFilterRanks_C", "PCAMGFGetFilterPivots_C"};
 
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++) PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++)
+    PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
   PetscFunctionReturn(0);
 }
 
@@ -161,7 +166,8 @@ PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
   Level: intermediate
 
   Note:
-  `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not satisfy; see `PCAMGFSetAMGLag()`.
+  `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not satisfy;
+see `PCAMGFSetAMGLag()`.
 
 .seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFGetCycle()`
 @*/
@@ -208,15 +214,18 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 
   Options Database Keys:
 + -pc_amgf_filter_file <file> - binary file that `ISLoad()` reads the set from at the first `PCSetUp()`; by default none
-- -pc_amgf_detect <0>         - at every set-up, the unknowns whose diagonal entry exceeds this many times the median of the positive diagonal entries; 0: off
+- -pc_amgf_detect <0>         - at every set-up, the unknowns whose diagonal entry exceeds this many times the median of
+the positive diagonal entries; 0: off
 
   Level: intermediate
 
   Notes:
   The set is the union over all ranks: entries may repeat, need no order, and may name rows owned by other ranks, so
-  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error of `PCSetUp()`.
+  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error of
+`PCSetUp()`.
 
-  Takes precedence over an object composed on the operator, then a file, then detection. Replaces a `Mat` set by `PCAMGFSetFilterInterpolation()`.
+  Takes precedence over an object composed on the operator, then a file, then detection. Replaces a `Mat` set by
+`PCAMGFSetFilterInterpolation()`.
 
   If the set of unknowns and the operator's nonzero pattern stay, the symbolic factorization is kept.
 
@@ -245,7 +254,8 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
   Notes:
   `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
 
-  Takes precedence over an object composed on the operator, then a file, then detection. Replaces an `IS` set by `PCAMGFSetFilterIS()`.
+  Takes precedence over an object composed on the operator, then a file, then detection. Replaces an `IS` set by
+`PCAMGFSetFilterIS()`.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
 @*/
@@ -294,8 +304,9 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   Level: intermediate
 
   Notes:
-  For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor solved. What was set up before is kept: when the
-  filter is switched on again, and subspace and nonzero pattern have stayed, the symbolic factorization is reused.
+  For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor
+solved. What was set up before is kept: when the filter is switched on again, and subspace and nonzero pattern have
+stayed, the symbolic factorization is reused.
 
   `PCAMGFGetFilterSize()` gives the dimension of the last set-up with the filter on.
 
@@ -317,13 +328,14 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of it on the standard error stream;
-             `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
+it on the standard error stream; `PETSC_TRUE`: it does not
 
   Level: intermediate
 
   Note:
-  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty is never warned of.
+  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty is
+never warned of.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
 @*/
@@ -352,12 +364,14 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   Level: intermediate
 
   Notes:
-  The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make indefinite; automatic for the other cycles.
+  The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make
+indefinite; automatic for the other cycles.
 
-  With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual reduction
-  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry of the operator outside the subspace has
-  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was
-  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next changed operator.
+  With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
+reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal
+entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has failed. The
+iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was built;
+what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
 @*/
@@ -411,7 +425,8 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
   Level: advanced
 
   Note:
-  A type set on it replaces the default, BoomerAMG, and PCAMGF's defaults for it. It reads its options, with prefix `-amgf_amg_`, at the first `PCSetUp()`.
+  A type set on it replaces the default, BoomerAMG, and PCAMGF's defaults for it. It reads its options, with prefix
+`-amgf_amg_`, at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`
 @*/
@@ -442,7 +457,8 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
   Level: advanced
 
   Note:
-  A type set on it replaces the default, `KSPPREONLY` with Cholesky, or LU with complex scalars. It reads its options, with prefix `-amgf_filter_`, at the first `PCSetUp()`.
+  A type set on it replaces the default, `KSPPREONLY` with Cholesky, or LU with complex scalars. It reads its options,
+with prefix `-amgf_filter_`, at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetAMGPC()`
 @*/

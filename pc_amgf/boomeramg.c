@@ -42,7 +42,8 @@ static PetscErrorCode BoomerAMGReadOptions(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCHYPRE has no calls for most parameters, so its defaults pass through the options data base and are taken out again */
+/* PCHYPRE has no calls for most parameters, so its defaults pass through the options data base and are taken out
+   again */
 static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMGOption defaults[])
 {
   PetscBool   *set;
@@ -65,11 +66,13 @@ static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMG
 }
 
 /*
-  PCAMGFConfigureBoomerAMG_Private - makes a PC hypre's BoomerAMG for a matrix of block size bs, with the options of its prefix except -pc_type
+  PCAMGFConfigureBoomerAMG_Private - makes a PC hypre's BoomerAMG for a matrix of block size bs, with the options of
+  its prefix except -pc_type
 
-  One sweep of l1 Gauss-Seidel, forward down and backward up, which makes B symmetric and A < 2 B^-1; coarsening and interpolation for
-  three-dimensional problems. Vector problems are coarsened function by function (the unknown approach), which PCHYPRE does by itself
-  for a block size > 1 as long as nodal coarsening is off; a larger strength threshold suits three displacements.
+  One sweep of l1 Gauss-Seidel, forward down and backward up, which makes B symmetric and A < 2 B^-1; coarsening and
+  interpolation for three-dimensional problems. Vector problems are coarsened function by function (the unknown
+  approach), which PCHYPRE does by itself for a block size > 1 as long as nodal coarsening is off; a larger strength
+  threshold suits three displacements.
 */
 PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
 {
@@ -77,13 +80,13 @@ PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
   PetscBool       all;
   PetscOptions    options;
   BoomerAMGOption defaults[] = {
-     {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
-     {"-pc_hypre_boomeramg_interp_type", "ext+i"},
-     {"-pc_hypre_boomeramg_P_max", "4"},
-     {"-pc_hypre_boomeramg_agg_nl", "0"},
-     {"-pc_hypre_boomeramg_strong_threshold", "0.25"},
-     {"-pc_hypre_boomeramg_relax_type_down", "l1-Gauss-Seidel"},
-     {"-pc_hypre_boomeramg_relax_type_up", "backward-l1-Gauss-Seidel"},
+    {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
+    {"-pc_hypre_boomeramg_interp_type", "ext+i"},
+    {"-pc_hypre_boomeramg_P_max", "4"},
+    {"-pc_hypre_boomeramg_agg_nl", "0"},
+    {"-pc_hypre_boomeramg_strong_threshold", "0.25"},
+    {"-pc_hypre_boomeramg_relax_type_down", "l1-Gauss-Seidel"},
+    {"-pc_hypre_boomeramg_relax_type_up", "backward-l1-Gauss-Seidel"},
   };
   char full[PETSC_MAX_OPTION_NAME];
 

@@ -1,7 +1,7 @@
 /*
-   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^H A (thin); A_w = R P; Q = P A_w^-1 P^H.
-   A is Hermitian, so the adjoint of each cycle is the same cycle with B^H and Q^H, and its transpose is M^T r = conj(M^H conj(r)).
-   With real scalars, conjugation does nothing.
+   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^H A (thin); A_w = R P; Q = P
+   A_w^-1 P^H. A is Hermitian, so the adjoint of each cycle is the same cycle with B^H and Q^H, and its transpose is
+   M^T r = conj(M^H conj(r)). With real scalars, conjugation does nothing.
 */
 #include "amgfimpl.h"
 #include "guard.h"
@@ -14,8 +14,9 @@ static PetscErrorCode CycleConjugate(Vec x)
   PetscFunctionReturn(0);
 }
 
-/* PCApply() of the AMG. An error of its library may be one rank's alone: z is zero there then, and the PC says that it has failed, which all ranks hear of where they
-   next reduce what came of it. So it is where the set-up of the AMG has failed: KSPs go on to here before they look. */
+/* PCApply() of the AMG. An error of its library may be one rank's alone: z is zero there then, and the PC says that
+   it has failed, which all ranks hear of where they next reduce what came of it. So it is where the set-up of the AMG
+   has failed: KSPs go on to here before they look. */
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
 {
   PC_AMGF       *amgf   = (PC_AMGF *)pc->data;
@@ -46,7 +47,8 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
   amgf->counts.amg_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_AMGApply, pc, r, z, 0));
   if (adjoint) {
-    /* hypre's transposed cycle relaxes by Jacobi only and leaves out every other smoother; PCAMGF asks for a symmetric B anyway */
+    /* hypre's transposed cycle relaxes by Jacobi only and leaves out every other smoother; PCAMGF asks for a
+       symmetric B anyway */
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
     if (hypre) adjoint = PETSC_FALSE;
   }
@@ -122,8 +124,7 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscCall(CycleSolveFilter(pc, adjoint));
   PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   if (A == pc->pmat) PetscCall(CycleSubtractFiltered(amgf, work, residual));
-  else { /* R belongs to the Pmat: mixing the two would lose the symmetry */
-    PetscCall(MatMult(A, z, work));
+  else { /* R belongs to the Pmat: mixing the two would lose the symmetry */ PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
   PetscCall(CycleApplyAMG(pc, adjoint, residual, work));
@@ -131,8 +132,8 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A y) = P^H r_1 - R y.
-   P^H r_1 vanishes if A_w is solved exactly. */
+/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A
+   y) = P^H r_1 - R y. P^H r_1 vanishes if A_w is solved exactly. */
 static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf     = (PC_AMGF *)pc->data;

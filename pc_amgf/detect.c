@@ -2,7 +2,8 @@
 #include "amgfimpl.h"
 
 /*
-  Median of the positive diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every partition gives the same value.
+  Median of the positive diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every
+  partition gives the same value.
 */
 static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
 {
@@ -33,7 +34,8 @@ static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar 
 }
 
 /*
-  PCAMGFDetectRows_Private - owned rows of A whose diagonal entry exceeds ratio times the median of the positive diagonal entries
+  PCAMGFDetectRows_Private - owned rows of A whose diagonal entry exceeds ratio times the median of the positive
+  diagonal entries
 */
 PetscErrorCode PCAMGFDetectRows_Private(Mat A, PetscReal ratio, IS *rows)
 {

@@ -3,8 +3,8 @@
 #include "mumps.h"
 
 /*
-  PCAMGFSetDirectSolver_Private - Cholesky: by MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every rank. PETSc has no Hermitian Cholesky by
-  MUMPS, so complex numbers take LU.
+  PCAMGFSetDirectSolver_Private - Cholesky: by MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every
+  rank. PETSc has no Hermitian Cholesky by MUMPS, so complex numbers take LU.
 
   Output Parameter:
 . mumps - whether it is by MUMPS

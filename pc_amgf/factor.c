@@ -1,6 +1,7 @@
 /*
-   B by a Cholesky factorization of the operator in place of the AMG: what that would take, by MUMPS's analysis, whether it is the cheaper of
-   the two for what is said to come, and the factorization itself. The estimates are of counts, not of clocks, so that a run does the same twice.
+   B by a Cholesky factorization of the operator in place of the AMG: what that would take, by MUMPS's analysis,
+   whether it is the cheaper of the two for what is said to come, and the factorization itself. The estimates are of
+   counts, not of clocks, so that a run does the same twice.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
@@ -19,7 +20,8 @@ PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
   PetscFunctionReturn(0);
 }
 
-/* The operator as MUMPS takes a symmetric matrix; NULL where nothing of the kind is there. A copy may be said to be positive definite. */
+/* The operator as MUMPS takes a symmetric matrix; NULL where nothing of the kind is there. A copy may be said to be
+   positive definite. */
 static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
 {
   PetscBool baij, mumps;
@@ -64,8 +66,9 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
   PetscCall(AMGFMumpsGetRinfog(f->F, 1, &f->flops));
   PetscCall(AMGFMumpsGetInfog(f->F, 20, &entries));
   PetscCall(AMGFMumpsGetInfog(f->F, 17, &memory));
-  f->entries = entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS counts large ones in millions, with a minus */
-  f->memory  = 1e6 * memory;
+  f->entries =
+    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS counts large ones in millions, with a minus */
+  f->memory = 1e6 * memory;
   if (error) f->flops = f->entries = f->memory = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -76,7 +79,8 @@ static PetscReal FactorMachineMemory(void)
   return (PetscReal)sysconf(_SC_PHYS_PAGES) * (PetscReal)sysconf(_SC_PAGESIZE);
 }
 
-/* Whether BLAS is one that was written for the processor: the reference implementation takes ten times as long for a product of matrices */
+/* Whether BLAS is one that was written for the processor: the reference implementation takes ten times as long for a
+   product of matrices */
 static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 {
   const PetscBLASInt n   = 192;
@@ -99,13 +103,14 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
   PetscFunctionReturn(0);
 }
 
-/* Seconds of either solver on one core, as measured on elastic bodies of 2,000 to 200,000 unknowns; ranks share the work alike */
+/* Seconds of either solver on one core, as measured on elastic bodies of 2,000 to 200,000 unknowns; ranks share the
+   work alike */
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const AMGFFactor *f        = &((PC_AMGF *)pc->data)->factor;
   const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* an entry of the matrix */
-  const PetscReal   cached       = 2e6;                          /* entries; of far more an application takes twice as long */
-  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9;         /* an entry of the factors */
+  const PetscReal   cached       = 2e6;                  /* entries; of far more an application takes twice as long */
+  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* an entry of the factors */
   MatInfo           info;
   PetscReal         rate;
   PetscBool         half;
@@ -122,7 +127,8 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
   PetscFunctionReturn(0);
 }
 
-/* What -pc_amgf_factor auto goes by: whether the factorization fits, and takes less than the AMG for as many applications as are to come */
+/* What -pc_amgf_factor auto goes by: whether the factorization fits, and takes less than the AMG for as many
+   applications as are to come */
 static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal solves, PetscBool *cheaper)
 {
   PC_AMGF        *amgf  = (PC_AMGF *)pc->data;
@@ -136,12 +142,18 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   factor   = costs.factor + solves * costs.solve;
   amg      = costs.setup + applications * costs.apply;
   *cheaper = (PetscBool)(f->memory < room && factor < amg);
-  if (f->memory >= room) PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "a factorization would take %.0f MB, more than %g of the machine's memory", (double)(f->memory / 1e6), (double)f->share));
-  else PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "estimated %.2g s instead of %.2g s with %s", (double)(*cheaper ? factor : amg), (double)(*cheaper ? amg : factor), *cheaper ? "AMG" : "a factorization"));
+  if (f->memory >= room)
+    PetscCall(
+      PetscSNPrintf(f->why, sizeof(f->why), "a factorization would take %.0f MB, more than %g of the machine's memory",
+        (double)(f->memory / 1e6), (double)f->share));
+  else
+    PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "estimated %.2g s instead of %.2g s with %s",
+      (double)(*cheaper ? factor : amg), (double)(*cheaper ? amg : factor), *cheaper ? "AMG" : "a factorization"));
   PetscFunctionReturn(0);
 }
 
-/* Chooses B for what is to come with the operator that is set: so many applications of an AMG, or so many solves with factors */
+/* Chooses B for what is to come with the operator that is set: so many applications of an AMG, or so many solves with
+   factors */
 static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solves)
 {
   PC_AMGF        *amgf    = (PC_AMGF *)pc->data;
@@ -200,7 +212,8 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PetscFunctionBegin;
   PetscCall(PCReset(amgf->amg));
   PetscCall(FactorTakeMatrix(pc->pmat, &A));
-  PetscCheck(A, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "-pc_amgf_factor needs real scalars, MUMPS, and an operator of type AIJ, BAIJ or SBAIJ");
+  PetscCheck(A, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
+    "-pc_amgf_factor needs real scalars, MUMPS, and an operator of type AIJ, BAIJ or SBAIJ");
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
   if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
@@ -256,7 +269,8 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 
   Options Database Keys:
 + -pc_amgf_factor <false>     - `false`, `true` or `auto`
-- -pc_amgf_factor_share <0.4> - auto: share of the machine's memory, taken to be that of all ranks, which the factors may take by MUMPS's estimate
+- -pc_amgf_factor_share <0.4> - auto: share of the machine's memory, taken to be that of all ranks, which the factors
+may take by MUMPS's estimate
 
   Level: intermediate
 
@@ -277,7 +291,8 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 }
 
 /*@
-  PCAMGFExpect - tells how often the preconditioner of the present operator will be applied, so that `PC_AMGF_FACTOR_AUTO` can choose
+  PCAMGFExpect - tells how often the preconditioner of the present operator will be applied, so that
+`PC_AMGF_FACTOR_AUTO` can choose
 
   Collective
 
@@ -289,9 +304,10 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the AMG by the entries of the operator. Call it before the
-  first `PCSetUp()`, and again when more is known: a change from the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the
-  pattern of the operator stays. Operators of more than 500,000 unknowns keep the AMG.
+  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the
+AMG by the entries of the operator. Call it before the first `PCSetUp()`, and again when more is known: a change from
+the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the pattern of the operator
+stays. Operators of more than 500,000 unknowns keep the AMG.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/

@@ -1,6 +1,7 @@
 /*
-   The filtered system on the first few ranks. Its factors are small: shared by all ranks, their messages would take longer than the arithmetic. A PCSHELL in
-   the filter's KSP moves A_w and the vectors; the direct solver on those ranks reads the options of the filter's prefix.
+   The filtered system on the first few ranks. Its factors are small: shared by all ranks, their messages would take
+   longer than the arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors; the direct solver on those
+   ranks reads the options of the filter's prefix.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
@@ -121,7 +122,8 @@ static PetscErrorCode FewRanksShareFailure(PC shell, const AMGFFewRanks *few)
   if (few->pc) PetscCall(PCGetFailedReason(few->pc, &reason));
   code = (int)reason;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)shell)));
-  PetscCheck(!code || !shell->erroriffailure, PetscObjectComm((PetscObject)shell), PETSC_ERR_NOT_CONVERGED, "The factorization of the filtered matrix failed: %s", PCFailedReasons[code]);
+  PetscCheck(!code || !shell->erroriffailure, PetscObjectComm((PetscObject)shell), PETSC_ERR_NOT_CONVERGED,
+    "The factorization of the filtered matrix failed: %s", PCFailedReasons[code]);
   PetscCall(PCSetFailedReason(shell, (PCFailedReason)code));
   PetscFunctionReturn(0);
 }
@@ -228,14 +230,15 @@ PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC pc, PetscInt n)
   AMGFFewRanks *few = &((PC_AMGF *)pc->data)->few;
 
   PetscFunctionBegin;
-  PetscCheck(n >= 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_filter_ranks must be positive, or 0 for as many as the size asks for, not %" PetscInt_FMT, n);
+  PetscCheck(n >= 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_filter_ranks must be positive, or 0 for as many as the size asks for, not %" PetscInt_FMT, n);
   few->wanted = n;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
 {
-  PC_AMGF      *amgf = (PC_AMGF *)pc->data;
+  PC_AMGF      *amgf   = (PC_AMGF *)pc->data;
   PetscBool     known  = PETSC_FALSE;
   MatSolverType solver = NULL;
   Mat           F;
@@ -271,7 +274,8 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
   Level: advanced
 
   Notes:
-  Of the default solver, a factorization by MUMPS. A solver that the user chose for the filter, with `-amgf_filter_pc_type` or on its `KSP`, has all ranks.
+  Of the default solver, a factorization by MUMPS. A solver that the user chose for the filter, with
+`-amgf_filter_pc_type` or on its `KSP`, has all ranks.
 
   The factors of some thousand rows are of little work: on many ranks it is their messages that take the time.
 
@@ -295,7 +299,8 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 . pc - the preconditioner, of type `PCAMGF`, after its set-up
 
   Output Parameter:
-. negative - their number, that of negative eigenvalues of P^T A P; -1 where it is not known, for it was not factored by Cholesky with MUMPS
+. negative - their number, that of negative eigenvalues of P^T A P; -1 where it is not known, for it was not factored by
+Cholesky with MUMPS
 
   Level: advanced
 

@@ -64,7 +64,8 @@ PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
   if (!reuse) PetscCall(PCAMGFResetGalerkin_Private(amgf));
   if (amgf->sub.P) PetscCall(GalerkinFromInterpolation(pc, reuse));
   else PetscCall(GalerkinFromRows(pc, reuse));
-  /* the factorization may drop the pivoting; PETSc takes MAT_SPD for symmetric, too, which a complex Hermitian matrix is not */
+  /* the factorization may drop the pivoting; PETSc takes MAT_SPD for symmetric, too, which a complex Hermitian matrix
+     is not */
   PetscCall(MatSetOption(amgf->Aw, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE));
   if (!amgf->rc) {
     PetscCall(MatCreateVecs(amgf->Aw, &amgf->ec, &amgf->rc));

@@ -2,9 +2,10 @@
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* Takes errors of libraries for itself, with what is said of them; others go the way they went before it was pushed. PETSc calls it at
-   every level that an error passes. */
-static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
+/* Takes errors of libraries for itself, with what is said of them; others go the way they went before it was pushed.
+   PETSc calls it at every level that an error passes. */
+static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file,
+  PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
 {
   AMGFGuard *guard = (AMGFGuard *)ctx;
 
@@ -33,7 +34,8 @@ static PetscErrorCode GuardClearHypre(void)
 }
 
 /*
-  PCAMGFGuardBegin_Private - before a call, with the right-hand side b where it has one, else NULL, whose error goes to PCAMGFGuardEnd_Private() and nowhere else
+  PCAMGFGuardBegin_Private - before a call, with the right-hand side b where it has one, else NULL, whose error goes
+  to PCAMGFGuardEnd_Private() and nowhere else
 */
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
@@ -46,7 +48,8 @@ PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 }
 
 /*
-  PCAMGFGuardEnd_Private - after it: *failed is true, on this rank, where a library met the error; any other error goes on
+  PCAMGFGuardEnd_Private - after it: *failed is true, on this rank, where a library met the error; any other error
+  goes on
 */
 PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, PetscBool *failed)
 {

@@ -1,7 +1,8 @@
 /* Defaults and options of the inner solvers */
 #include "amgfimpl.h"
 
-/* PCGAMG restricts with P^T: of a complex operator that makes a Hermitian B for as long as P is real, which it is unless it is smoothed */
+/* PCGAMG restricts with P^T: of a complex operator that makes a Hermitian B for as long as P is real, which it is
+   unless it is smoothed */
 static PetscErrorCode InnerConfigureGAMG(PC amg)
 {
   PetscFunctionBegin;
@@ -72,7 +73,8 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
 }
 
 /*
-  PCAMGFPrefixInner_Private - gives the inner solvers their prefixes behind that of the preconditioner, which may change until the set-up
+  PCAMGFPrefixInner_Private - gives the inner solvers their prefixes behind that of the preconditioner, which may
+  change until the set-up
 */
 PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
 {

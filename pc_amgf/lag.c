@@ -1,7 +1,8 @@
 /* When to rebuild the AMG */
 #include "amgfimpl.h"
 
-/* Iterations a solve may take beyond the allowed growth before it counts: they are whole numbers, and small ones jump */
+/* Iterations a solve may take beyond the allowed growth before it counts: they are whole numbers, and small ones jump
+ */
 #define LAG_FREE_ITERATIONS 2
 
 /* bfb needs A < 2 B^-1, which an old B does not promise; the other cycles are positive definite with any B */
@@ -11,7 +12,8 @@ PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
   return amgf->cycle == PC_AMGF_BFB ? 1 : AMGF_LAG_AUTO;
 }
 
-/* Largest ratio, on this rank, by which a diagonal entry outside the active subspace has grown or shrunk since the AMG was built */
+/* Largest ratio, on this rank, by which a diagonal entry outside the active subspace has grown or shrunk since the
+   AMG was built */
 static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
 {
   PetscInt           n, start, nrows = 0, k = 0;
@@ -161,9 +163,10 @@ static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 }
 
 /*
-   Tolerances vary from solve to solve (inexact Newton), so what is compared with the first solve after the last rebuild is
-   iterations per digit of residual reduction; plain iterations where the residual is unknown. The first digits come cheaply: a reference
-   of a few digits is replaced by the first solve of many, unless that one is out of all proportion.
+   Tolerances vary from solve to solve (inexact Newton), so what is compared with the first solve after the last
+   rebuild is iterations per digit of residual reduction; plain iterations where the residual is unknown. The first
+   digits come cheaply: a reference of a few digits is replaced by the first solve of many, unless that one is out of
+   all proportion.
 */
 static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
@@ -192,7 +195,8 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(LagGetDigits(ksp, lag->history, &digits));
-  /* an AMG of the very operator may be to blame, too: one that is not definite; the next operator may be. Not for a failed subspace. */
+  /* an AMG of the very operator may be to blame, too: one that is not definite; the next operator may be. Not for a
+     failed subspace. */
   if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0 || reason != KSP_DIVERGED_PC_FAILED);
   else if (its > 0 && lag->its == 0) LagSetReference(lag, its, digits);
   else if (its > 0 && lag->age > 0) lag->overdue = LagTooManyIterations(lag, its, digits);

@@ -1,6 +1,7 @@
 /*
-   Whether the PETSc that runs is one like that the plugin was compiled with. The loader takes any: a plugin of 64-bit integers in a program of
-   32-bit ones finds every function it calls, and computes garbage. What the running library's numbers are is what it writes where it stores one.
+   Whether the PETSc that runs is one like that the plugin was compiled with. The loader takes any: a plugin of 64-bit
+   integers in a program of 32-bit ones finds every function it calls, and computes garbage. What the running
+   library's numbers are is what it writes where it stores one.
 */
 #include "amgfimpl.h"
 
@@ -25,12 +26,16 @@ static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const
 
   PetscFunctionBegin;
   while (running < sizeof(number->bytes) && number->bytes[running] == 0) running++;
-  PetscCheck(running == compiled, PETSC_COMM_SELF, PETSC_ERR_LIB, "libpetscamgf was compiled with a PETSc whose %s has %d bytes, but runs in one whose %s has %d: build it with the program's PETSc", type, (int)compiled, type, (int)running);
+  PetscCheck(running == compiled, PETSC_COMM_SELF, PETSC_ERR_LIB,
+    "libpetscamgf was compiled with a PETSc whose %s has %d bytes, but runs in one whose %s has %d: build it with the "
+    "program's PETSc",
+    type, (int)compiled, type, (int)running);
   PetscFunctionReturn(0);
 }
 
 /*
-  PCAMGFCheckLibrary_Private - an error unless integers, precision, scalars and release of the running PETSc are those the plugin was compiled with
+  PCAMGFCheckLibrary_Private - an error unless integers, precision, scalars and release of the running PETSc are those
+  the plugin was compiled with
 */
 PetscErrorCode PCAMGFCheckLibrary_Private(void)
 {
@@ -48,6 +53,9 @@ PetscErrorCode PCAMGFCheckLibrary_Private(void)
   PetscCall(PetscOptionsStringToScalar("0", &number.scalar));
   PetscCall(LibraryCheckSize("PetscScalar", sizeof(PetscScalar), &number));
   PetscCall(PetscGetVersionNumber(&major, &minor, &subminor, &release));
-  PetscCheck(major == PETSC_VERSION_MAJOR && minor == PETSC_VERSION_MINOR, PETSC_COMM_SELF, PETSC_ERR_LIB, "libpetscamgf was compiled with PETSc %d.%d, but runs in PETSc %" PetscInt_FMT ".%" PetscInt_FMT ": build it with the program's PETSc", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, major, minor);
+  PetscCheck(major == PETSC_VERSION_MAJOR && minor == PETSC_VERSION_MINOR, PETSC_COMM_SELF, PETSC_ERR_LIB,
+    "libpetscamgf was compiled with PETSc %d.%d, but runs in PETSc %" PetscInt_FMT ".%" PetscInt_FMT
+    ": build it with the program's PETSc",
+    PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, major, minor);
   PetscFunctionReturn(0);
 }

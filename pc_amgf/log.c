@@ -1,7 +1,8 @@
 /* The log events of PCAMGF, on which every file that does work builds */
 #include "amgfimpl.h"
 
-PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp, PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
+PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
+  PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
 
 PetscErrorCode PCAMGFLogRegister_Private(void)
 {

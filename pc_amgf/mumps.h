@@ -1,6 +1,7 @@
 /*
-   MUMPS where PETSc was configured with it. PETSc declares MatMumps*() in either case, but a library without MUMPS does not define them:
-   one call left unguarded, and nothing links. Compile with -DAMGF_WITHOUT_MUMPS to be as a PETSc without MUMPS would make it.
+   MUMPS where PETSc was configured with it. PETSc declares MatMumps*() in either case, but a library without MUMPS
+   does not define them: one call left unguarded, and nothing links. Compile with -DAMGF_WITHOUT_MUMPS to be as a
+   PETSc without MUMPS would make it.
 */
 #ifndef AMGF_MUMPS_H
 #define AMGF_MUMPS_H
@@ -13,8 +14,8 @@
 
 #define AMGF_MUMPS_RELAXATION 20 /* per cent of work space beyond MUMPS's estimate: its own default */
 
-/* Work space beyond the estimate, which may be too small: `first` per cent where there is none yet, else twice what did not suffice; false where that was
-   16 times the first */
+/* Work space beyond the estimate, which may be too small: `first` per cent where there is none yet, else twice what
+   did not suffice; false where that was 16 times the first */
 static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
 {
   const PetscInt last = 16 * first;

@@ -13,7 +13,8 @@ static PetscErrorCode LagFromString(PC pc, const char string[])
     char *end;
 
     lag = (PetscInt)strtol(string, &end, 10);
-    PetscCheck(end != string && !*end, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG, "-pc_amgf_amg_lag takes a whole number or auto, not \"%s\"", string);
+    PetscCheck(end != string && !*end, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG,
+      "-pc_amgf_amg_lag takes a whole number or auto, not \"%s\"", string);
   }
   PetscCall(PCAMGFSetAMGLag(pc, lag));
   PetscFunctionReturn(0);
@@ -31,27 +32,40 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "AMG with filter options");
-  PetscCall(PetscOptionsEnum("-pc_amgf_cycle", "Order of AMG (b) and filter (f)", "PCAMGFSetCycle", PCAMGFCycles, (PetscEnum)amgf->cycle, (PetscEnum *)&cycle, &flg));
+  PetscCall(PetscOptionsEnum("-pc_amgf_cycle", "Order of AMG (b) and filter (f)", "PCAMGFSetCycle", PCAMGFCycles,
+    (PetscEnum)amgf->cycle, (PetscEnum *)&cycle, &flg));
   if (flg) PetscCall(PCAMGFSetCycle(pc, cycle));
-  PetscCall(PetscOptionsString("-pc_amgf_filter_file", "Binary file with the IS of filtered unknowns", "PCAMGFSetFilterIS", amgf->file ? amgf->file : "", file, sizeof(file), &flg));
+  PetscCall(PetscOptionsString("-pc_amgf_filter_file", "Binary file with the IS of filtered unknowns",
+    "PCAMGFSetFilterIS", amgf->file ? amgf->file : "", file, sizeof(file), &flg));
   if (flg) {
     PetscCall(PetscFree(amgf->file));
     PetscCall(ISDestroy(&amgf->file_is));
     if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
   }
-  PetscCall(PetscOptionsInt("-pc_amgf_filter_ranks", "Ranks that solve the filtered system; 0: by its size", "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
+  PetscCall(PetscOptionsInt("-pc_amgf_filter_ranks", "Ranks that solve the filtered system; 0: by its size",
+    "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
   if (flg) PetscCall(PCAMGFSetFilterRanks(pc, ranks));
-  PetscCall(PetscOptionsReal("-pc_amgf_detect", "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect, NULL));
-  PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
+  PetscCall(PetscOptionsReal("-pc_amgf_detect",
+    "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect,
+    NULL));
+  PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
   amgf->detect = detect;
-  PetscCall(PetscOptionsString("-pc_amgf_amg_lag", "Rebuild the AMG every so many changed operators; -1: never; 0 or auto: when the cost grows", "PCAMGFSetAMGLag", amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
+  PetscCall(PetscOptionsString("-pc_amgf_amg_lag",
+    "Rebuild the AMG every so many changed operators; -1: never; 0 or auto: when the cost grows", "PCAMGFSetAMGLag",
+    amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
   if (flg) PetscCall(LagFromString(pc, lag));
-  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild", "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
-  PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
-  PetscCall(PetscOptionsEnum("-pc_amgf_factor", "A factorization in place of the AMG", "PCAMGFSetFactor", PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
+  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild",
+    "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
+  PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
+  PetscCall(PetscOptionsEnum("-pc_amgf_factor", "A factorization in place of the AMG", "PCAMGFSetFactor",
+    PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
   if (flg) PetscCall(PCAMGFSetFactor(pc, use));
-  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "auto: share of the machine's memory that the factors may take", "PCAMGFSetFactor", amgf->factor.share, &amgf->factor.share, NULL));
-  PetscCheck(amgf->factor.share >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.share);
+  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "auto: share of the machine's memory that the factors may take",
+    "PCAMGFSetFactor", amgf->factor.share, &amgf->factor.share, NULL));
+  PetscCheck(amgf->factor.share >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.share);
   PetscOptionsHeadEnd();
   PetscFunctionReturn(0);
 }

@@ -39,8 +39,8 @@ static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
   PetscFunctionReturn(0);
 }
 
-/* Only the upper triangle is stored, SBAIJ: what is left of the diagonal in a wanted row is a column of that number in rows above it,
-   so every row is visited. Entry (i,j), i <= j, is (k(i), j) and, mirrored, (k(j), i). */
+/* Only the upper triangle is stored, SBAIJ: what is left of the diagonal in a wanted row is a column of that number
+   in rows above it, so every row is visited. Entry (i,j), i <= j, is (k(i), j) and, mirrored, (k(j), i). */
 static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
 {
   PetscHMapI map;
@@ -78,7 +78,8 @@ static PetscErrorCode RowsInsert(Mat A, IS rows, Mat R)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)A, &upper, MATSEQSBAIJ, MATMPISBAIJ, MATSBAIJ, ""));
   if (upper) {
-    PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "SBAIJ matrices are not supported with complex scalars: use AIJ or BAIJ");
+    PetscCheck(!PetscDefined(USE_COMPLEX), PetscObjectComm((PetscObject)A), PETSC_ERR_SUP,
+      "SBAIJ matrices are not supported with complex scalars: use AIJ or BAIJ");
     PetscCall(RowsInsertUpperTriangle(A, rows, R));
   } else {
     PetscInt        n;
@@ -140,7 +141,8 @@ PetscErrorCode MatGetThinRows_AMGF(Mat A, IS rows, PetscBool reuse, Mat *R)
 
   PetscFunctionBegin;
   PetscCall(MatHasOperation(A, MATOP_GET_ROW, &has));
-  PetscCheck(has, PetscObjectComm((PetscObject)A), PETSC_ERR_SUP, "PCAMGF needs an assembled operator (AIJ, BAIJ or SBAIJ), not one of type %s", ((PetscObject)A)->type_name);
+  PetscCheck(has, PetscObjectComm((PetscObject)A), PETSC_ERR_SUP,
+    "PCAMGF needs an assembled operator (AIJ, BAIJ or SBAIJ), not one of type %s", ((PetscObject)A)->type_name);
   if (!reuse) PetscCall(RowsCreateMatrix(A, rows, R));
   PetscCall(RowsInsert(A, rows, *R));
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
-/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG or the factorization in its place where it is due */
+/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG or the factorization in its place
+   where it is due */
 #include "amgfimpl.h"
 #include "guard.h"
 
@@ -19,10 +20,18 @@ static PetscErrorCode SetUpWarn(PC pc)
   const AMGFSource source = amgf->sub.source;
 
   PetscFunctionBegin;
-  if (amgf->sub.n || amgf->optional || amgf->warned || (source != AMGF_SOURCE_NONE && source != AMGF_SOURCE_DETECT)) PetscFunctionReturn(0);
+  if (amgf->sub.n || amgf->optional || amgf->warned || (source != AMGF_SOURCE_NONE && source != AMGF_SOURCE_DETECT))
+    PetscFunctionReturn(0);
   amgf->warned = PETSC_TRUE;
-  if (source == AMGF_SOURCE_DETECT) PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR, "Warning: PCAMGF runs without a filter: no diagonal entry exceeds %g times the median, see -pc_amgf_detect\n", (double)amgf->detect));
-  else PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR, "Warning: PCAMGF runs without a filter, for none was named: compose an IS or a Mat on the matrix under \"%s\", or see -pc_amgf_filter_file, -pc_amgf_detect\n", PCAMGF_FILTER_KEY));
+  if (source == AMGF_SOURCE_DETECT)
+    PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR,
+      "Warning: PCAMGF runs without a filter: no diagonal entry exceeds %g times the median, see -pc_amgf_detect\n",
+      (double)amgf->detect));
+  else
+    PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR,
+      "Warning: PCAMGF runs without a filter, for none was named: compose an IS or a Mat on the matrix under \"%s\", "
+      "or see -pc_amgf_filter_file, -pc_amgf_detect\n",
+      PCAMGF_FILTER_KEY));
   PetscFunctionReturn(0);
 }
 
@@ -59,8 +68,9 @@ static PetscErrorCode SetUpFilter(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCSetUp() of the AMG. An error of its library, over a row of zeros, say, may be one rank's alone, and would be met again by every later call of the
-   library: all ranks say that the PC has failed, as they do where the AMG says so itself, and the AMG begins anew. */
+/* PCSetUp() of the AMG. An error of its library, over a row of zeros, say, may be one rank's alone, and would be met
+   again by every later call of the library: all ranks say that the PC has failed, as they do where the AMG says so
+   itself, and the AMG begins anew. */
 static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
@@ -73,7 +83,8 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
   PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   if (!*failed) PetscFunctionReturn(0);
-  PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED, "The set-up of the AMG failed: %s", guard.why);
+  PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED,
+    "The set-up of the AMG failed: %s", guard.why);
   PetscCall(PetscInfo(pc, "An error in the set-up of the AMG: %s\n", guard.why));
   PetscCall(PCReset(amgf->amg));
   PetscFunctionReturn(0);
@@ -129,9 +140,13 @@ PetscErrorCode PCSetUp_AMGF(PC pc)
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &M, &N));
-  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
+  PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ,
+    "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
   PetscCall(MatHasOperation(pc->pmat, MATOP_GET_DIAGONAL, &has));
-  PetscCheck(has, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "PCAMGF needs the operator's entries, and one of type %s has none: give KSPSetOperators() a matrix that has them as the second", ((PetscObject)pc->pmat)->type_name);
+  PetscCheck(has, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
+    "PCAMGF needs the operator's entries, and one of type %s has none: give KSPSetOperators() a matrix that has them "
+    "as the second",
+    ((PetscObject)pc->pmat)->type_name);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   PetscCall(PCAMGFConfigureInner_Private(pc));
   PetscCall(SetUpFilter(pc));

@@ -37,8 +37,8 @@ static PetscErrorCode SubspaceGetComposed(PC pc, PetscObject *composed, PetscObj
 }
 
 /*
-  PCAMGFSubspaceIsStale_Private - whether another object has been composed on the operator, or has changed, since the set-up, which PETSc does not repeat
-  while the operator itself stays
+  PCAMGFSubspaceIsStale_Private - whether another object has been composed on the operator, or has changed, since the
+  set-up, which PETSc does not repeat while the operator itself stays
 */
 PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
 {
@@ -75,7 +75,9 @@ static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat 
     PetscClassId id;
 
     PetscCall(PetscObjectGetClassId(composed, &id));
-    PetscCheck(id == IS_CLASSID || id == MAT_CLASSID, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG, "The object composed on the operator under \"%s\" must be an IS or a Mat, not a %s", PCAMGF_FILTER_KEY, composed->class_name);
+    PetscCheck(id == IS_CLASSID || id == MAT_CLASSID, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG,
+      "The object composed on the operator under \"%s\" must be an IS or a Mat, not a %s", PCAMGF_FILTER_KEY,
+      composed->class_name);
     *source = AMGF_SOURCE_COMPOSED;
     if (id == IS_CLASSID) *is = (IS)composed;
     else *P = (Mat)composed;
@@ -103,8 +105,10 @@ static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[]
     extreme[1] = PetscMax(extreme[1], idx[i]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extreme, 2, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)pc)));
-  PetscCheck(extreme[0] == 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "Filter row %" PetscInt_FMT " is negative", -extreme[0]);
-  PetscCheck(extreme[1] == 0 || extreme[1] < N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE, "Filter row %" PetscInt_FMT " is not among the %" PetscInt_FMT " rows of the operator", extreme[1], N);
+  PetscCheck(extreme[0] == 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "Filter row %" PetscInt_FMT " is negative", -extreme[0]);
+  PetscCheck(extreme[1] == 0 || extreme[1] < N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "Filter row %" PetscInt_FMT " is not among the %" PetscInt_FMT " rows of the operator", extreme[1], N);
   PetscFunctionReturn(0);
 }
 
@@ -214,10 +218,14 @@ static PetscErrorCode SubspaceFromInterpolation(PC pc, Mat P, PetscBool *same)
   PetscCall(MatGetSize(pc->pmat, &N, NULL));
   *same = (PetscBool)(m == n && M == N);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)pc)));
-  PetscCheck(*same, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ, "The filter interpolation has %" PetscInt_FMT " rows, the operator %" PetscInt_FMT ", or they are distributed differently", M, N);
+  PetscCheck(*same, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ,
+    "The filter interpolation has %" PetscInt_FMT " rows, the operator %" PetscInt_FMT
+    ", or they are distributed differently",
+    M, N);
   PetscCall(MatGetStamp_AMGF(P, &stamp));
   PetscCall(PetscObjectTypeCompareAny((PetscObject)P, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  *same      = (PetscBool)(sub->P && (AMGFStampSameValues(&stamp, &sub->stamp) || (aij && AMGFStampSamePattern(&stamp, &sub->stamp))));
+  *same      = (PetscBool)(sub->P &&
+                      (AMGFStampSameValues(&stamp, &sub->stamp) || (aij && AMGFStampSamePattern(&stamp, &sub->stamp))));
   sub->stamp = stamp;
   if (*same) PetscFunctionReturn(0);
   PetscCall(ISDestroy(&sub->rows));

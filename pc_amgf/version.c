@@ -15,8 +15,8 @@
   Level: intermediate
 
   Note:
-  `PETSCAMGF_VERSION_MAJOR`, `PETSCAMGF_VERSION_MINOR`, `PETSCAMGF_VERSION_SUBMINOR`, `PETSCAMGF_VERSION_LT()` and `PETSCAMGF_VERSION_GE()` say at compile time which release a
-  program is compiled for.
+  `PETSCAMGF_VERSION_MAJOR`, `PETSCAMGF_VERSION_MINOR`, `PETSCAMGF_VERSION_SUBMINOR`, `PETSCAMGF_VERSION_LT()` and
+`PETSCAMGF_VERSION_GE()` say at compile time which release a program is compiled for.
 
 .seealso: `PetscAMGFInitializePackage()`, `PCAMGF`, `TAOIPFILTER`
 @*/
@@ -24,6 +24,9 @@ PetscErrorCode PetscAMGFGetVersion(char version[], size_t len)
 {
   PetscFunctionBegin;
   PetscAssertPointer(version, 1);
-  PetscCall(PetscSNPrintf(version, len, "petscamgf %d.%d.%d, compiled with PETSc %d.%d.%d, %s scalars, %d-bit indices", PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR, PETSCAMGF_VERSION_SUBMINOR, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR, PetscDefined(USE_COMPLEX) ? "complex" : "real", 8 * (int)sizeof(PetscInt)));
+  PetscCall(PetscSNPrintf(version, len, "petscamgf %d.%d.%d, compiled with PETSc %d.%d.%d, %s scalars, %d-bit indices",
+    PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR, PETSCAMGF_VERSION_SUBMINOR, PETSC_VERSION_MAJOR,
+    PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR, PetscDefined(USE_COMPLEX) ? "complex" : "real",
+    8 * (int)sizeof(PetscInt)));
   PetscFunctionReturn(0);
 }

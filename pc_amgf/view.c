@@ -6,15 +6,22 @@ static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)
   const PetscInt every = PCAMGFLagEvery_Private(amgf), age = amgf->lag.age;
 
   PetscFunctionBegin;
-  if (every > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG rebuilt every %" PetscInt_FMT " changed operators; age: %" PetscInt_FMT "\n", every, age));
-  else if (every == AMGF_LAG_NEVER) PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; age: %" PetscInt_FMT " changed operators\n", age));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", (double)amgf->lag.ratio, age));
+  if (every > 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  AMG rebuilt every %" PetscInt_FMT " changed operators; age: %" PetscInt_FMT "\n", every, age));
+  else if (every == AMGF_LAG_NEVER)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; age: %" PetscInt_FMT " changed operators\n", age));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", (double)amgf->lag.ratio,
+      age));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
 {
-  static const char *const sources[] = {"none given", "set by call", "composed on the operator", "from a file", "detected"};
+  static const char *const sources[] = {"none given", "set by call", "composed on the operator", "from a file",
+    "detected"};
   PC_AMGF                 *amgf      = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
@@ -22,10 +29,17 @@ static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: not yet set up\n"));
     PetscFunctionReturn(0);
   }
-  if (!amgf->active) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: switched off, the AMG alone; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source], amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
-  if (amgf->sub.source == AMGF_SOURCE_FILE) PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
-  if (amgf->sub.source == AMGF_SOURCE_DETECT) PetscCall(PetscViewerASCIIPrintf(viewer, "  detection: diagonal entries above %g times the median\n", (double)amgf->detect));
+  if (!amgf->active)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  filter: switched off, the AMG alone; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source],
+      amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
+  if (amgf->sub.source == AMGF_SOURCE_FILE)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
+  if (amgf->sub.source == AMGF_SOURCE_DETECT)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  detection: diagonal entries above %g times the median\n",
+      (double)amgf->detect));
   PetscFunctionReturn(0);
 }
 
@@ -41,7 +55,10 @@ PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  cycle: %s\n", PCAMGFCycles[amgf->cycle]));
   PetscCall(ViewFilter(pc, viewer));
   PetscCall(ViewLag(amgf, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  so far: %" PetscInt_FMT " AMG set-ups, %" PetscInt_FMT " AMG applications, %" PetscInt_FMT " filter set-ups, %" PetscInt_FMT " filter solves\n", counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  so far: %" PetscInt_FMT " AMG set-ups, %" PetscInt_FMT " AMG applications, %" PetscInt_FMT
+    " filter set-ups, %" PetscInt_FMT " filter solves\n",
+    counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
   if (amgf->factor.why[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "  chosen: %s\n", amgf->factor.why));
   PetscCall(PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization in place of the AMG:\n" : "  AMG:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));

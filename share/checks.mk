@@ -16,7 +16,7 @@ linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
-.PHONY: debug sanitize memcheck tidy fuzz nlp grid control
+.PHONY: format debug sanitize memcheck tidy fuzz nlp grid control
 
 debug:
 	@$(call linked_tree,build/debug)
@@ -40,6 +40,10 @@ memcheck:
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
 	mpiexec --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
 	@echo 'memcheck: clean'
+
+# Writes the sources in the style of .clang-format
+format:
+	clang-format -i $(FORMAT_FILES)
 
 tidy:
 	@mkdir -p build; clean=0; \

@@ -28,7 +28,8 @@ static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
   PetscFunctionBegin;
   if (!mass) PetscFunctionReturn(0);
   PetscCall(VecMin(mass, NULL, &least));
-  PetscCheck(least > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "%s mass must be positive, its smallest entry is %g", what, (double)least);
+  PetscCheck(least > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "%s mass must be positive, its smallest entry is %g", what, (double)least);
   PetscFunctionReturn(0);
 }
 
@@ -57,7 +58,8 @@ static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP, "give both slacks and multipliers, or neither");
+  PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP,
+    "give both slacks and multipliers, or neither");
   PetscCall(CopyVec(s, &ip->given.warm_s));
   PetscCall(CopyVec(z, &ip->given.warm_z));
   PetscFunctionReturn(0);
@@ -129,7 +131,8 @@ static PetscErrorCode TaoIPFilterGetFilterUse_IPFilter(Tao tao, PetscInt *system
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *steps, PetscInt *retries, PetscReal *largest)
+static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *steps, PetscInt *retries,
+  PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -153,24 +156,37 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscObject o = (PetscObject)tao;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSlackMass_C", attach ? TaoIPFilterSetSlackMass_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetPrimalMass_C", attach ? TaoIPFilterSetPrimalMass_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStart_C", attach ? TaoIPFilterSetWarmStart_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartEquality_C", attach ? TaoIPFilterSetWarmStartEquality_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartBounds_C", attach ? TaoIPFilterSetWarmStartBounds_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetSlackMass_C", attach ? TaoIPFilterSetSlackMass_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetPrimalMass_C", attach ? TaoIPFilterSetPrimalMass_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStart_C", attach ? TaoIPFilterSetWarmStart_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartEquality_C",
+    attach ? TaoIPFilterSetWarmStartEquality_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartBounds_C",
+    attach ? TaoIPFilterSetWarmStartBounds_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSlack_C", attach ? TaoIPFilterGetSlack_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C", attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C",
+    attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFilterUse_C", attach ? TaoIPFilterGetFilterUse_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C", attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterGetFilterUse_C", attach ? TaoIPFilterGetFilterUse_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C",
+    attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTerms_C", attach ? TaoIPFilterSetNormTerms_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTermForces_C", attach ? TaoIPFilterSetNormTermForces_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetNormTermForces_C", attach ? TaoIPFilterGetNormTermForces_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetNormTerms_C", attach ? TaoIPFilterSetNormTerms_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTermForces_C",
+    attach ? TaoIPFilterSetNormTermForces_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetNormTermForces_C",
+    attach ? TaoIPFilterGetNormTermForces_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 
@@ -250,7 +266,8 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
   keeping s - z/rho with the constraint's stiffness rho, and mu is taken from the average of s_i z_i, or from a
   fraction of the products s_i z_i would have off the solution if that is larger.
 
-.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`, `TaoIPFilterSetWarmStartBounds()`
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`,
+`TaoIPFilterSetWarmStartBounds()`
 @*/
 PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 {
@@ -263,7 +280,8 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 }
 
 /*@
-  TaoIPFilterSetWarmStartEquality - Sets multipliers of the equality constraints from which `-tao_ipfilter_start warm` begins
+  TaoIPFilterSetWarmStartEquality - Sets multipliers of the equality constraints from which `-tao_ipfilter_start warm`
+begins
 
   Logically Collective
 
@@ -288,7 +306,8 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
 }
 
 /*@
-  TaoIPFilterSetWarmStartBounds - Sets multipliers of the bounds on variables from which `-tao_ipfilter_start warm` begins
+  TaoIPFilterSetWarmStartBounds - Sets multipliers of the bounds on variables from which `-tao_ipfilter_start warm`
+begins
 
   Logically Collective
 
@@ -300,8 +319,9 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
   Level: intermediate
 
   Notes:
-  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance to a bound and its
-  multiplier have next to no product. Where there are inequality constraints, `TaoIPFilterSetWarmStart()` must give theirs, too.
+  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance
+to a bound and its multiplier have next to no product. Where there are inequality constraints,
+`TaoIPFilterSetWarmStart()` must give theirs, too.
 
   With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
 
@@ -331,8 +351,8 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
   Level: intermediate
 
   Note:
-  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is alone; zero where
-  there is none, or both are equal.
+  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is
+alone; zero where there is none, or both are equal.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/
@@ -360,10 +380,11 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
   Level: intermediate
 
   Notes:
-  `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a force.
+  `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a
+force.
 
-  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two bounds is the sum of both,
-  that of a row with equal bounds has either sign.
+  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two
+bounds is the sum of both, that of a row with equal bounds has either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/
@@ -410,7 +431,8 @@ PetscErrorCode TaoIPFilterGetKSPIterations(Tao tao, PetscInt *n, const PetscInt 
 
   Output Parameters:
 + scaled   - the measure that decides convergence: dimensionless, or absolute with `-tao_ipfilter_kkt mass`; may be NULL
-- unscaled - largest absolute entry of grad f - J^T M lambda - bound multipliers, c - s and s z, in the problem's units; may be NULL
+- unscaled - largest absolute entry of grad f - J^T M lambda - bound multipliers, c - s and s z, in the problem's units;
+may be NULL
 
   Level: intermediate
 
@@ -462,7 +484,8 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
              alone; 0 with another `PC`; may be NULL
 
   Options Database Key:
-. -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always
+. -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0:
+always
 
   Level: intermediate
 
@@ -477,7 +500,8 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 }
 
 /*@
-  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` had to be shifted to be convex enough
+  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` had to be shifted to be convex
+enough
 
   Not Collective
 
@@ -492,8 +516,8 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
   Level: intermediate
 
   Note:
-  For the energy of an elastic body a shift tells that the tangent stiffness was not positive definite along a direction:
-  the body was at or past a limit or bifurcation point on the way to its equilibrium.
+  For the energy of an elastic body a shift tells that the tangent stiffness was not positive definite along a
+direction: the body was at or past a limit or bifurcation point on the way to its equilibrium.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`
 @*/
@@ -501,12 +525,14 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscUseMethod(tao, "TaoIPFilterGetRegularizations_C", (Tao, PetscInt *, PetscInt *, PetscReal *), (tao, steps, retries, largest));
+  PetscUseMethod(tao, "TaoIPFilterGetRegularizations_C", (Tao, PetscInt *, PetscInt *, PetscReal *),
+    (tao, steps, retries, largest));
   PetscFunctionReturn(0);
 }
 
 /*@
-  TaoIPFilterGetFallbacks - Gets what the linear algebra of the last `TaoSolve()` had to do beyond one Krylov solve a system
+  TaoIPFilterGetFallbacks - Gets what the linear algebra of the last `TaoSolve()` had to do beyond one Krylov solve a
+system
 
   Not Collective
 
@@ -524,7 +550,8 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
   Note:
   All counts are zero in a solve without difficulties, but for refinements.
 
-.seealso: `TAOIPFILTER`, `TaoIPFilterFallbacks`, `TaoIPFilterGetReason()`, `PCAMGFSetAMGLag()`, `PCAMGFSetFilterActive()`
+.seealso: `TAOIPFILTER`, `TaoIPFilterFallbacks`, `TaoIPFilterGetReason()`, `PCAMGFSetAMGLag()`,
+`PCAMGFSetFilterActive()`
 @*/
 PetscErrorCode TaoIPFilterGetFallbacks(Tao tao, TaoIPFilterFallbacks *fallbacks)
 {

@@ -8,8 +8,8 @@
 
    so that c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
 
-   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x. A row with two bounds,
-   0 <= c_I(x) <= range, has one slack with two pairs: t is s and range - s.
+   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x. A row
+   with two bounds, 0 <= c_I(x) <= range, has one slack with two pairs: t is s and range - s.
 
    Of the folders none calls one that stands below it in this list; what is on top of them, the type, is in this one.
 
@@ -62,19 +62,20 @@ typedef enum {
 
 /* What the user may choose; the names are those of the options in opts.c */
 typedef struct {
-  PetscReal        acceptable_tol;
-  PetscInt         acceptable_it;
-  IPStart          start;
-  IPBarrierRule    barrier;
-  IPKKTMeasure     measure;
-  IPForcing        forcing;
-  IPScaling        scaling;
-  PetscBool        monitor;
-  PetscReal        delta_equality, kappa_progress;
-  PetscReal        mu0, s0, z0, mu_start, mu_warm, forcing_start;
-  PetscReal        kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
-  PetscInt         max_mu_first, max_mu_later;
-  PetscReal        gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact, obj_max_inc;
+  PetscReal     acceptable_tol;
+  PetscInt      acceptable_it;
+  IPStart       start;
+  IPBarrierRule barrier;
+  IPKKTMeasure  measure;
+  IPForcing     forcing;
+  IPScaling     scaling;
+  PetscBool     monitor;
+  PetscReal     delta_equality, kappa_progress;
+  PetscReal     mu0, s0, z0, mu_start, mu_warm, forcing_start;
+  PetscReal     kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
+  PetscInt      max_mu_first, max_mu_later;
+  PetscReal gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact,
+    obj_max_inc;
   PetscInt         max_soc;
   PetscReal        kappa_soc;
   PetscReal        forcing_max, forcing_reduce, forcing_last;
@@ -102,21 +103,21 @@ typedef struct {
 /* What a TaoSolve() did */
 typedef struct {
   PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
-  PetscInt             nsystems, nfiltered;             /* condensed matrices, and those preconditioned with the filter */
+  PetscInt             nsystems, nfiltered; /* condensed matrices, and those preconditioned with the filter */
   TaoIPFilterFallbacks fallbacks;
-  PetscInt             nregularized, nretried; /* steps taken with a shifted Hessian, and systems solved to find the shift */
-  PetscReal            delta_largest;          /* largest shift a step was taken with */
-  PetscInt             nrestored;              /* restorations */
-  PetscInt             ntiny;                  /* steps in a row that are as small as rounding */
-  PetscInt             nacceptable;            /* iterates in a row within the acceptable tolerance */
-  PetscInt             nstraight;              /* whole steps in a row with a shift along which the objective fell as a straight line, */
-  PetscReal            last_f;                 /* and the objective before the next one */
-  PetscInt             napplications;          /* of the preconditioner in the filtered subspace method, */
-  PetscInt             nreduced, npivots;      /* its reduced problems, and the active sets that they took */
-  PetscInt             ndirections;            /* iterations that were a direction of it, no step of Newton's */
-  PetscReal            best_error;             /* KKT error of the best iterate, */
-  PetscReal            best_violation;         /* and its violation */
-  char                 reason[256];
+  PetscInt  nregularized, nretried; /* steps taken with a shifted Hessian, and systems solved to find the shift */
+  PetscReal delta_largest;          /* largest shift a step was taken with */
+  PetscInt  nrestored;              /* restorations */
+  PetscInt  ntiny;                  /* steps in a row that are as small as rounding */
+  PetscInt  nacceptable;            /* iterates in a row within the acceptable tolerance */
+  PetscInt  nstraight;     /* whole steps in a row with a shift along which the objective fell as a straight line, */
+  PetscReal last_f;        /* and the objective before the next one */
+  PetscInt  napplications; /* of the preconditioner in the filtered subspace method, */
+  PetscInt  nreduced, npivots; /* its reduced problems, and the active sets that they took */
+  PetscInt  ndirections;       /* iterations that were a direction of it, no step of Newton's */
+  PetscReal best_error;        /* KKT error of the best iterate, */
+  PetscReal best_violation;    /* and its violation */
+  char      reason[256];
 } IPRecord;
 
 typedef struct _n_TAO_IPFILTER {
@@ -156,13 +157,16 @@ typedef struct _n_TAO_IPFILTER {
   IPRecord      rec;
 } TAO_IPFILTER;
 
-#define IP_TINY_STEP       (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
-#define IP_LEAST_SLACK     1e-14                          /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
-#define IP_CLOSE           1e-6                           /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
-#define IP_MANY_ITERATIONS 500                            /* of a Krylov method, when others of the same problem took few */
+#define IP_TINY_STEP (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
+#define IP_LEAST_SLACK \
+  1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
+#define IP_CLOSE           1e-6 /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
+#define IP_MANY_ITERATIONS 500  /* of a Krylov method, when others of the same problem took few */
 
 /* opts.c */
-PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[], *const IPSubspaceUses[], *const IPEqualityMethods[];
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[],
+                                                                      *const IPForcings[], *const IPSubspaceUses[],
+                                                                                             *const IPEqualityMethods[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 

@@ -1,13 +1,13 @@
 /* Options and their defaults. */
 #include "ipfilterimpl.h"
 
-const char *const        IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
-const char *const        IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
-const char *const        IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
-const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
-const char *const        IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_", NULL};
-const char *const        IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
-static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
+const char *const IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
+const char *const IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
+const char *const IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
+const char *const IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
+const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_", NULL};
+const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
+static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
 typedef struct {
@@ -28,7 +28,8 @@ static const RealOption real_options[] = {
   IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
   IP_REAL("predict_mu", mu_start, 0.3, "predicted start: mu as a fraction of mean length x mean pressure"),
   IP_REAL("warm_mu", mu_warm, 3e-2, "warm start: least mu as a fraction of the mean product length x pressure"),
-  IP_REAL("predict_forcing", forcing_start, 0.1, "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
+  IP_REAL("predict_forcing", forcing_start, 0.1,
+    "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
   IP_REAL("kappa_epsilon", kappa_epsilon, 10.0, "mu is reduced once the barrier error is below kappa_epsilon mu"),
   IP_REAL("kappa_dual", kappa_dual, 0.1, "relative measure: imbalance of forces at which mu may be reduced"),
   IP_REAL("kappa_mu", kappa_mu, 0.2, "linear reduction of mu"),
@@ -42,31 +43,50 @@ static const RealOption real_options[] = {
   IP_REAL("s_theta", s_theta, 1.1, "exponent of the violation in the switching condition"),
   IP_REAL("s_phi", s_phi, 2.3, "exponent of the descent in the switching condition"),
   IP_REAL("gamma_alpha", gamma_alpha, 0.05, "safety factor of the smallest step"),
-  IP_REAL("theta_min_fact", theta_min_fact, 1e-4, "violation below which Armijo may decide, as a fraction of the first"),
+  IP_REAL("theta_min_fact", theta_min_fact, 1e-4,
+    "violation below which Armijo may decide, as a fraction of the first"),
   IP_REAL("theta_max_fact", theta_max_fact, 1e4, "largest violation accepted, as a multiple of the first"),
-  IP_REAL("obj_max_inc", obj_max_inc, 1e5, "largest rise of the barrier function accepted for less violation, against its size"),
+  IP_REAL("obj_max_inc", obj_max_inc, 1e5,
+    "largest rise of the barrier function accepted for less violation, against its size"),
   IP_REAL("kappa_soc", kappa_soc, 0.99, "reduction a second-order correction must give to be continued"),
-  IP_REAL("forcing_max", forcing_max, 0.1, "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
-  IP_REAL("forcing_reduce", forcing_reduce, 0.7, "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
-  IP_REAL("forcing_last", forcing_last, 0.5, "adaptive forcing: as a fraction of the tolerance, in the step that would finish"),
-  IP_REAL("kappa_curvature", kappa_curvature, 1e-11, "curvature d^T W d that a direction must have, as a fraction of d^T d"),
+  IP_REAL("forcing_max", forcing_max, 0.1,
+    "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
+  IP_REAL("forcing_reduce", forcing_reduce, 0.7,
+    "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
+  IP_REAL("forcing_last", forcing_last, 0.5,
+    "adaptive forcing: as a fraction of the tolerance, in the step that would finish"),
+  IP_REAL("kappa_curvature", kappa_curvature, 1e-11,
+    "curvature d^T W d that a direction must have, as a fraction of d^T d"),
   IP_REAL("delta_first", delta_first, 1e-4, "first regularization"),
   IP_REAL("delta_max", delta_max, 1e20, "largest regularization"),
   IP_REAL("delta_grow_first", delta_grow_first, 100.0, "growth of the regularization before one has worked"),
   IP_REAL("delta_grow", delta_grow, 8.0, "growth of the regularization"),
   IP_REAL("delta_shrink", delta_shrink, 1.0 / 3.0, "decrease of the regularization from one step to the next"),
   IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
-  IP_REAL("proximal", proximal, 1e-5, "condensed equality constraints: stiffness that resists them as a fraction of their weights"),
-  IP_REAL("kappa_progress", kappa_progress, 0.9999, "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
-  IP_REAL("filter_threshold", filter_threshold, 1e-12, "columns of J above this fraction of its largest entry belong to the filter subspace"),
-  IP_REAL("filter_switch", filter_switch, 10.0, "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
-  IP_REAL("row_ratio", row_ratio, 100.0, "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
-  IP_REAL("gradient_max", gradient_max, 100.0, "scaling by gradients: objective and constraints are scaled down to no larger entries of their gradients at the start"),
-  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0, "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
-  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0, "absolute limit of the constraint violation at convergence; negative: 1e-4 with scaling by gradients, else none"),
-  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0, "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else none"),
-  IP_REAL("unbounded_factor", unbounded_factor, 1e10, "fall of the objective, against its first size, that counts as unbounded"),
-  IP_REAL("direct_memory", direct_memory, 2000, "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
+  IP_REAL("proximal", proximal, 1e-5,
+    "condensed equality constraints: stiffness that resists them as a fraction of their weights"),
+  IP_REAL("kappa_progress", kappa_progress, 0.9999,
+    "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
+  IP_REAL("filter_threshold", filter_threshold, 1e-12,
+    "columns of J above this fraction of its largest entry belong to the filter subspace"),
+  IP_REAL("filter_switch", filter_switch, 10.0,
+    "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
+  IP_REAL("row_ratio", row_ratio, 100.0,
+    "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
+  IP_REAL("gradient_max", gradient_max, 100.0,
+    "scaling by gradients: objective and constraints are scaled down to no larger entries of their gradients at the "
+    "start"),
+  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0,
+    "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
+  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0,
+    "absolute limit of the constraint violation at convergence; negative: 1e-4 with scaling by gradients, else none"),
+  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0,
+    "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else "
+    "none"),
+  IP_REAL("unbounded_factor", unbounded_factor, 1e10,
+    "fall of the objective, against its first size, that counts as unbounded"),
+  IP_REAL("direct_memory", direct_memory, 2000,
+    "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
   IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
 
@@ -74,7 +94,8 @@ static const RealOption real_options[] = {
 PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 {
   PetscFunctionBegin;
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) *(PetscReal *)((char *)opt + real_options[k].offset) = real_options[k].value;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++)
+    *(PetscReal *)((char *)opt + real_options[k].offset) = real_options[k].value;
   opt->start         = IP_START_WARM;
   opt->barrier       = IP_BARRIER_MEHROTRA;
   opt->max_mu_first  = 10;
@@ -98,22 +119,46 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
 
     PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
   }
-  PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged: -tao_gatol by another name", TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "starting slacks and multipliers", TAOIPFILTER, IPStarts, (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "update of the barrier parameter", TAOIPFILTER, IPBarrierRules, (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures, (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing", "tolerance of the linear solver: from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings, (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling", "scale-free constants, IPOPT's after scaling by gradients at the start, or constants in the problem's units", TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_equality", "equality constraints in an augmented system that MUMPS factors, or condensed with proximal updates", TAOIPFILTER, IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "most reductions of mu at the first iteration", TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER, opt->max_mu_later, &opt->max_mu_later, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, opt->max_soc, &opt->max_soc, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it", "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, opt->acceptable_it, &opt->acceptable_it, NULL));
-  PetscCall(PetscOptionsBool("-tao_ipfilter_direct", "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, opt->direct_always, &opt->direct_always, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "filtered subspace method in place of the interior point method", TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
-  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max", "directions that the filtered subspace method keeps; 0: by memory", TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 0));
-  PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT, fewest, opt->subspace_max);
-  PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "print a line an iteration", TAOIPFILTER, opt->monitor, &opt->monitor, NULL));
+  PetscCall(
+    PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged: -tao_gatol by another name",
+      TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "starting slacks and multipliers", TAOIPFILTER, IPStarts,
+    (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "update of the barrier parameter", TAOIPFILTER, IPBarrierRules,
+    (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures,
+    (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
+  PetscCall(
+    PetscOptionsEnum("-tao_ipfilter_forcing", "tolerance of the linear solver: from the KKT error, or the KSP's own",
+      TAOIPFILTER, IPForcings, (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling",
+    "scale-free constants, IPOPT's after scaling by gradients at the start, or constants in the problem's units",
+    TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_equality",
+    "equality constraints in an augmented system that MUMPS factors, or condensed with proximal updates", TAOIPFILTER,
+    IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "most reductions of mu at the first iteration",
+    TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER,
+    opt->max_mu_later, &opt->max_mu_later, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, opt->max_soc,
+    &opt->max_soc, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it",
+    "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, opt->acceptable_it,
+    &opt->acceptable_it, NULL));
+  PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
+    "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, opt->direct_always,
+    &opt->direct_always, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "filtered subspace method in place of the interior point method",
+    TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
+  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max",
+    "directions that the filtered subspace method keeps; 0: by memory", TAOIPFILTER, opt->subspace_max,
+    &opt->subspace_max, NULL, 0));
+  PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),
+    PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT,
+    fewest, opt->subspace_max);
+  PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "print a line an iteration", TAOIPFILTER, opt->monitor,
+    &opt->monitor, NULL));
   PetscOptionsHeadEnd();
   PetscCall(KSPSetFromOptions(tao->ksp));
   PetscFunctionReturn(0);

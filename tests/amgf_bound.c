@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF: exact eigenvalues of MA on a small matrix, for stiffness contrasts of many orders, against the published bound.\n\n";
+static char help[] = "PCAMGF: exact eigenvalues of MA on a small matrix, for stiffness contrasts of many orders, "
+                     "against the published bound.\n\n";
 
 #include "amgf_problem.h"
 
@@ -44,7 +45,8 @@ static PetscErrorCode CholeskyFactor(Mat A, Mat *L)
     for (PetscInt k = 0; k < j; k++) {
       for (PetscInt i = j; i < n; i++) l[j * n + i] -= l[k * n + i] * l[k * n + j];
     }
-    PetscCheck(PetscRealPart(l[j * n + j]) > 0.0, PETSC_COMM_SELF, PETSC_ERR_LIB, "A is not positive definite: pivot %" PetscInt_FMT, j);
+    PetscCheck(PetscRealPart(l[j * n + j]) > 0.0, PETSC_COMM_SELF, PETSC_ERR_LIB,
+      "A is not positive definite: pivot %" PetscInt_FMT, j);
     l[j * n + j] = PetscSqrtScalar(l[j * n + j]);
     for (PetscInt i = 0; i < j; i++) l[j * n + i] = 0.0;
     for (PetscInt i = j + 1; i < n; i++) l[j * n + i] /= l[j * n + j];
@@ -53,7 +55,8 @@ static PetscErrorCode CholeskyFactor(Mat A, Mat *L)
   PetscFunctionReturn(0);
 }
 
-/* Extreme eigenvalues of M A, which are those of L^T M L; how many are within 1e-5 of 1. PETSc has LAPACK compute them. */
+/* Extreme eigenvalues of M A, which are those of L^T M L; how many are within 1e-5 of 1. PETSc has LAPACK compute
+   them. */
 static PetscErrorCode Spectrum(Mat A, PC pc, PetscReal *least, PetscReal *largest, PetscInt *ones)
 {
   Mat        L, M, ML, S;
@@ -104,7 +107,8 @@ static PetscErrorCode CreateAMGF(Mat A, IS is, PCAMGFCycle cycle, PC *pc)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SpectrumOf(Mat A, Mat buildfrom, IS is, PCAMGFCycle cycle, PetscReal *least, PetscReal *largest, PetscInt *ones)
+static PetscErrorCode SpectrumOf(Mat A, Mat buildfrom, IS is, PCAMGFCycle cycle, PetscReal *least, PetscReal *largest,
+  PetscInt *ones)
 {
   PC pc;
 
@@ -115,7 +119,8 @@ static PetscErrorCode SpectrumOf(Mat A, Mat buildfrom, IS is, PCAMGFCycle cycle,
   PetscFunctionReturn(0);
 }
 
-/* bfb: 1 is the largest eigenvalue, with the dimension of the subspace as multiplicity at least, and the published bound holds */
+/* bfb: 1 is the largest eigenvalue, with the dimension of the subspace as multiplicity at least, and the published
+   bound holds */
 static PetscErrorCode CheckBFB(Mat A, IS is, PetscReal beta, PetscReal omega)
 {
   PetscReal least, largest;
@@ -124,16 +129,19 @@ static PetscErrorCode CheckBFB(Mat A, IS is, PetscReal beta, PetscReal omega)
   PetscFunctionBeginUser;
   PetscCall(ISGetSize(is, &nc));
   PetscCall(SpectrumOf(A, A, is, PC_AMGF_BFB, &least, &largest, &ones));
-  PetscCall(PetscInfo(NULL, "bfb: condition number %g, bound %g\n", (double)(largest / least), (double)(2.0 * (beta + 2.0 + omega) / (2.0 - omega))));
+  PetscCall(PetscInfo(NULL, "bfb: condition number %g, bound %g\n", (double)(largest / least),
+    (double)(2.0 * (beta + 2.0 + omega) / (2.0 - omega))));
   PetscCall(ReportBound(PETSC_COMM_SELF, "  bfb positive", -least, 0.0));
   PetscCall(ReportBound(PETSC_COMM_SELF, "  bfb largest eigenvalue 1", PetscAbsReal(largest - 1.0), 1e-5));
   PetscCall(ReportBound(PETSC_COMM_SELF, "  bfb exact on the subspace", nc, ones));
-  PetscCall(ReportBound(PETSC_COMM_SELF, "  bfb published bound", largest / least, 2.0 * (beta + 2.0 + omega) / (2.0 - omega)));
+  PetscCall(
+    ReportBound(PETSC_COMM_SELF, "  bfb published bound", largest / least, 2.0 * (beta + 2.0 + omega) / (2.0 - omega)));
   PetscCall(ReportBound(PETSC_COMM_SELF, "  bfb published bound, l1 smoother", largest / least, 2.0 * (beta + 3.0)));
   PetscFunctionReturn(0);
 }
 
-/* fbf: exact on the subspace, eigenvalues at most max(1, omega). additive: at most 1 + omega. Both positive for any B, also one of the operator without the stiff part */
+/* fbf: exact on the subspace, eigenvalues at most max(1, omega). additive: at most 1 + omega. Both positive for any
+   B, also one of the operator without the stiff part */
 static PetscErrorCode CheckOthers(Mat A, Mat K, IS is, PetscReal omega)
 {
   PetscReal least, largest;
@@ -189,7 +197,8 @@ int main(int argc, char **argv)
     PetscCall(SpectrumOf(A, A, NULL, PC_AMGF_BFB, &least, &omega, &ones));
     PetscCall(PetscInfo(NULL, "AMG alone: condition number %g, omega %g\n", (double)(omega / least), (double)omega));
     PetscCall(ReportBound(PETSC_COMM_SELF, "  omega with an l1 smoother", omega, 1.0 + 1e-5));
-    if (exponent >= 4) PetscCall(ReportBound(PETSC_COMM_SELF, "  AMG alone is beyond the bound", 2.0 * (beta + 3.0), omega / least));
+    if (exponent >= 4)
+      PetscCall(ReportBound(PETSC_COMM_SELF, "  AMG alone is beyond the bound", 2.0 * (beta + 3.0), omega / least));
     PetscCall(CheckBFB(A, is, beta, omega));
     PetscCall(CheckOthers(A, K, is, omega));
     PetscCall(ISDestroy(&is));

@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF: its cycles against PETSc's PCCOMPOSITE of the same parts; symmetry, definiteness and transposes.\n\
+static char help[] =
+  "PCAMGF: its cycles against PETSc's PCCOMPOSITE of the same parts; symmetry, definiteness and transposes.\n\
   -general: the subspace is the range of a matrix, not a set of unknowns\n\n";
 
 #include "amgf_problem.h"
@@ -27,12 +28,15 @@ static PetscErrorCode ConfigureSubspaceSolve(PC pc, Mat A, Mat P)
 /* The oracle: BoomerAMG, with the parameters PCAMGF documents, and the subspace solve, put together by PETSc */
 static PetscErrorCode CreateComposite(Mat A, Mat P, PCAMGFCycle cycle, PC *pc)
 {
-  static const char boomeramg[] = "-oracle_sub_%d_pc_hypre_boomeramg_coarsen_type HMIS -oracle_sub_%d_pc_hypre_boomeramg_interp_type ext+i -oracle_sub_%d_pc_hypre_boomeramg_P_max 4 "
-                                  "-oracle_sub_%d_pc_hypre_boomeramg_strong_threshold 0.7 -oracle_sub_%d_pc_hypre_boomeramg_relax_type_down l1-Gauss-Seidel "
-                                  "-oracle_sub_%d_pc_hypre_boomeramg_relax_type_up backward-l1-Gauss-Seidel";
-  const int         b           = cycle == PC_AMGF_FBF ? 1 : 0;
-  char              options[1024];
-  PC                part;
+  static const char boomeramg[] =
+    "-oracle_sub_%d_pc_hypre_boomeramg_coarsen_type HMIS -oracle_sub_%d_pc_hypre_boomeramg_interp_type ext+i "
+    "-oracle_sub_%d_pc_hypre_boomeramg_P_max 4 "
+    "-oracle_sub_%d_pc_hypre_boomeramg_strong_threshold 0.7 -oracle_sub_%d_pc_hypre_boomeramg_relax_type_down "
+    "l1-Gauss-Seidel "
+    "-oracle_sub_%d_pc_hypre_boomeramg_relax_type_up backward-l1-Gauss-Seidel";
+  const int b = cycle == PC_AMGF_FBF ? 1 : 0;
+  char      options[1024];
+  PC        part;
 
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(options, sizeof(options), boomeramg, b, b, b, b, b, b));
@@ -41,7 +45,8 @@ static PetscErrorCode CreateComposite(Mat A, Mat P, PCAMGFCycle cycle, PC *pc)
   PetscCall(PCSetOptionsPrefix(*pc, "oracle_"));
   PetscCall(PCSetOperators(*pc, A, A));
   PetscCall(PCSetType(*pc, PCCOMPOSITE));
-  PetscCall(PCCompositeSetType(*pc, cycle == PC_AMGF_ADDITIVE ? PC_COMPOSITE_ADDITIVE : PC_COMPOSITE_SYMMETRIC_MULTIPLICATIVE));
+  PetscCall(
+    PCCompositeSetType(*pc, cycle == PC_AMGF_ADDITIVE ? PC_COMPOSITE_ADDITIVE : PC_COMPOSITE_SYMMETRIC_MULTIPLICATIVE));
   PetscCall(PCCompositeAddPCType(*pc, b ? PCGALERKIN : PCHYPRE));
   PetscCall(PCCompositeAddPCType(*pc, b ? PCHYPRE : PCGALERKIN));
   PetscCall(PCCompositeGetPC(*pc, b, &part));
@@ -186,7 +191,7 @@ int main(int argc, char **argv)
    test:
       suffix: transpose
       nsize: {{1 3}}
-      args: -oracle 0 -general {{0 1}} -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative -amgf_amg_pc_composite_pcs jacobi,bjacobi
-      output_file: output/amgf_cycles_transpose.out
+      args: -oracle 0 -general {{0 1}} -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative
+-amgf_amg_pc_composite_pcs jacobi,bjacobi output_file: output/amgf_cycles_transpose.out
 
 TEST*/

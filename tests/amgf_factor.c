@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF with a factorization of the operator in place of the AMG: by option, by what is said to come, and not where it may not be.\n\n";
+static char help[] = "PCAMGF with a factorization of the operator in place of the AMG: by option, by what is said to "
+                     "come, and not where it may not be.\n\n";
 
 #include "amgf_problem.h"
 
@@ -53,11 +54,13 @@ static PetscErrorCode Solve(Context *c, const char what[])
   PetscCall(RelativeDifference(r, c->b, &residual));
   PetscCall(VecDestroy(&r));
   PetscCall(PCAMGFGetFactored(c->pc, &factored, NULL));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s by %s%s\n", what, residual < 1e-7 ? "solved" : "NOT SOLVED", factored ? "factorization" : "AMG", its <= 2 ? ", at once" : ""));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s by %s%s\n", what, residual < 1e-7 ? "solved" : "NOT SOLVED",
+    factored ? "factorization" : "AMG", its <= 2 ? ", at once" : ""));
   PetscFunctionReturn(0);
 }
 
-/* Said to come: too little, too much for the memory allowed, a lot; and after that another operator of the same pattern, and the AMG again */
+/* Said to come: too little, too much for the memory allowed, a lot; and after that another operator of the same
+   pattern, and the AMG again */
 static PetscErrorCode CheckChoice(Mat A)
 {
   Context c;

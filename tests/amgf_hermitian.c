@@ -1,4 +1,6 @@
-static char help[] = "PCAMGF on a Hermitian positive definite matrix, complex where PETSc's scalars are: its cycles are Hermitian and positive, and CG with them finds\n\
+static char help[] =
+  "PCAMGF on a Hermitian positive definite matrix, complex where PETSc's scalars are: its cycles are Hermitian\n\
+and positive, and CG with them finds\n\
 what a direct solver finds. -hermitian 0: B is not Hermitian, and only the transposes are looked at\n\n";
 
 #include "amgf_problem.h"
@@ -16,7 +18,8 @@ static PetscScalar Phase(PetscReal angle)
 #endif
 }
 
-/* Laplacian in a magnetic field: the phase of an edge along x is that of its height, and no change of gauge makes the matrix real */
+/* Laplacian in a magnetic field: the phase of an edge along x is that of its height, and no change of gauge makes the
+   matrix real */
 static PetscErrorCode AddLaplacian(Mat A)
 {
   PetscInt start, end;
@@ -49,7 +52,8 @@ static PetscErrorCode AddTies(Mat A)
 
     for (PetscInt i = 0; i < 2; i++) {
       if (cols[i] < start || cols[i] >= end) continue;
-      for (PetscInt j = 0; j < 2; j++) PetscCall(MatSetValue(A, cols[i], cols[j], d * PetscConj(vals[i]) * vals[j], ADD_VALUES));
+      for (PetscInt j = 0; j < 2; j++)
+        PetscCall(MatSetValue(A, cols[i], cols[j], d * PetscConj(vals[i]) * vals[j], ADD_VALUES));
     }
   }
   PetscFunctionReturn(0);
@@ -202,7 +206,8 @@ static PetscErrorCode CheckCycle(Mat A, IS is, Mat P, PCAMGFCycle cycle, PetscBo
   Vec x;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "%s, %s\n", PCAMGFCycles[cycle], P ? "range of a matrix" : "unknowns"));
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "%s, %s\n", PCAMGFCycles[cycle],
+    P ? "range of a matrix" : "unknowns"));
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &ksp));
   PetscCall(KSPSetType(ksp, KSPCG));
   PetscCall(KSPSetOperators(ksp, A, A));
@@ -268,7 +273,7 @@ int main(int argc, char **argv)
    test:
       suffix: transposes
       nsize: {{1 2}}
-      args: -hermitian 0 -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative -amgf_amg_pc_composite_pcs jacobi,bjacobi
-      output_file: output/amgf_hermitian_transposes.out
+      args: -hermitian 0 -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative
+-amgf_amg_pc_composite_pcs jacobi,bjacobi output_file: output/amgf_hermitian_transposes.out
 
 TEST*/

@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF on operators of every kind: it solves, or one sentence says what is missing, on every rank.\n\n";
+static char help[] =
+  "PCAMGF on operators of every kind: it solves, or one sentence says what is missing, on every rank.\n\n";
 
 #include "amgf_problem.h"
 #include "attempt.h"

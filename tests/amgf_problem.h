@@ -1,6 +1,7 @@
 /*
-   Model problem of the PCAMGF tests: K = Laplacian on a square grid of nodes, Dirichlet outside, times an SPD block C; A = K + J^T D J, where J ties the
-   lower to the upper edge of the grid and D spans many orders. The stiff subspace is that of J's nonzero columns.
+   Model problem of the PCAMGF tests: K = Laplacian on a square grid of nodes, Dirichlet outside, times an SPD block
+   C; A = K + J^T D J, where J ties the lower to the upper edge of the grid and D spans many orders. The stiff
+   subspace is that of J's nonzero columns.
 */
 #ifndef AMGF_PROBLEM_H
 #define AMGF_PROBLEM_H
@@ -60,8 +61,8 @@ static inline PetscErrorCode AddStiffness(const Problem *p, Mat A)
       PetscScalar    block[9];
 
       if (other < 0 || other >= p->n * p->n || (PetscAbsInt(steps[s]) == 1 && other / p->n != node / p->n)) continue;
-      for (PetscInt i = 0; i < p->bs * p->bs; i++) block[i] = (p->bs == 3 ? C3[i] : C1[0]) * (s == 0 ? 2.0 * (p->ax + p->ay) : s < 3 ? -p->ax
-                                                                                                                                     : -p->ay);
+      for (PetscInt i = 0; i < p->bs * p->bs; i++)
+        block[i] = (p->bs == 3 ? C3[i] : C1[0]) * (s == 0 ? 2.0 * (p->ax + p->ay) : s < 3 ? -p->ax : -p->ay);
       PetscCall(MatSetValuesBlocked(A, 1, &node, 1, &other, block, ADD_VALUES));
     }
   }
@@ -148,7 +149,8 @@ static inline PetscErrorCode ProblemCreateFilterIS(const Problem *p, Mat A, MPI_
   PetscFunctionReturn(0);
 }
 
-/* P = the columns of the identity named by is; with weight != 0, a fraction of each column's row is also put into the row after it */
+/* P = the columns of the identity named by is; with weight != 0, a fraction of each column's row is also put into the
+   row after it */
 static inline PetscErrorCode ProblemCreateInterpolation(Mat A, IS is, PetscScalar weight, Mat *P)
 {
   PetscInt        n, nloc, N, first;
@@ -182,7 +184,8 @@ static inline PetscErrorCode FillVector(Vec x, PetscReal seed)
 
   PetscFunctionBeginUser;
   PetscCall(VecGetOwnershipRange(x, &start, &end));
-  for (PetscInt i = start; i < end; i++) PetscCall(VecSetValue(x, i, PetscSinReal(seed + 12.9898 * i) + 0.3 * PetscCosReal(seed * i), INSERT_VALUES));
+  for (PetscInt i = start; i < end; i++)
+    PetscCall(VecSetValue(x, i, PetscSinReal(seed + 12.9898 * i) + 0.3 * PetscCosReal(seed * i), INSERT_VALUES));
   PetscCall(VecAssemblyBegin(x));
   PetscCall(VecAssemblyEnd(x));
   PetscFunctionReturn(0);

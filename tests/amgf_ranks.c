@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF: on however many ranks the filtered system is solved, the preconditioner is the same, and so is what becomes of a failure.\n\n";
+static char help[] = "PCAMGF: on however many ranks the filtered system is solved, the preconditioner is the same, and "
+                     "so is what becomes of a failure.\n\n";
 
 #include "amgf_problem.h"
 
@@ -31,7 +32,8 @@ static PetscErrorCode SetReference(Context *c)
   PC pc;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, "-amgf_filter_pc_type cholesky -amgf_filter_pc_factor_mat_solver_type mumps"));
+  PetscCall(
+    PetscOptionsInsertString(NULL, "-amgf_filter_pc_type cholesky -amgf_filter_pc_factor_mat_solver_type mumps"));
   PetscCall(NewPC(c, 0, &pc));
   PetscCall(PCApply(pc, c->r, c->reference));
   PetscCall(PCApplyTranspose(pc, c->r, c->adjoint));
@@ -133,8 +135,7 @@ static PetscErrorCode CheckFailure(Context *c, PetscInt ranks)
     ierr = PCSetUp(pc);
     PetscCall(PetscPopErrorHandler());
     PetscCall(PCGetFailedReason(pc, &reason));
-    PetscCall(PetscPrintf(c->comm, "singular: %s\n", ierr ? "error" : reason ? "failed"
-                                                                             : "not noticed"));
+    PetscCall(PetscPrintf(c->comm, "singular: %s\n", ierr ? "error" : reason ? "failed" : "not noticed"));
     PetscCall(PCDestroy(&pc));
   }
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF on operators that change: what is rebuilt, what is kept, when the AMG lags, what a failure looks like.\n\n";
+static char help[] =
+  "PCAMGF on operators that change: what is rebuilt, what is kept, when the AMG lags, what a failure looks like.\n\n";
 
 #include "amgf_problem.h"
 
@@ -61,7 +62,8 @@ static PetscErrorCode Solve(Context *c, const char what[])
   PetscCall(MatMult(c->A, c->x, r));
   PetscCall(RelativeDifference(r, c->b, &residual));
   PetscCall(VecDestroy(&r));
-  PetscCall(PetscPrintf(c->comm, "  %s: %s, AMG set-ups %" PetscInt_FMT ", filter set-ups %" PetscInt_FMT "\n", what, reason > 0 && residual < 1e3 * rtol ? "solved" : "NOT SOLVED", counts.amg_setups, counts.filter_setups));
+  PetscCall(PetscPrintf(c->comm, "  %s: %s, AMG set-ups %" PetscInt_FMT ", filter set-ups %" PetscInt_FMT "\n", what,
+    reason > 0 && residual < 1e3 * rtol ? "solved" : "NOT SOLVED", counts.amg_setups, counts.filter_setups));
   PetscFunctionReturn(0);
 }
 
@@ -130,7 +132,8 @@ static PetscErrorCode CheckFixedLag(PCAMGFCycle cycle, PetscInt lag)
   PetscFunctionReturn(0);
 }
 
-/* Automatic, the default of fbf. The diagonal of K is 4 (ax + ay): with ax + ay fixed the direction of strong coupling turns under an unchanged diagonal */
+/* Automatic, the default of fbf. The diagonal of K is 4 (ax + ay): with ax + ay fixed the direction of strong
+   coupling turns under an unchanged diagonal */
 static PetscErrorCode CheckAutomaticLag(void)
 {
   Context c;
@@ -205,7 +208,8 @@ static PetscErrorCode CheckSwitch(void)
   PetscCall(Solve(&c, "on"));
   PetscCall(PCAMGFGetCounts(c.pc, &counts));
   PetscCall(SymbolicFactorizations(&after));
-  PetscCall(PetscPrintf(c.comm, "  filter solves: %s, symbolic factorizations: %" PetscInt_FMT "\n", counts.filter_applies ? "yes" : "none", after - before));
+  PetscCall(PetscPrintf(c.comm, "  filter solves: %s, symbolic factorizations: %" PetscInt_FMT "\n",
+    counts.filter_applies ? "yes" : "none", after - before));
   PetscCall(ContextDestroy(&c));
   PetscFunctionReturn(0);
 }
@@ -260,7 +264,8 @@ static PetscErrorCode CheckAmat(void)
     PetscCall(VecDot(y, My, &yMy));
     PetscCall(VecDot(c.b, My, &xMy));
     PetscCall(VecDot(y, Mx, &yMx));
-    PetscCall(ReportBound(c.comm, use ? "  products with Amat: symmetric" : "  products with Pmat: symmetric", PetscAbsScalar(xMy - yMx) / PetscSqrtReal(PetscAbsScalar(xMx * yMy)), 1e-11));
+    PetscCall(ReportBound(c.comm, use ? "  products with Amat: symmetric" : "  products with Pmat: symmetric",
+      PetscAbsScalar(xMy - yMx) / PetscSqrtReal(PetscAbsScalar(xMx * yMy)), 1e-11));
   }
   PetscCall(MatDestroy(&K));
   PetscCall(VecDestroy(&y));
@@ -270,7 +275,8 @@ static PetscErrorCode CheckAmat(void)
   PetscFunctionReturn(0);
 }
 
-/* A subspace matrix that is singular: the solve says so and does not end the program; the next good operator is solved */
+/* A subspace matrix that is singular: the solve says so and does not end the program; the next good operator is
+   solved */
 static PetscErrorCode CheckFailure(void)
 {
   Context            c;
@@ -291,7 +297,8 @@ static PetscErrorCode CheckFailure(void)
   PetscCall(KSPSolve(c.ksp, c.b, c.x));
   PetscCall(KSPGetConvergedReason(c.ksp, &reason));
   PetscCall(PCGetFailedReason(c.pc, &failed));
-  PetscCall(PetscPrintf(c.comm, "  singular subspace: %s, %s\n", KSPConvergedReasons[reason], failed ? "failure reported" : "no failure reported"));
+  PetscCall(PetscPrintf(c.comm, "  singular subspace: %s, %s\n", KSPConvergedReasons[reason],
+    failed ? "failure reported" : "no failure reported"));
   PetscCall(PCAMGFSetFilterIS(c.pc, c.is));
   PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
   PetscCall(Solve(&c, "recovered"));

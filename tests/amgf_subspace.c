@@ -1,4 +1,5 @@
-static char help[] = "PCAMGF: every way to name the subspace gives the same preconditioner; every bad one gives an error.\n\n";
+static char help[] =
+  "PCAMGF: every way to name the subspace gives the same preconditioner; every bad one gives an error.\n\n";
 
 #include "amgf_problem.h"
 #include <petsc/private/petscimpl.h>
@@ -148,7 +149,8 @@ static PetscErrorCode CheckPrecedence(Context *c)
   PetscFunctionReturn(0);
 }
 
-/* PETSc sets up only once for an operator that stays: what is composed later, or is no longer, is seen at the next application */
+/* PETSc sets up only once for an operator that stays: what is composed later, or is no longer, is seen at the next
+   application */
 static PetscErrorCode CheckComposedLater(Context *c)
 {
   PC       pc;
@@ -203,7 +205,8 @@ static PetscErrorCode CheckWarnings(Context *c)
   PetscFunctionBeginUser;
   PetscCall(ISCreateStride(PETSC_COMM_SELF, 0, 0, 1, &none));
   for (PetscInt i = 0; i < 5; i++) {
-    static const char *const names[] = {"no filter", "no filter, which is optional", "switched off", "an empty one named", "nothing detected"};
+    static const char *const names[] = {"no filter", "no filter, which is optional", "switched off",
+      "an empty one named", "nothing detected"};
 
     PetscCall(NewPC(c, c->A, &pc));
     if (i == 1) PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
@@ -218,7 +221,8 @@ static PetscErrorCode CheckWarnings(Context *c)
   PetscFunctionReturn(0);
 }
 
-/* Solves with the default AMG: BoomerAMG breaks ties in the order in which a format keeps a row, so its result is the same in quality only */
+/* Solves with the default AMG: BoomerAMG breaks ties in the order in which a format keeps a row, so its result is the
+   same in quality only */
 static PetscErrorCode SolveWith(Context *c, Mat A)
 {
   KSP                ksp;

@@ -1,4 +1,5 @@
-/* Shared by the tests of what must fail: the error's sentence is kept instead of PETSc's trace, and compared between ranks */
+/* Shared by the tests of what must fail: the error's sentence is kept instead of PETSc's trace, and compared between
+   ranks */
 #ifndef ATTEMPT_H
 #define ATTEMPT_H
 
@@ -6,7 +7,8 @@
 
 static char attempt_sentence[2048];
 
-static inline PetscErrorCode AttemptKeepSentence(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+static inline PetscErrorCode AttemptKeepSentence(MPI_Comm comm, int line, const char *function, const char *file,
+  PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
 {
   (void)comm, (void)line, (void)function, (void)file, (void)ctx;
   if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy(attempt_sentence, message, sizeof(attempt_sentence));
@@ -53,7 +55,8 @@ static inline PetscErrorCode AttemptPrint(PetscErrorCode ierr)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(&failed, &least, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(&failed, &most, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
-  if (most) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "error on %s rank: %s\n", least ? "every" : "some", attempt_sentence));
+  if (most)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "error on %s rank: %s\n", least ? "every" : "some", attempt_sentence));
   else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no error\n"));
   PetscFunctionReturn(0);
 }

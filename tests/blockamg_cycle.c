@@ -1,4 +1,5 @@
-static char help[] = "PCBLOCKAMG: symmetric and positive definite; CG in any units, of matrices of any format and block size, beside hypre's own cycle.\n\n";
+static char help[] = "PCBLOCKAMG: symmetric and positive definite; CG in any units, of matrices of any format and "
+                     "block size, beside hypre's own cycle.\n\n";
 
 #include "amgf_problem.h"
 #include <petsc/private/petscimpl.h>
@@ -13,7 +14,10 @@ static PetscErrorCode CubeCreate(MPI_Comm comm, MatType type, PetscInt n, PetscI
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (size > 2) nodes = rank == 1 ? 0 : rank < size - 1 ? N / (size - 1) : N - (size - 2) * (N / (size - 1)); /* a rank without rows */
+  if (size > 2)
+    nodes = rank == 1         ? 0
+            : rank < size - 1 ? N / (size - 1)
+                              : N - (size - 2) * (N / (size - 1)); /* a rank without rows */
   else PetscCall(PetscSplitOwnership(comm, &nodes, &N));
   PetscCall(MatCreate(comm, A));
   PetscCall(MatSetSizes(*A, nodes * bs, nodes * bs, N * bs, N * bs));
@@ -70,14 +74,16 @@ static PetscErrorCode Solve(Mat A, PCType type, PetscReal load, KSP *ksp, PetscI
   PetscCall(VecAXPY(r, -1.0, b));
   PetscCall(VecNorm(r, NORM_2, &norm));
   PetscCall(VecNorm(b, NORM_2, &scale));
-  if (!(norm <= 1e-10 * scale)) PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    true residual %g\n", (double)(norm / scale)));
+  if (!(norm <= 1e-10 * scale))
+    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    true residual %g\n", (double)(norm / scale)));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&b));
   PetscCall(VecDestroy(&r));
   PetscFunctionReturn(0);
 }
 
-/* (x, B y) = (y, B x) to the rounding of floats, (x, B x) > 0, and B (s x) = s B x to the last bit for s a power of 2 */
+/* (x, B y) = (y, B x) to the rounding of floats, (x, B x) > 0, and B (s x) = s B x to the last bit for s a power of 2
+ */
 static PetscErrorCode CheckSymmetry(KSP ksp, Mat A)
 {
   PC          pc;
@@ -98,15 +104,18 @@ static PetscErrorCode CheckSymmetry(KSP ksp, Mat A)
     PetscCall(VecDot(y, Bx, &b));
     PetscCall(VecDot(x, Bx, &c));
     PetscCall(VecDot(y, By, &d));
-    if (!(PetscRealPart(c) > 0.0) || !(PetscRealPart(d) > 0.0)) PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    not positive\n"));
+    if (!(PetscRealPart(c) > 0.0) || !(PetscRealPart(d) > 0.0))
+      PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    not positive\n"));
     violation = PetscMax(violation, PetscAbsScalar(a - b) / PetscSqrtReal(PetscAbsScalar(c * d)));
   }
-  if (!(violation < 1e-6)) PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    not symmetric: %g\n", (double)violation));
+  if (!(violation < 1e-6))
+    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    not symmetric: %g\n", (double)violation));
   PetscCall(VecScale(y, PetscPowReal(2.0, 200)));
   PetscCall(PCApply(pc, y, x));
   PetscCall(VecScale(x, PetscPowReal(2.0, -200)));
   PetscCall(RelativeDifference(x, By, &difference));
-  if (difference != 0.0) PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    depends on the scale: %g\n", (double)difference));
+  if (difference != 0.0)
+    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    depends on the scale: %g\n", (double)difference));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&y));
   PetscCall(VecDestroy(&Bx));
@@ -121,7 +130,8 @@ static PetscErrorCode CheckCounts(MPI_Comm comm, const char what[], PetscInt our
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (ours > theirs * (size > 1 ? 1.33 : 1.1) + 2) PetscCall(PetscPrintf(comm, "    %s: %" PetscInt_FMT " iterations, hypre %" PetscInt_FMT "\n", what, ours, theirs));
+  if (ours > theirs * (size > 1 ? 1.33 : 1.1) + 2)
+    PetscCall(PetscPrintf(comm, "    %s: %" PetscInt_FMT " iterations, hypre %" PetscInt_FMT "\n", what, ours, theirs));
   PetscFunctionReturn(0);
 }
 
@@ -134,12 +144,15 @@ static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
   PetscObjectState before, after;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(comm, "%s, block size %" PetscInt_FMT ", %" PetscInt_FMT " unknowns\n", type, bs, n * n * n * bs));
+  PetscCall(
+    PetscPrintf(comm, "%s, block size %" PetscInt_FMT ", %" PetscInt_FMT " unknowns\n", type, bs, n * n * n * bs));
   PetscCall(CubeCreate(comm, type, n, bs, 1.0, &A));
   PetscCall(PetscObjectStateGet((PetscObject)A, &before));
   PetscCall(Solve(A, PCBLOCKAMG, 1.0, &ksp, &its[0]));
   PetscCall(PetscObjectStateGet((PetscObject)A, &after));
-  if (after != before) PetscCall(PetscPrintf(comm, "    the set-up marks the matrix as changed, so that every application sets up again\n"));
+  if (after != before)
+    PetscCall(
+      PetscPrintf(comm, "    the set-up marks the matrix as changed, so that every application sets up again\n"));
   PetscCall(Solve(A, PCHYPRE, 1.0, &hypre, &its[1]));
   PetscCall(CheckCounts(comm, "counts", its[0], its[1]));
   PetscCall(CheckSymmetry(ksp, A));
@@ -147,11 +160,15 @@ static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
   for (PetscReal unit = 1e-14; unit < 1e15; unit *= 1e28) {
     PetscCall(MatScale(A, unit == 1e-14 ? unit : 1e28));
     PetscCall(Solve(A, PCBLOCKAMG, 1e-20 / unit, &ksp, &again));
-    if (PetscAbsInt(again - its[0]) > 1) PetscCall(PetscPrintf(comm, "    times %g: %" PetscInt_FMT " iterations, not %" PetscInt_FMT "\n", (double)unit, again, its[0]));
+    if (PetscAbsInt(again - its[0]) > 1)
+      PetscCall(PetscPrintf(comm, "    times %g: %" PetscInt_FMT " iterations, not %" PetscInt_FMT "\n", (double)unit,
+        again, its[0]));
   }
   PetscCall(KSPReset(ksp));
   PetscCall(Solve(A, PCBLOCKAMG, 1.0, &ksp, &again));
-  if (PetscAbsInt(again - its[0]) > 1) PetscCall(PetscPrintf(comm, "    after a reset: %" PetscInt_FMT " iterations, not %" PetscInt_FMT "\n", again, its[0]));
+  if (PetscAbsInt(again - its[0]) > 1)
+    PetscCall(
+      PetscPrintf(comm, "    after a reset: %" PetscInt_FMT " iterations, not %" PetscInt_FMT "\n", again, its[0]));
   PetscCall(KSPDestroy(&hypre));
   PetscCall(KSPDestroy(&ksp));
   PetscCall(MatDestroy(&A));
@@ -185,7 +202,8 @@ static PetscErrorCode CheckRefusal(PetscScalar entry)
   PetscCall(KSPSolve(ksp, b, x));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCall(PetscPrintf(comm, "a diagonal entry of %g: %s\n", (double)PetscRealPart(entry), KSPConvergedReasons[reason]));
+  PetscCall(
+    PetscPrintf(comm, "a diagonal entry of %g: %s\n", (double)PetscRealPart(entry), KSPConvergedReasons[reason]));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&b));
   PetscCall(KSPDestroy(&ksp));
@@ -202,8 +220,10 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
   /* the same hierarchy for hypre's own cycle */
-  PetscCall(PetscOptionsInsertString(NULL, "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type ext+i -pc_hypre_boomeramg_P_max 4 -pc_hypre_boomeramg_strong_threshold 0.25 "
-                                           "-pc_hypre_boomeramg_relax_type_down l1-Gauss-Seidel -pc_hypre_boomeramg_relax_type_up backward-l1-Gauss-Seidel"));
+  PetscCall(PetscOptionsInsertString(NULL,
+    "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type ext+i -pc_hypre_boomeramg_P_max 4 "
+    "-pc_hypre_boomeramg_strong_threshold 0.25 "
+    "-pc_hypre_boomeramg_relax_type_down l1-Gauss-Seidel -pc_hypre_boomeramg_relax_type_up backward-l1-Gauss-Seidel"));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(sizes); i++) PetscCall(CheckMatrix(MATAIJ, 10, sizes[i]));
   for (size_t i = 1; i < PETSC_STATIC_ARRAY_LENGTH(types); i++) PetscCall(CheckMatrix(types[i], 8, 3));
   PetscCall(CheckMatrix(MATAIJ, 2, 1)); /* one level */

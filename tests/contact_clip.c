@@ -1,4 +1,6 @@
-static char help[] = "Contact geometry: overlaps of facets against independent areas and integrals, degenerate facets, frozen derivatives.\n\
+static char help[] =
+  "Contact geometry: overlaps of facets against independent areas and integrals, degenerate facets, frozen\n\
+derivatives.\n\
   -pairs <n> : adversarial pairs of facets, on all ranks together\n";
 
 #include "../src/contact/contactimpl.h"
@@ -26,7 +28,8 @@ static void RandomMotion(PetscRandom r, Motion *m)
       const PetscInt  k    = 3 - i - j;
       const PetscReal sign = (j - i + 3) % 3 == 1 ? -1.0 : 1.0;
 
-      m->R[i][j] = i == j ? 1.0 - 2.0 * (1.0 - (q[0] * q[0] + q[1 + i] * q[1 + i]) / s) : 2.0 * (q[1 + i] * q[1 + j] + sign * q[0] * q[1 + k]) / s;
+      m->R[i][j] = i == j ? 1.0 - 2.0 * (1.0 - (q[0] * q[0] + q[1 + i] * q[1 + i]) / s)
+                          : 2.0 * (q[1 + i] * q[1 + j] + sign * q[0] * q[1 + k]) / s;
     }
     m->shift[i] = Random(r, -1, 1);
   }
@@ -37,7 +40,8 @@ static void Move(const Motion *m, PetscReal x[12])
   for (PetscInt a = 0; a < 4; ++a) {
     PetscReal y[3];
 
-    for (PetscInt i = 0; i < 3; ++i) y[i] = m->shift[i] + m->R[i][0] * x[3 * a] + m->R[i][1] * x[3 * a + 1] + m->R[i][2] * x[3 * a + 2];
+    for (PetscInt i = 0; i < 3; ++i)
+      y[i] = m->shift[i] + m->R[i][0] * x[3 * a] + m->R[i][1] * x[3 * a + 1] + m->R[i][2] * x[3 * a + 2];
     for (PetscInt i = 0; i < 3; ++i) x[3 * a + i] = y[i];
   }
 }
@@ -56,10 +60,12 @@ static void Facet(const PetscReal p[4][2], PetscReal z, PetscBool up, PetscReal 
 
 static void RandomConvex(PetscRandom r, PetscReal p[4][2])
 {
-  const PetscReal cx = Random(r, -1, 1), cy = Random(r, -1, 1), a = Random(r, 0.2, 2), b = Random(r, 0.2, 2), tilt = Random(r, 0, 7);
+  const PetscReal cx = Random(r, -1, 1), cy = Random(r, -1, 1), a = Random(r, 0.2, 2), b = Random(r, 0.2, 2),
+                  tilt = Random(r, 0, 7);
 
   for (PetscInt i = 0; i < 4; ++i) { /* on an ellipse */
-    const PetscReal t = 0.5 * PETSC_PI * (PetscReal)i + Random(r, -0.7, 0.7), u = a * PetscCosReal(t), v = b * PetscSinReal(t);
+    const PetscReal t = 0.5 * PETSC_PI * (PetscReal)i + Random(r, -0.7, 0.7), u = a * PetscCosReal(t),
+                    v = b * PetscSinReal(t);
 
     p[i][0] = cx + PetscCosReal(tilt) * u - PetscSinReal(tilt) * v;
     p[i][1] = cy + PetscSinReal(tilt) * u + PetscCosReal(tilt) * v;
@@ -67,8 +73,8 @@ static void RandomConvex(PetscRandom r, PetscReal p[4][2])
 }
 
 /*
-  Overlap of two convex quadrilaterals by an algorithm of another kind: the boundary integral 1/2 oint x cross dx over the
-  pieces of each edge that lie inside the other polygon.
+  Overlap of two convex quadrilaterals by an algorithm of another kind: the boundary integral 1/2 oint x cross dx over
+  the pieces of each edge that lie inside the other polygon.
 */
 static PetscReal PieceInside(const PetscReal a[2], const PetscReal b[2], const PetscReal q[4][2])
 {
@@ -142,7 +148,8 @@ static PetscErrorCode TestRandomAreas(PetscRandom r)
     ContactIntegrate(&o, x1, x2, normals, &m);
     for (PetscInt a = 0; a < 4; ++a) slip = PetscMax(slip, PetscAbsReal(m.gap[a]) / size);
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "random convex facets: %s\n", noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "random convex facets: %s\n",
+    noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
   PetscCall(Report("area of the overlap", area, 1e-12));
   PetscCall(Report("sum of the weights of the rows", unity, 1e-12));
   PetscCall(Report("gap of parallel planes", gaperror, 1e-12));
@@ -195,7 +202,8 @@ static PetscErrorCode TestTiling(PetscRandom r)
 }
 
 /* int over [lo, hi] of the hat functions a on [p0, p1] and b on [q0, q1], by 2 Gauss points */
-static PetscReal Hats(PetscReal lo, PetscReal hi, PetscReal p0, PetscReal p1, PetscInt a, PetscReal q0, PetscReal q1, PetscInt b)
+static PetscReal Hats(PetscReal lo, PetscReal hi, PetscReal p0, PetscReal p1, PetscInt a, PetscReal q0, PetscReal q1,
+  PetscInt b)
 {
   PetscReal sum = 0.0;
 
@@ -239,7 +247,8 @@ static PetscErrorCode TestParallelograms(PetscRandom r)
     Facet((const PetscReal(*)[2])p[1], 0.0, PETSC_FALSE, x2);
     Move(&motion, x1);
     Move(&motion, x2);
-    PetscCheck(ContactOverlapFind(x1, x2, &limits, &rule, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB, "Overlapping parallelograms were not found");
+    PetscCheck(ContactOverlapFind(x1, x2, &limits, &rule, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "Overlapping parallelograms were not found");
     ContactIntegrate(&o, x1, x2, normals, &m);
     size = (to[0] - from[0]) * (to[1] - from[1]);
     for (PetscInt a = 0; a < 4; ++a) {
@@ -286,7 +295,8 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
     PetscReal error = 0.0;
 
     for (PetscInt trial = 0; trial < 400; ++trial) {
-      const PetscReal  shift = trial % 4 == 3 ? 1e-7 : (trial % 4) * 1e-12, scale = PetscPowRealInt(10.0, (int)(trial % 13) - 6);
+      const PetscReal shift = trial % 4 == 3 ? 1e-7 : (trial % 4) * 1e-12,
+                      scale = PetscPowRealInt(10.0, (int)(trial % 13) - 6);
       const PetscBool  swap = (PetscBool)(trial % 3 == 1);
       PetscReal        p[4][2], q[4][2], x1[12], x2[12], normals[12] = {0}, sum = 0.0;
       Motion           motion;
@@ -318,7 +328,8 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
   PetscFunctionReturn(0);
 }
 
-/* Warped facets, also far too warped and steep: finite, within the facets, weights add up, derivative of the frozen gap */
+/* Warped facets, also far too warped and steep: finite, within the facets, weights add up, derivative of the frozen
+   gap */
 static PetscErrorCode TestWarped(PetscRandom r)
 {
   PetscReal unity = 0.0, outside = 0.0, derivative = 0.0, reference = 0.0;
@@ -371,13 +382,15 @@ static PetscErrorCode TestWarped(PetscRandom r)
       PetscReal J = 0.0;
 
       for (PetscInt b = 0; b < 4; ++b) {
-        for (PetscInt c = 0; c < 3; ++c) J += (m.M[a][b] * d2[3 * b + c] - m.D[a][b] * d1[3 * b + c]) * normals[3 * a + c];
+        for (PetscInt c = 0; c < 3; ++c)
+          J += (m.M[a][b] * d2[3 * b + c] - m.D[a][b] * d1[3 * b + c]) * normals[3 * a + c];
       }
       derivative = PetscMax(derivative, PetscAbsReal(J - (plus.gap[a] - minus.gap[a]) / (2.0 * eps)) / o.area);
       reference  = PetscMax(reference, PetscAbsReal(J) / o.area);
     }
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warped facets: %s\n", noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warped facets: %s\n",
+    noverlap > 5000 ? "more than 5000 overlaps" : "too few overlaps"));
   PetscCall(Report("sum of the weights of the rows, warped", unity, 1e-12));
   PetscCall(Report("points outside the facets", outside, 0.0));
   PetscCall(Report("frozen gap differentiated", derivative / reference, 1e-10));
@@ -429,8 +442,8 @@ static PetscErrorCode TestLimits(void)
 }
 
 /*
-  Exact overlaps in extended precision, by an algorithm of another kind: slabs between all places where an edge begins, ends
-  or crosses another one. Between them the height that two triangles share is linear.
+  Exact overlaps in extended precision, by an algorithm of another kind: slabs between all places where an edge
+  begins, ends or crosses another one. Between them the height that two triangles share is linear.
 */
 typedef long double Extended;
 
@@ -470,8 +483,10 @@ static Extended TriangleOverlap(Extended s[3][2], Extended t[3][2])
   }
   for (PetscInt i = 0; i < 3; ++i) {
     for (PetscInt j = 0; j < 3; ++j) {
-      const Extended d[2] = {s[(i + 1) % 3][0] - s[i][0], s[(i + 1) % 3][1] - s[i][1]}, e[2] = {t[(j + 1) % 3][0] - t[j][0], t[(j + 1) % 3][1] - t[j][1]};
-      const Extended det = d[0] * e[1] - d[1] * e[0], u = ((t[j][0] - s[i][0]) * e[1] - (t[j][1] - s[i][1]) * e[0]) / det;
+      const Extended d[2] = {s[(i + 1) % 3][0] - s[i][0], s[(i + 1) % 3][1] - s[i][1]},
+                     e[2] = {t[(j + 1) % 3][0] - t[j][0], t[(j + 1) % 3][1] - t[j][1]};
+      const Extended det  = d[0] * e[1] - d[1] * e[0],
+                     u    = ((t[j][0] - s[i][0]) * e[1] - (t[j][1] - s[i][1]) * e[0]) / det;
 
       if (det != 0 && u > 0 && u < 1) x[n++] = s[i][0] + u * d[0];
     }
@@ -544,7 +559,8 @@ static void ProjectExtended(const PetscReal x1[12], const PetscReal x2[12], Exte
   }
 }
 
-/* What pairs may do to one another. p: the nonmortar facet, q: the mortar facet, both counterclockwise; noise is often exactly 0 */
+/* What pairs may do to one another. p: the nonmortar facet, q: the mortar facet, both counterclockwise; noise is
+   often exactly 0 */
 enum {
   PAIR_RANDOM,
   PAIR_COLLINEAR, /* an edge of q on the line of one of p */
@@ -570,7 +586,8 @@ static PetscReal Noise(PetscRandom r)
 
 static void Squeeze(PetscRandom r, PetscReal p[4][2])
 {
-  const PetscReal angle = Random(r, 0, 7), c = PetscCosReal(angle), s = PetscSinReal(angle), factor = 1.0 - Power(r, -9, -1);
+  const PetscReal angle = Random(r, 0, 7), c = PetscCosReal(angle), s = PetscSinReal(angle),
+                  factor = 1.0 - Power(r, -9, -1);
 
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscReal along = c * p[a][0] + s * p[a][1];
@@ -582,8 +599,9 @@ static void Squeeze(PetscRandom r, PetscReal p[4][2])
 
 static void Dent(PetscRandom r, PetscReal p[4][2])
 {
-  const PetscInt  a = (PetscInt)Random(r, 0, 3.999);
-  const PetscReal t = Random(r, 0, 1) < 0.5 ? 0.5 : Random(r, 0.2, 0.8), depth = Random(r, 0, 1) < 0.5 ? Noise(r) : Random(r, 0, 0.3);
+  const PetscInt  a     = (PetscInt)Random(r, 0, 3.999);
+  const PetscReal t     = Random(r, 0, 1) < 0.5 ? 0.5 : Random(r, 0.2, 0.8),
+                  depth = Random(r, 0, 1) < 0.5 ? Noise(r) : Random(r, 0, 0.3);
 
   for (PetscInt d = 0; d < 2; ++d) {
     const PetscReal straight = (1 - t) * p[(a + 3) % 4][d] + t * p[(a + 1) % 4][d];
@@ -594,13 +612,16 @@ static void Dent(PetscRandom r, PetscReal p[4][2])
 
 static void AdversarialPair(PetscRandom r, PetscInt kind, PetscReal p[4][2], PetscReal q[4][2])
 {
-  const PetscInt  a = (PetscInt)Random(r, 0, 3.999), b = (PetscInt)Random(r, 0, 3.999), which = (PetscInt)Random(r, 1, 3.999);
+  const PetscInt a = (PetscInt)Random(r, 0, 3.999), b = (PetscInt)Random(r, 0, 3.999),
+                 which = (PetscInt)Random(r, 1, 3.999);
   const PetscReal t = Random(r, 0, 1) < 0.3 ? 0.0 : Random(r, 0, 1), u = Random(r, -0.5, 1.5);
 
   RandomConvex(r, p);
   RandomConvex(r, q);
   if (kind == PAIR_COLLINEAR) {
-    const PetscReal angle = PetscAtan2Real(p[(a + 1) % 4][1] - p[a][1], p[(a + 1) % 4][0] - p[a][0]) - PetscAtan2Real(q[(b + 1) % 4][1] - q[b][1], q[(b + 1) % 4][0] - q[b][0]) + (which == 1 ? PETSC_PI : 0.0) + Noise(r);
+    const PetscReal angle = PetscAtan2Real(p[(a + 1) % 4][1] - p[a][1], p[(a + 1) % 4][0] - p[a][0]) -
+                            PetscAtan2Real(q[(b + 1) % 4][1] - q[b][1], q[(b + 1) % 4][0] - q[b][0]) +
+                            (which == 1 ? PETSC_PI : 0.0) + Noise(r);
     const PetscReal c = PetscCosReal(angle), s = PetscSinReal(angle), from[2] = {q[b][0], q[b][1]};
 
     for (PetscInt v = 0; v < 4; ++v) {
@@ -641,18 +662,22 @@ static void AdversarialPair(PetscRandom r, PetscInt kind, PetscReal p[4][2], Pet
   }
 }
 
-/* Length by which the area of a facet's overlaps may change with the rounding of its vertices: the longest diagonal or edge */
+/* Length by which the area of a facet's overlaps may change with the rounding of its vertices: the longest diagonal
+   or edge */
 static PetscReal Diameter(const PetscReal x[12])
 {
   PetscReal longest = 0.0;
 
   for (PetscInt a = 0; a < 4; ++a) {
-    for (PetscInt b = 0; b < a; ++b) longest = PetscMax(longest, PetscSqr(x[3 * a] - x[3 * b]) + PetscSqr(x[3 * a + 1] - x[3 * b + 1]) + PetscSqr(x[3 * a + 2] - x[3 * b + 2]));
+    for (PetscInt b = 0; b < a; ++b)
+      longest = PetscMax(longest,
+        PetscSqr(x[3 * a] - x[3 * b]) + PetscSqr(x[3 * a + 1] - x[3 * b + 1]) + PetscSqr(x[3 * a + 2] - x[3 * b + 2]));
   }
   return PetscSqrtReal(longest);
 }
 
-/* Adds one pair's errors: area, partition of unity of the rows, of the mortar shape functions; infinite where something is not finite */
+/* Adds one pair's errors: area, partition of unity of the rows, of the mortar shape functions; infinite where
+   something is not finite */
 static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal error[3], PetscInt *noverlaps)
 {
   const ContactOverlapLimits all         = {-1e-3, 0.0, 1e30, 1e30};
@@ -687,7 +712,8 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
 /* Pairs of every kind, turned in space or not; split over the ranks */
 static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
 {
-  static const char *const names[PAIR_KINDS] = {"random", "collinear edges", "touching vertices", "nearly the same", "slivers", "triangles", "reflex corners", "folded", "warped"};
+  static const char *const names[PAIR_KINDS] = {"random", "collinear edges", "touching vertices", "nearly the same",
+    "slivers", "triangles", "reflex corners", "folded", "warped"};
   PetscMPIInt              rank, size;
 
   PetscFunctionBeginUser;
@@ -725,7 +751,8 @@ static PetscErrorCode TestAdversarial(PetscRandom r, PetscInt npairs)
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 3, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &noverlaps, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "adversarial facets, %s: %s\n", names[kind], noverlaps > n / 10 ? "more than a tenth overlap" : "too few overlaps"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "adversarial facets, %s: %s\n", names[kind],
+      noverlaps > n / 10 ? "more than a tenth overlap" : "too few overlaps"));
     PetscCall(Report("  area", error[0], 1e-12));
     PetscCall(Report("  weights of the rows", error[1], 1e-12));
     PetscCall(Report("  weights of the mortar vertices", error[2], 1e-12));
@@ -749,8 +776,11 @@ static PetscErrorCode TestRules(void)
         for (PetscInt k = 0; i + j + k <= degree; ++k) {
           PetscReal mean = 0.0;
 
-          for (PetscInt q = 0; q < r.n; ++q) mean += r.weight[q] * PetscPowRealInt(r.barycentric[q][0], i) * PetscPowRealInt(r.barycentric[q][1], j) * PetscPowRealInt(r.barycentric[q][2], k);
-          error = PetscMax(error, PetscAbsReal(mean - 2.0 * factorial[i] * factorial[j] * factorial[k] / factorial[i + j + k + 2]));
+          for (PetscInt q = 0; q < r.n; ++q)
+            mean += r.weight[q] * PetscPowRealInt(r.barycentric[q][0], i) * PetscPowRealInt(r.barycentric[q][1], j) *
+                    PetscPowRealInt(r.barycentric[q][2], k);
+          error = PetscMax(error,
+            PetscAbsReal(mean - 2.0 * factorial[i] * factorial[j] * factorial[k] / factorial[i + j + k + 2]));
         }
       }
     }

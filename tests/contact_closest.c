@@ -26,8 +26,9 @@ static PetscReal Exhaustive(const PetscReal x[12], const PetscReal p[3])
 
     for (PetscInt i = 0; i <= 20; ++i) {
       for (PetscInt j = 0; j <= 20; ++j) {
-        const PetscReal xi = PetscClipInterval(middle[0] + half * (0.1 * (PetscReal)i - 1.0), -1.0, 1.0), eta = PetscClipInterval(middle[1] + half * (0.1 * (PetscReal)j - 1.0), -1.0, 1.0);
-        PetscReal       y[3], d;
+        const PetscReal xi  = PetscClipInterval(middle[0] + half * (0.1 * (PetscReal)i - 1.0), -1.0, 1.0),
+                        eta = PetscClipInterval(middle[1] + half * (0.1 * (PetscReal)j - 1.0), -1.0, 1.0);
+        PetscReal y[3], d;
 
         Point(x, xi, eta, y);
         d = Distance(y, p);
@@ -50,7 +51,9 @@ static void RandomFacet(PetscRandom r, PetscReal warp, PetscInt kind, PetscReal 
   PetscReal              A[3][2];
 
   for (PetscInt i = 0; i < 6; ++i) A[i / 2][i % 2] = Random(r, -1, 1);
-  for (PetscInt i = 0; i < 12; ++i) x[i] = A[i % 3][0] * square[i / 3][0] + A[i % 3][1] * square[i / 3][1] + Random(r, -0.1, 0.1) + warp * Random(r, -1, 1);
+  for (PetscInt i = 0; i < 12; ++i)
+    x[i] =
+      A[i % 3][0] * square[i / 3][0] + A[i % 3][1] * square[i / 3][1] + Random(r, -0.1, 0.1) + warp * Random(r, -1, 1);
   for (PetscInt a = 0; a < kind; ++a) {
     for (PetscInt c = 0; c < 3; ++c) x[3 * (a + 1) + c] = x[c];
   }
@@ -75,7 +78,8 @@ static PetscErrorCode TestClosest(PetscRandom r, PetscReal warp, PetscReal heigh
     inconsistent = PetscMax(inconsistent, PetscAbsReal(d - Distance(y, p)));
     Point(x, xi[0], xi[1], z);
     inconsistent = PetscMax(inconsistent, Distance(y, z));
-    if (PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) > 1.0 || PetscIsInfOrNanReal(d)) inconsistent = PETSC_MAX_REAL;
+    if (PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) > 1.0 || PetscIsInfOrNanReal(d))
+      inconsistent = PETSC_MAX_REAL;
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", what));
   PetscCall(Report("  a closer point", farther, 1e-9));
@@ -119,8 +123,9 @@ static PetscErrorCode CreateWavy(PetscInt n, ContactCandidates *facets)
   PetscCall(PetscMalloc1(12 * facets->n, &facets->x));
   for (PetscInt f = 0; f < n * n; ++f) {
     for (PetscInt a = 0; a < 4; ++a) {
-      const PetscReal s = (PetscReal)(f % n + corner[a][0]) / (PetscReal)n, t = (PetscReal)(f / n + corner[a][1]) / (PetscReal)n;
-      PetscReal      *x = &facets->x[12 * f + 3 * a];
+      const PetscReal s = (PetscReal)(f % n + corner[a][0]) / (PetscReal)n,
+                      t = (PetscReal)(f / n + corner[a][1]) / (PetscReal)n;
+      PetscReal *x      = &facets->x[12 * f + 3 * a];
 
       x[0] = s;
       x[1] = t;
@@ -144,8 +149,9 @@ static PetscErrorCode TestNearest(PetscRandom r)
   PetscCall(ContactTreeCreate(&facets, &tree));
   for (PetscInt trial = 0; trial < 400; ++trial) {
     const PetscReal x[3] = {Random(r, -0.2, 1.2), Random(r, -0.2, 1.2), Random(r, -0.3, 0.3)};
-    PetscReal       n[3] = {Random(r, -1, 1), Random(r, -1, 1), Random(r, -2, 0.5)}, best = PETSC_MAX_REAL, length = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    ContactNearest  nearest;
+    PetscReal       n[3] = {Random(r, -1, 1), Random(r, -1, 1), Random(r, -2, 0.5)}, best = PETSC_MAX_REAL,
+              length = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    ContactNearest nearest;
 
     for (PetscInt c = 0; c < 3; ++c) n[c] /= length;
     for (PetscInt f = 0; f < facets.n; ++f) {
@@ -161,7 +167,8 @@ static PetscErrorCode TestNearest(PetscRandom r)
     ++nfound;
     error = PetscMax(error, PetscAbsReal(Distance(nearest.y, x) - best));
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "nearest of many facets: %s found, %" PetscInt_FMT " wrong\n", nfound > 100 ? "more than 100" : "too few", wrong));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "nearest of many facets: %s found, %" PetscInt_FMT " wrong\n",
+    nfound > 100 ? "more than 100" : "too few", wrong));
   PetscCall(Report("  distance", error, 1e-14));
   PetscCall(ContactTreeDestroy(&tree));
   PetscCall(PetscFree(facets.x));

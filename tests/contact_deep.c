@@ -13,7 +13,8 @@ static void PlaceTurned(const PetscReal x[3], PetscInt body, const void *ctx, Pe
 }
 
 /* The upper body starts at this height over the lower one's bottom; both unit cubes unless the lower one is thinner */
-static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal height, char mortar[], char nonmortar[], GapType gap, const char depth[])
+static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal height, char mortar[], char nonmortar[],
+  GapType gap, const char depth[])
 {
   const SceneContactPair pair   = {.name = "pair", .mortar = mortar, .nonmortar = nonmortar, .gap = gap};
   Box                    box[2] = {

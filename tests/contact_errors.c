@@ -4,7 +4,8 @@ static char help[] = "Contact: what is wrong with pairs, options and displacemen
 #include <contact.h>
 #include "attempt.h"
 
-static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pairs[], const char option[], const char value[], PetscBool finite)
+static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pairs[], const char option[],
+  const char value[], PetscBool finite)
 {
   Contact              contact = NULL;
   ContactLinearization lin;
@@ -37,20 +38,35 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pai
 int main(int argc, char **argv)
 {
   static char            name[2][8] = {"lower", "upper"};
-  const SceneContactPair good       = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
-  const SceneContactPair mortar     = {.name = "pair", .mortar = "lower.top", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
-  const SceneContactPair nonmortar  = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "middle.zmin", .gap = GAP_MORTAR};
-  const SceneContactPair twice      = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "lower.zmax", .gap = GAP_MORTAR};
-  const SceneContactPair near       = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_NODE, .distance = -0.5};
-  const SceneContactPair unknown    = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = (GapType)7};
-  const SceneContactPair same[2]    = {good, good};
+  const SceneContactPair good = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+  const SceneContactPair mortar = {.name = "pair", .mortar = "lower.top", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+  const SceneContactPair nonmortar = {.name = "pair",
+    .mortar                                 = "lower.zmax",
+    .nonmortar                              = "middle.zmin",
+    .gap                                    = GAP_MORTAR};
+  const SceneContactPair twice = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "lower.zmax", .gap = GAP_MORTAR};
+  const SceneContactPair near  = {.name = "pair",
+     .mortar                            = "lower.zmax",
+     .nonmortar                         = "upper.zmin",
+     .gap                               = GAP_NODE,
+     .distance                          = -0.5};
+  const SceneContactPair unknown = {.name = "pair",
+    .mortar                               = "lower.zmax",
+    .nonmortar                            = "upper.zmin",
+    .gap                                  = (GapType)7};
+  const SceneContactPair same[2] = {good, good};
   SceneBody              body[2];
   DM                     dm;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscMemzero(body, sizeof(body)));
-  for (PetscInt b = 0; b < 2; ++b) body[b] = (SceneBody){.name = name[b], .shape = SHAPE_BOX, .lower = {0, 0, (PetscReal)b}, .upper = {1, 1, 1.0 + (PetscReal)b}, .cells = {2 + b, 2, 2}};
+  for (PetscInt b = 0; b < 2; ++b)
+    body[b] = (SceneBody){.name = name[b],
+      .shape                    = SHAPE_BOX,
+      .lower                    = {0, 0, (PetscReal)b},
+      .upper                    = {1, 1, 1.0 + (PetscReal)b},
+      .cells                    = {2 + b, 2, 2}};
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, body, 0, &dm));
   PetscCall(Attempt(dm, 1, &mortar, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &nonmortar, NULL, NULL, PETSC_TRUE));

@@ -1,4 +1,5 @@
-static char help[] = "Linearized gap of meshes: exact gaps, translations, forces and moments, derivative, any number of ranks.\n\
+static char help[] =
+  "Linearized gap of meshes: exact gaps, translations, forces and moments, derivative, any number of ranks.\n\
   -cells <n>  : cells of the slab along x at level 0\n\
   -idle_ranks : some rank must own no row, or the test is not what it says\n";
 
@@ -24,7 +25,8 @@ static PetscErrorCode CreateMesh(MPI_Comm comm, PetscReal length, PetscInt cells
   PetscFunctionReturn(0);
 }
 
-/* Rotation of everything, and the upper bodies lifted by gap before that; then a shift of the lower or the upper bodies */
+/* Rotation of everything, and the upper bodies lifted by gap before that; then a shift of the lower or the upper
+   bodies */
 typedef struct {
   PetscReal R[3][3], gap, shift[2][3];
 } Rigid;
@@ -43,7 +45,8 @@ static void RigidField(const PetscReal x[3], PetscInt body, const void *ctx, Pet
   const Rigid    *r    = (const Rigid *)ctx;
   const PetscReal y[3] = {x[0], x[1], x[2] + (body ? r->gap : 0.0)};
 
-  for (PetscInt i = 0; i < 3; ++i) u[i] = r->R[i][0] * y[0] + r->R[i][1] * y[1] + r->R[i][2] * y[2] - x[i] + r->shift[body > 0][i];
+  for (PetscInt i = 0; i < 3; ++i)
+    u[i] = r->R[i][0] * y[0] + r->R[i][1] * y[1] + r->R[i][2] * y[2] - x[i] + r->shift[body > 0][i];
 }
 
 /* The same shift of the lower bodies, of the upper bodies */
@@ -68,7 +71,8 @@ static const SceneContactPair pairs[2] = {
   {.name = "on block", .mortar = "block.zmax", .nonmortar = "plate.zmin", .gap = GAP_MORTAR},
 };
 
-/* Parallel planes, turned in space: constant gap, rows that add up to the normal, no row for what looks through a body */
+/* Parallel planes, turned in space: constant gap, rows that add up to the normal, no row for what looks through a
+   body */
 static PetscErrorCode TestPlanes(DM dm, PetscReal length, PetscReal gap, const char what[])
 {
   Rigid                  rigid = {.gap = gap * length}, shift = {.gap = 0.0};
@@ -141,7 +145,8 @@ static PetscErrorCode CountRows(DM dm, char mortar[], char nonmortar[])
   PetscFunctionReturn(0);
 }
 
-/* On planes along the axes the normals are exactly the axis: J has no entries for other directions, and none that are zero */
+/* On planes along the axes the normals are exactly the axis: J has no entries for other directions, and none that are
+   zero */
 static PetscErrorCode CountEntries(ContactLinearization lin)
 {
   PetscInt start, end, n[2] = {0, 0};
@@ -158,7 +163,8 @@ static PetscErrorCode CountEntries(ContactLinearization lin)
     PetscCall(MatRestoreRow(lin->J, i, &ncols, &columns, &values));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "entries along the normal %" PetscInt_FMT ", others %" PetscInt_FMT "\n", n[0], n[1]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "entries along the normal %" PetscInt_FMT ", others %" PetscInt_FMT "\n",
+    n[0], n[1]));
   PetscFunctionReturn(0);
 }
 
@@ -203,7 +209,8 @@ static PetscErrorCode TestDerivative(DM dm)
   PetscFunctionReturn(0);
 }
 
-/* Virtual displacements to weigh forces with: of the slab along the turned z times a power of x or y; of all, a rotation */
+/* Virtual displacements to weigh forces with: of the slab along the turned z times a power of x or y; of all, a
+   rotation */
 typedef struct {
   const Rigid *rigid;
   PetscInt     what;
@@ -236,7 +243,8 @@ static PetscReal Moment(PetscInt i, PetscInt j)
   return x * y;
 }
 
-/* A linear contact pressure: its resultant and (mortar) first moments reach the slab; action is reaction, in force and moment */
+/* A linear contact pressure: its resultant and (mortar) first moments reach the slab; action is reaction, in force
+   and moment */
 static PetscErrorCode TestForces(DM dm, PetscBool moments)
 {
   const PetscReal      c[3]  = {1.0, 0.5, -0.25}; /* p = c0 + c1 x + c2 y */
@@ -277,10 +285,12 @@ static PetscErrorCode TestForces(DM dm, PetscBool moments)
   PetscCall(MatMultTranspose(lin->J, p, f));
   for (w.what = 0; w.what < 6; ++w.what) {
     const PetscInt  i = w.what == 1, j = w.what == 2;
-    const PetscReal expected = w.what < 3 ? -(c[0] * Moment(i, j) + c[1] * Moment(i + 1, j) + c[2] * Moment(i, j + 1)) : 0.0;
+    const PetscReal expected =
+      w.what < 3 ? -(c[0] * Moment(i, j) + c[1] * Moment(i + 1, j) + c[2] * Moment(i, j + 1)) : 0.0;
 
     if (w.what == 3) {
-      PetscCall(Report(moments ? "force and moments of a linear pressure" : "force of a linear pressure", error, 1e-12));
+      PetscCall(
+        Report(moments ? "force and moments of a linear pressure" : "force of a linear pressure", error, 1e-12));
       error = 0.0;
     }
     if (!moments && (i || j)) continue;
@@ -292,7 +302,8 @@ static PetscErrorCode TestForces(DM dm, PetscBool moments)
   for (PetscInt d = 0; d < 3; ++d) {
     PetscCall(VecStrideNorm(f, d, NORM_1, &error));
     PetscCall(VecStrideSum(f, d, &work));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "action and reaction along %c: %s\n", 'x' + (int)d, PetscAbsScalar(work) <= 1e-13 * error ? "balanced" : "not balanced"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "action and reaction along %c: %s\n", 'x' + (int)d,
+      PetscAbsScalar(work) <= 1e-13 * error ? "balanced" : "not balanced"));
   }
   PetscCall(VecDestroy(&p));
   PetscCall(VecDestroy(&f));
@@ -366,7 +377,8 @@ static PetscErrorCode CheckIdleRanks(DM dm)
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(ContactLinearize(contact, u, &lin));
   PetscCallMPI(MPI_Allreduce(&lin->nlocal, &fewest, 1, MPIU_INT, MPI_MIN, PETSC_COMM_WORLD));
-  PetscCheck(fewest == 0, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Every rank owns a contact row, at least %" PetscInt_FMT, fewest);
+  PetscCheck(fewest == 0, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Every rank owns a contact row, at least %" PetscInt_FMT,
+    fewest);
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
@@ -387,7 +399,8 @@ static PetscErrorCode TestNoPairs(DM dm)
   PetscCall(VecGetSize(u, &N));
   PetscCall(ContactLinearize(contact, u, &lin));
   PetscCall(MatGetSize(lin->J, &m, &n));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no pairs: %" PetscInt_FMT " rows, %s\n", m, n == N ? "a column an unknown" : "wrong number of columns"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no pairs: %" PetscInt_FMT " rows, %s\n", m,
+    n == N ? "a column an unknown" : "wrong number of columns"));
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));

@@ -14,7 +14,8 @@ typedef struct {
 } Box;
 
 /* The last of the boxes are of tetrahedra of order 1, six a cell */
-static inline PetscErrorCode CreateMixedBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt ntetrahedra, PetscInt refine, DM *dm)
+static inline PetscErrorCode CreateMixedBoxes(MPI_Comm comm, PetscInt n, Box boxes[], PetscInt ntetrahedra,
+  PetscInt refine, DM *dm)
 {
   SceneBody *body;
 
@@ -113,7 +114,8 @@ static inline PetscErrorCode SetPlaces(DM dm, Field place, const void *ctx)
 }
 
 /* Grows *error to max |v - value| over the rows of a pair (all pairs if negative) */
-static inline PetscErrorCode Deviation(ContactLinearization lin, Vec v, PetscInt pair, PetscReal value, PetscReal *error)
+static inline PetscErrorCode Deviation(ContactLinearization lin, Vec v, PetscInt pair, PetscReal value,
+  PetscReal *error)
 {
   const PetscScalar *a;
 

@@ -1,4 +1,5 @@
-static char help[] = "Derivatives of gap and cover over an overlap against central differences, where mesh lines cross and where they pass through vertices.\n";
+static char help[] = "Derivatives of gap and cover over an overlap against central differences, where mesh lines cross "
+                     "and where they pass through vertices.\n";
 
 #include "../src/contact/contactimpl.h"
 #include "contact_report.h"
@@ -7,7 +8,8 @@ static ContactRule rule;
 
 static const ContactOverlapLimits limits = {-0.174, 1e-12, 1e30, 1e30};
 
-/* Both facets' vertices, the nonmortar one's first, and the derivatives of the sums over their overlap by all of them */
+/* Both facets' vertices, the nonmortar one's first, and the derivatives of the sums over their overlap by all of them
+ */
 typedef struct {
   PetscReal x[2][12];
 } Facets;
@@ -70,7 +72,8 @@ static PetscErrorCode TestDifferences(const char name[], const PetscReal q[4][2]
       *x = middle;
       for (PetscInt a = 0; a < 4; ++a) {
         error = PetscMax(error, PetscAbsReal(at.by_gap[a][i] - (beside[1].gap[a] - beside[0].gap[a]) / (2.0 * step)));
-        error = PetscMax(error, PetscAbsReal(at.by_cover[a][i] - (beside[1].cover[a] - beside[0].cover[a]) / (2.0 * step)));
+        error =
+          PetscMax(error, PetscAbsReal(at.by_cover[a][i] - (beside[1].cover[a] - beside[0].cover[a]) / (2.0 * step)));
       }
     }
   }

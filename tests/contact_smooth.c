@@ -1,4 +1,5 @@
-static char help[] = "The gap of smooth surfaces: patches on cylinders and spheres, curved faces that do not match, planes, rigid motions, forces, finite differences.\n";
+static char help[] = "The gap of smooth surfaces: patches on cylinders and spheres, curved faces that do not match, "
+                     "planes, rigid motions, forces, finite differences.\n";
 
 #include "contact_problem.h"
 #include "../src/contact/contactimpl.h"
@@ -37,9 +38,11 @@ static void PatchError(PetscBool sphere, PetscReal h, PetscReal *facet, PetscRea
     ContactShape(xi, phi);
     for (PetscInt i = 0; i < 12; ++i) y[i % 3] += phi[i / 3] * x[i];
     ContactPatchEvaluate(&patch, xi, offset, normal);
-    *facet = PetscMax(*facet, PetscAbsReal(PetscSqrtReal(y[0] * y[0] + y[1] * y[1] + (sphere ? y[2] * y[2] : 0.0)) - 1.0));
+    *facet =
+      PetscMax(*facet, PetscAbsReal(PetscSqrtReal(y[0] * y[0] + y[1] * y[1] + (sphere ? y[2] * y[2] : 0.0)) - 1.0));
     for (PetscInt c = 0; c < 3; ++c) y[c] += offset[c];
-    *smooth = PetscMax(*smooth, PetscAbsReal(PetscSqrtReal(y[0] * y[0] + y[1] * y[1] + (sphere ? y[2] * y[2] : 0.0)) - 1.0));
+    *smooth =
+      PetscMax(*smooth, PetscAbsReal(PetscSqrtReal(y[0] * y[0] + y[1] * y[1] + (sphere ? y[2] * y[2] : 0.0)) - 1.0));
   }
 }
 
@@ -61,8 +64,16 @@ static PetscErrorCode TestPatch(PetscBool sphere)
 static PetscErrorCode CreateTubes(PetscInt inner, PetscInt outer, PetscInt along, DM *dm)
 {
   const SceneBody tubes[2] = {
-    {.name = (char *)"inner", .shape = SHAPE_TUBE_ARC, .cells = {1, inner, along}, .curved = PETSC_TRUE, .tube = {2, {0, 0, 0}, {0.5, 1}, {0, 90}, {0, 0.7}}},
-    {.name = (char *)"outer", .shape = SHAPE_TUBE_ARC, .cells = {1, outer, along}, .curved = PETSC_TRUE, .tube = {2, {0, 0, 0}, {1, 1.5}, {-5, 97}, {-0.1, 1}}},
+    {.name    = (char *)"inner",
+      .shape  = SHAPE_TUBE_ARC,
+      .cells  = {1, inner, along},
+      .curved = PETSC_TRUE,
+      .tube   = {2, {0, 0, 0}, {0.5, 1}, {0, 90}, {0, 0.7}}},
+    {.name    = (char *)"outer",
+      .shape  = SHAPE_TUBE_ARC,
+      .cells  = {1, outer, along},
+      .curved = PETSC_TRUE,
+      .tube   = {2, {0, 0, 0}, {1, 1.5}, {-5, 97}, {-0.1, 1}}},
   };
 
   PetscFunctionBeginUser;
@@ -74,8 +85,18 @@ static PetscErrorCode CreateTubes(PetscInt inner, PetscInt outer, PetscInt along
 static PetscErrorCode CreateCurved(Shape shape, PetscInt n, DM *dm)
 {
   const SceneBody balls[2] = {
-    {.name = (char *)"inner", .shape = SHAPE_BALL, .cells = {2 * n, 2 * n, 2 * n}, .layers = 1, .curved = PETSC_TRUE, .octant = {.outer = {.radius = 1}}},
-    {.name = (char *)"outer", .shape = SHAPE_SPHERE_SHELL, .cells = {3 * n, 3 * n, 3 * n}, .layers = 1, .curved = PETSC_TRUE, .octant = {.inner = {.radius = 1}, .outer = {.radius = 1.5}}},
+    {.name    = (char *)"inner",
+      .shape  = SHAPE_BALL,
+      .cells  = {2 * n, 2 * n, 2 * n},
+      .layers = 1,
+      .curved = PETSC_TRUE,
+      .octant = {.outer = {.radius = 1}}},
+    {.name    = (char *)"outer",
+      .shape  = SHAPE_SPHERE_SHELL,
+      .cells  = {3 * n, 3 * n, 3 * n},
+      .layers = 1,
+      .curved = PETSC_TRUE,
+      .octant = {.inner = {.radius = 1}, .outer = {.radius = 1.5}}},
   };
 
   PetscFunctionBeginUser;
@@ -88,7 +109,12 @@ static SceneContactPair CurvedPair(Shape shape, PetscBool swap, GapType gap, Pet
 {
   static char inner[2][16] = {"inner.outer", "inner.surface"}, outer[] = "outer.inner";
 
-  return (SceneContactPair){.name = (char *)"pair", .mortar = swap ? inner[shape] : outer, .nonmortar = swap ? outer : inner[shape], .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = smooth};
+  return (SceneContactPair){.name = (char *)"pair",
+    .mortar                       = swap ? inner[shape] : outer,
+    .nonmortar                    = swap ? outer : inner[shape],
+    .gap                          = gap,
+    .interference_ramp            = PETSC_DECIDE,
+    .smooth                       = smooth};
 }
 
 /* Both bodies turn and shift together */
@@ -117,7 +143,8 @@ static void PartingField(const PetscReal x[3], PetscInt body, const void *ctx, P
   u[2] = size * (body ? x[1] : x[0] * x[2]);
 }
 
-static PetscErrorCode LinearizeCurved(DM dm, SceneContactPair pair, Field field, const void *ctx, ContactLinearization *lin)
+static PetscErrorCode LinearizeCurved(DM dm, SceneContactPair pair, Field field, const void *ctx,
+  ContactLinearization *lin)
 {
   Contact contact;
   Vec     u;
@@ -134,7 +161,8 @@ static PetscErrorCode LinearizeCurved(DM dm, SceneContactPair pair, Field field,
 }
 
 /* Largest gap of surfaces that are one */
-static PetscErrorCode GapError(Shape shape, PetscInt n, PetscBool swap, GapType gap, PetscBool smooth, Field field, PetscReal *error)
+static PetscErrorCode GapError(Shape shape, PetscInt n, PetscBool swap, GapType gap, PetscBool smooth, Field field,
+  PetscReal *error)
 {
   DM                   dm;
   ContactLinearization lin;
@@ -149,12 +177,14 @@ static PetscErrorCode GapError(Shape shape, PetscInt n, PetscBool swap, GapType 
 }
 
 /* Surfaces that stay one: order from n = 4 to 8, and what is left of the facets' error there */
-static PetscErrorCode TestGap(Shape shape, PetscBool swap, GapType gap, const char state[], Field field, PetscReal order, PetscReal least)
+static PetscErrorCode TestGap(Shape shape, PetscBool swap, GapType gap, const char state[], Field field,
+  PetscReal order, PetscReal least)
 {
   PetscReal facets, error[2];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s body nonmortar, %s\n", shape_names[shape], GapTypes[gap], swap ? "outer" : "inner", state));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s body nonmortar, %s\n", shape_names[shape], GapTypes[gap],
+    swap ? "outer" : "inner", state));
   PetscCall(GapError(shape, 8, swap, gap, PETSC_FALSE, field, &facets));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(GapError(shape, 4 << k, swap, gap, PETSC_TRUE, field, &error[k]));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  order of the gap"));
@@ -205,10 +235,12 @@ static void RoughField(const PetscReal x[3], PetscInt body, const void *ctx, Pet
 {
   const PetscReal size = *(const PetscReal *)ctx;
 
-  for (PetscInt c = 0; c < 3; ++c) u[c] = size * PetscSinReal(37.0 * x[0] + 53.0 * x[1] + 71.0 * x[2] + 5.0 * (PetscReal)(c + 3 * body));
+  for (PetscInt c = 0; c < 3; ++c)
+    u[c] = size * PetscSinReal(37.0 * x[0] + 53.0 * x[1] + 71.0 * x[2] + 5.0 * (PetscReal)(c + 3 * body));
 }
 
-/* The inner body turned about the axis and shifted along it, beyond the border of the other, and the two a little apart */
+/* The inner body turned about the axis and shifted along it, beyond the border of the other, and the two a little
+   apart */
 static void SlideField(const PetscReal x[3], PetscInt body, PETSC_UNUSED const void *ctx, PetscReal u[3])
 {
   const PetscReal angle = body ? 0.0 : 0.37, size = 0.02;
@@ -288,7 +320,8 @@ static PetscErrorCode TestDifferences(DM dm, const State *state)
   PetscCall(VecDuplicate(lin->g, &product));
   PetscCall(MatMult(lin->derivative, v, product));
   PetscCall(Difference(moved[0]->g, product, &error));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s nonmortar\n", state->name, GapTypes[state->pair.gap], state->pair.nonmortar));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s nonmortar\n", state->name, GapTypes[state->pair.gap],
+    state->pair.nonmortar));
   PetscCall(Report("  differences of the gap against its derivative", error, 1e-6));
   PetscCall(VecDestroy(&v));
   PetscCall(VecDestroy(&product));
@@ -302,7 +335,8 @@ static void Place(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_UNUSED
   for (PetscInt c = 0; c < 3; ++c) y[c] = x[c];
 }
 
-/* Force and moment about the origin that J or the derivative transmits of a pressure of 1 on all rows, on both bodies together, by the sum of their sizes */
+/* Force and moment about the origin that J or the derivative transmits of a pressure of 1 on all rows, on both bodies
+   together, by the sum of their sizes */
 static PetscErrorCode ReportBalance(Mat J, Vec mass, Vec x)
 {
   Vec                f;
@@ -354,7 +388,8 @@ static PetscErrorCode TestBalance(DM dm, const State *state)
   PetscFunctionReturn(0);
 }
 
-/* Of a displacement that varies over the whole face J makes the derivative but for what its patches would bend: fourfold facets, a part of it */
+/* Of a displacement that varies over the whole face J makes the derivative but for what its patches would bend:
+   fourfold facets, a part of it */
 static PetscErrorCode TestRigidPatches(Shape shape, GapType gap)
 {
   const PetscReal one = 1.0;
@@ -389,7 +424,12 @@ static PetscErrorCode TestRigidPatches(Shape shape, GapType gap)
 /* The gap's derivative, J, and the forces that they transmit, bent, slid off one another, and across a sharp edge */
 static PetscErrorCode TestJacobian(GapType gap)
 {
-  const SceneContactPair kinked = {.name = (char *)"pair", .mortar = (char *)"inner.zmax", .nonmortar = (char *)"outer.zmin", .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = PETSC_TRUE};
+  const SceneContactPair kinked = {.name = (char *)"pair",
+    .mortar                              = (char *)"inner.zmax",
+    .nonmortar                           = (char *)"outer.zmin",
+    .gap                                 = gap,
+    .interference_ramp                   = PETSC_DECIDE,
+    .smooth                              = PETSC_TRUE};
   State                  state;
   DM                     dm;
 
@@ -409,7 +449,8 @@ static PetscErrorCode TestJacobian(GapType gap)
     PetscCall(DMDestroy(&dm));
   }
   for (PetscInt tetrahedra = 0; tetrahedra < 3; ++tetrahedra) {
-    static const char *const names[] = {"sheets with a sharp edge", "sheets, one of tetrahedra", "sheets of tetrahedra"};
+    static const char *const names[] = {"sheets with a sharp edge", "sheets, one of tetrahedra",
+      "sheets of tetrahedra"};
 
     PetscCall(CreateKinked(tetrahedra, &dm));
     state = (State){names[tetrahedra], PartingField, 0.02, kinked};
@@ -421,17 +462,27 @@ static PetscErrorCode TestJacobian(GapType gap)
 }
 
 /* With and without smooth surfaces the gap of bodies that are bent is the same to the last bit, or it is not */
-static PetscErrorCode Compare(DM dm, const char what[], const char mortar[], const char nonmortar[], GapType gap, PetscBool same)
+static PetscErrorCode Compare(DM dm, const char what[], const char mortar[], const char nonmortar[], GapType gap,
+  PetscBool same)
 {
   ContactLinearization lin[2];
   const PetscReal      size = 0.02;
   PetscReal            difference;
 
   PetscFunctionBeginUser;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinearizeCurved(dm, (SceneContactPair){.name = (char *)"pair", .mortar = (char *)mortar, .nonmortar = (char *)nonmortar, .gap = gap, .interference_ramp = PETSC_DECIDE, .smooth = (PetscBool)k}, PartingField, &size, &lin[k]));
+  for (PetscInt k = 0; k < 2; ++k)
+    PetscCall(LinearizeCurved(dm,
+      (SceneContactPair){.name = (char *)"pair",
+        .mortar                = (char *)mortar,
+        .nonmortar             = (char *)nonmortar,
+        .gap                   = gap,
+        .interference_ramp     = PETSC_DECIDE,
+        .smooth                = (PetscBool)k},
+      PartingField, &size, &lin[k]));
   PetscCall(VecAXPY(lin[0]->g, -1.0, lin[1]->g));
   PetscCall(VecNorm(lin[0]->g, NORM_INFINITY, &difference));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: smooth and facets %s\n", what, GapTypes[gap], (difference == 0.0) == same ? (same ? "are the same" : "differ") : (same ? "DIFFER" : "ARE THE SAME")));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: smooth and facets %s\n", what, GapTypes[gap],
+    (difference == 0.0) == same ? (same ? "are the same" : "differ") : (same ? "DIFFER" : "ARE THE SAME")));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactLinearizationDestroy(&lin[k]));
   PetscFunctionReturn(0);
 }
@@ -469,7 +520,8 @@ int main(int argc, char **argv)
     for (PetscInt s = TUBES; s < NSHAPES; ++s) {
       for (PetscInt swap = 0; swap < 2; ++swap) {
         PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "undeformed", NULL, 3.7, 0.002));
-        /* not fourth order: normals at vertices of three facets, and at the border, are extrapolated to first order on what is no sphere */
+        /* not fourth order: normals at vertices of three facets, and at the border, are extrapolated to first order
+           on what is no sphere */
         PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "stretched", StretchField, s == TUBES ? 2.5 : 1.8, 0.06));
       }
       PetscCall(TestRigid((Shape)s, gap));

@@ -1,16 +1,20 @@
-static char help[] = "Patch tests of contact: bodies pressed together by their faces hold the exact uniform stress, or how far they are from it.\n";
+static char help[] = "Patch tests of contact: bodies pressed together by their faces hold the exact uniform stress, or "
+                     "how far they are from it.\n";
 
 #include "contact_problem.h"
 #include <elasticity.h>
 #include <petscksp.h>
 
-static const SceneContactPair mortar = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
-static const SceneContactPair node   = {.name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_NODE};
+static const SceneContactPair mortar = {
+  .name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_MORTAR};
+static const SceneContactPair node = {
+  .name = "pair", .mortar = "lower.zmax", .nonmortar = "upper.zmin", .gap = GAP_NODE};
 
 static const PetscInt different[2][3] = {{3, 4, 2}, {4, 3, 2}};
 static const PetscInt matching[2][3]  = {{4, 3, 2}, {4, 3, 2}};
 
-/* Two bodies of one footprint that meet at z = 1 and, before a rotation, bear the pressure p along z, or from all sides */
+/* Two bodies of one footprint that meet at z = 1 and, before a rotation, bear the pressure p along z, or from all
+   sides */
 typedef struct {
   PetscReal R[3][3], p, young[2], poisson[2], amplitude; /* amplitude: of the interface's waves along x */
   PetscBool hydrostatic;
@@ -24,7 +28,8 @@ static void Rotate(const Patch *patch, const PetscReal x[3], PetscReal y[3])
 /* Rotations by an angle about x, then y */
 static void SetRotation(PetscReal about_x, PetscReal about_y, Patch *patch)
 {
-  const PetscReal c = PetscCosReal(about_x), s = PetscSinReal(about_x), C = PetscCosReal(about_y), S = PetscSinReal(about_y);
+  const PetscReal c = PetscCosReal(about_x), s = PetscSinReal(about_x), C = PetscCosReal(about_y),
+                  S       = PetscSinReal(about_y);
   const PetscReal R[3][3] = {{C, S * s, S * c}, {0, c, -s}, {-S, C * s, C * c}};
 
   for (PetscInt i = 0; i < 9; ++i) patch->R[i / 3][i % 3] = R[i / 3][i % 3];
@@ -84,12 +89,14 @@ static PetscErrorCode StressError(const Patch *patch, DM dm, Elasticity e, Vec u
 /* All components at the far ends, and the normal ones on the sides where asked for */
 static PetscErrorCode GetPrescribed(DM dm, PetscBool sides, IS *rows)
 {
-  static const char *const side[] = {"lower.xmin", "lower.xmax", "upper.xmin", "upper.xmax", "lower.ymin", "lower.ymax", "upper.ymin", "upper.ymax"};
+  static const char *const side[] = {"lower.xmin", "lower.xmax", "upper.xmin", "upper.xmax", "lower.ymin", "lower.ymax",
+    "upper.ymin", "upper.ymax"};
   IS                       part[14];
   PetscInt                 n = 0;
 
   PetscFunctionBeginUser;
-  for (PetscInt i = 0; i < 6; ++i) PetscCall(MeshGetFaceDofs(dm, i < 3 ? "lower.zmin" : "upper.zmax", i % 3, &part[n++]));
+  for (PetscInt i = 0; i < 6; ++i)
+    PetscCall(MeshGetFaceDofs(dm, i < 3 ? "lower.zmin" : "upper.zmax", i % 3, &part[n++]));
   for (PetscInt i = 0; sides && i < 8; ++i) PetscCall(MeshGetFaceDofs(dm, side[i], i / 4, &part[n++]));
   PetscCall(ISConcatenate(PETSC_COMM_WORLD, n, part, rows));
   PetscCall(ISSortRemoveDups(*rows));
@@ -136,13 +143,16 @@ static PetscErrorCode SolveDirectly(Mat A, Vec b, Vec x)
   PetscCall(VecNorm(r, NORM_2, &residual));
   PetscCall(VecNorm(b, NORM_2, &norm));
   PetscCall(VecNorm(x, NORM_2, &size));
-  if (residual > 1e-11 * (norm + size)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "the linear solver leaves a residual of %g\n", (double)(residual / (norm + size))));
+  if (residual > 1e-11 * (norm + size))
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "the linear solver leaves a residual of %g\n", (double)(residual / (norm + size))));
   PetscCall(VecDestroy(&r));
   PetscCall(KSPDestroy(&ksp));
   PetscFunctionReturn(0);
 }
 
-/* The rows hold as equations: K w - J^T lambda = -f, J w = c, w = 0 on the prescribed rows; u += w. Scaled by the diagonal of K */
+/* The rows hold as equations: K w - J^T lambda = -f, J w = c, w = 0 on the prescribed rows; u += w. Scaled by the
+   diagonal of K */
 static PetscErrorCode SolveEquality(Mat K, Mat J, Vec f, Vec c, IS rows, Vec u, Vec lambda)
 {
   Mat block[4] = {NULL, NULL, NULL, NULL}, nest, A;
@@ -187,7 +197,8 @@ static PetscErrorCode SolveEquality(Mat K, Mat J, Vec f, Vec c, IS rows, Vec u, 
 }
 
 /* Errors of the stress and of the contact pressure, both by the pressure */
-static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, const PetscInt cells[2][3], PetscInt refine, PetscReal *stress, PetscReal *contact_pressure)
+static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, const PetscInt cells[2][3],
+  PetscInt refine, PetscReal *stress, PetscReal *contact_pressure)
 {
   Box box[2] = {
     {"lower", {0, 0, 0}, {1, 1, 1}, {cells[0][0], cells[0][1], cells[0][2]}},
@@ -205,7 +216,8 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
   PetscFunctionBeginUser;
   PetscCall(CreateBoxes(PETSC_COMM_WORLD, 2, box, refine, &dm));
   PetscCall(SetPlaces(dm, PlaceField, patch));
-  for (PetscInt b = 0; b < 2; ++b) materials[b] = (Material){.type = MATERIAL_LINEAR, .young = patch->young[b], .poisson = patch->poisson[b]};
+  for (PetscInt b = 0; b < 2; ++b)
+    materials[b] = (Material){.type = MATERIAL_LINEAR, .young = patch->young[b], .poisson = patch->poisson[b]};
   PetscCall(ElasticityCreate(dm, 2, materials, NULL, &e));
   PetscCall(GetPrescribed(dm, patch->hydrostatic, &rows));
   PetscCall(ElasticitySetPrescribed(e, rows));
@@ -254,10 +266,11 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
 }
 
 /*
-  Stiffness ratios and Poisson's ratios on one configuration: the worst errors. What rounds the stress of a stiff body is the
-  displacement of a soft one: errors are divided by E2/E1, or 1 if larger, over 1 - 2 nu.
+  Stiffness ratios and Poisson's ratios on one configuration: the worst errors. What rounds the stress of a stiff body
+  is the displacement of a soft one: errors are divided by E2/E1, or 1 if larger, over 1 - 2 nu.
 */
-static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair, const PetscInt cells[2][3], PetscReal *stress, PetscReal *pressure)
+static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair,
+  const PetscInt cells[2][3], PetscReal *stress, PetscReal *pressure)
 {
   static const PetscReal ratio[] = {1.0, 1e3, 1e6, 1e-6}, nu[] = {0.0, 0.3, 0.499};
   Patch                  patch = {.p = 0.01, .hydrostatic = PETSC_FALSE, .amplitude = 0.0};
@@ -275,7 +288,8 @@ static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneCon
       patch.poisson[0] = nu[j];
       patch.poisson[1] = nu[2 - j];
       PetscCall(Solve(&patch, pair, cells, 0, &s, &z));
-      PetscCall(PetscInfo(NULL, "E ratio %g nu %g %g: stress %g pressure %g\n", (double)ratio[i], (double)nu[j], (double)nu[2 - j], (double)s, (double)z));
+      PetscCall(PetscInfo(NULL, "E ratio %g nu %g %g: stress %g pressure %g\n", (double)ratio[i], (double)nu[j],
+        (double)nu[2 - j], (double)s, (double)z));
       *stress   = PetscMax(*stress, s / amplification);
       *pressure = PetscMax(*pressure, z / amplification);
     }
@@ -283,7 +297,8 @@ static PetscErrorCode Sweep(PetscReal about_x, PetscReal about_y, const SceneCon
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TestUniform(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair, const PetscInt cells[2][3], const char what[])
+static PetscErrorCode TestUniform(PetscReal about_x, PetscReal about_y, const SceneContactPair *pair,
+  const PetscInt cells[2][3], const char what[])
 {
   char      name[128];
   PetscReal stress, pressure;
@@ -307,11 +322,15 @@ static PetscErrorCode TestKnownFailure(void)
   SetRotation(0.0, 0.0, &patch);
   PetscCall(Solve(&patch, &mortar, different, 0, &stress[0], &pressure[0]));
   PetscCall(Solve(&patch, &node, different, 0, &stress[1], &pressure[1]));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "meshes that do not match, error of the stress by the pressure: mortar %s, node to segment %.3f, %s\n", stress[0] < 1e-12 ? "below 1e-12" : "TOO LARGE", (double)stress[1], stress[1] > 0.01 ? "more than 1 %" : "LESS THAN 1 %"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "meshes that do not match, error of the stress by the pressure: mortar %s, node to segment %.3f, %s\n",
+    stress[0] < 1e-12 ? "below 1e-12" : "TOO LARGE", (double)stress[1],
+    stress[1] > 0.01 ? "more than 1 %" : "LESS THAN 1 %"));
   PetscFunctionReturn(0);
 }
 
-/* A curved interface under pressure from all sides: exact along the facets' normals; along nodal ones as good as the facets are small */
+/* A curved interface under pressure from all sides: exact along the facets' normals; along nodal ones as good as the
+   facets are small */
 static PetscErrorCode TestCurved(const char normals[], PetscReal E2)
 {
   Patch     patch = {.p = 0.01, .young = {1, E2}, .poisson = {0.3, 0.499}, .hydrostatic = PETSC_TRUE, .amplitude = 0.1};
@@ -325,9 +344,12 @@ static PetscErrorCode TestCurved(const char normals[], PetscReal E2)
     worst = PetscMax(worst, PetscMax(stress[refine], pressure[refine]) / PetscMax(1.0, E2));
   }
   PetscCall(PetscOptionsClearValue(NULL, "-contact_normals"));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "curved matching interface, E2/E1 %g, %s normals, error of the stress by the pressure: ", (double)E2, normals));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "curved matching interface, E2/E1 %g, %s normals, error of the stress by the pressure: ", (double)E2, normals));
   if (worst < 1e-11) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "none\n"));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%.2g, %.2g, %.2g on three meshes\n", (double)stress[0], (double)stress[1], (double)stress[2]));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%.2g, %.2g, %.2g on three meshes\n", (double)stress[0], (double)stress[1],
+      (double)stress[2]));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
-static char help[] = "Gap of surfaces in awkward places: curved, sliding, off an edge, in several pairs, looking away, overlapping, touching, never meeting.\n";
+static char help[] = "Gap of surfaces in awkward places: curved, sliding, off an edge, in several pairs, looking away, "
+                     "overlapping, touching, never meeting.\n";
 
 #include "contact_problem.h"
 
@@ -10,14 +11,16 @@ typedef struct {
 static void MotionField(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal u[3])
 {
   const Motion   *m = (const Motion *)ctx;
-  const PetscReal c = PetscCosReal(m->angle[body]), s = PetscSinReal(m->angle[body]), dx = x[0] - m->centre[body][0], dz = x[2] - m->centre[body][2];
+  const PetscReal c = PetscCosReal(m->angle[body]), s = PetscSinReal(m->angle[body]), dx = x[0] - m->centre[body][0],
+                  dz = x[2] - m->centre[body][2];
 
   u[0] = c * dx + s * dz - dx + m->shift[body][0];
   u[1] = m->shift[body][1];
   u[2] = -s * dx + c * dz - dz + m->shift[body][2];
 }
 
-static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const SceneContactPair pairs[], Field field, const void *ctx, ContactLinearization *lin)
+static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const SceneContactPair pairs[], Field field, const void *ctx,
+  ContactLinearization *lin)
 {
   Contact contact;
   Vec     u;
@@ -47,7 +50,8 @@ static PetscErrorCode CreateBodies(DM *dm)
   PetscFunctionReturn(0);
 }
 
-/* Part of each row's vertex that is covered: J times a unit motion of the nonmortar body along its outward normal, negated */
+/* Part of each row's vertex that is covered: J times a unit motion of the nonmortar body along its outward normal,
+   negated */
 static PetscErrorCode GetCover(DM dm, ContactLinearization lin, const Motion *outward, Vec *cover)
 {
   Vec v;
@@ -75,7 +79,8 @@ static PetscErrorCode TestSliding(DM dm)
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k <= 12; ++k) {
-    motion.shift[1][0] = -3.1 + 0.4 * (PetscReal)k + (k % 3 == 1 ? 1e-12 : 0.0); /* aligned with the slab's facets at times, or almost */
+    motion.shift[1][0] =
+      -3.1 + 0.4 * (PetscReal)k + (k % 3 == 1 ? 1e-12 : 0.0); /* aligned with the slab's facets at times, or almost */
     PetscCall(LinearizeAt(dm, 1, &pair, MotionField, &motion, &lin));
     PetscCall(MatGetSize(lin->J, &m, NULL));
     wrong += m != 16;
@@ -85,7 +90,8 @@ static PetscErrorCode TestSliding(DM dm)
     PetscCall(VecDestroy(&cover));
     PetscCall(ContactLinearizationDestroy(&lin));
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "sliding over many facets: %" PetscInt_FMT " wrong numbers of rows\n", wrong));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "sliding over many facets: %" PetscInt_FMT " wrong numbers of rows\n", wrong));
   PetscCall(Report("  gap", gap, 1e-12));
   PetscCall(Report("  rows", rows, 1e-11)); /* slivers are left out */
   PetscFunctionReturn(0);
@@ -95,11 +101,11 @@ static PetscErrorCode TestSliding(DM dm)
 static PetscErrorCode TestEdge(DM dm, PetscReal hang)
 {
   const SceneContactPair pair = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
-  const Motion           down = {.shift = {{0}, {0, 0, -1}, {0}}}, motion = {.shift = {{0}, {3.7 + hang, 0, -0.05}, {0}}};
-  ContactLinearization   lin;
-  Vec                    cover;
-  PetscReal              gap = 0.0, least, most;
-  PetscInt               m;
+  const Motion         down = {.shift = {{0}, {0, 0, -1}, {0}}}, motion = {.shift = {{0}, {3.7 + hang, 0, -0.05}, {0}}};
+  ContactLinearization lin;
+  Vec                  cover;
+  PetscReal            gap = 0.0, least, most;
+  PetscInt             m;
 
   PetscFunctionBeginUser;
   PetscCall(LinearizeAt(dm, 1, &pair, MotionField, &motion, &lin));
@@ -128,7 +134,8 @@ static PetscErrorCode PrintPair(ContactLinearization lin, PetscInt pair, PetscRe
   PetscFunctionBeginUser;
   PetscCall(CountPairRows(lin, pair, &n));
   PetscCall(Deviation(lin, lin->g, pair, gap, &error));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows, gap %g: %s\n", what, n, (double)gap, error <= 1e-12 ? "exact" : "WRONG"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows, gap %g: %s\n", what, n, (double)gap,
+    error <= 1e-12 ? "exact" : "WRONG"));
   PetscFunctionReturn(0);
 }
 
@@ -191,19 +198,25 @@ static PetscErrorCode CountRows(DM dm, const SceneContactPair *pair, const Motio
   PetscCall(MatMultTranspose(lin->J, y, x));
   PetscCall(MatMult(lin->J, x, y));
   PetscCall(VecGetSize(lin->g, &N));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows%s\n", what, m, N == m ? "" : ", but another number of gaps"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows%s\n", what, m,
+    N == m ? "" : ", but another number of gaps"));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&y));
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscFunctionReturn(0);
 }
 
-/* Faces that do not look at one another, or are too far, never pair; neither do those that see one another through a body */
+/* Faces that do not look at one another, or are too far, never pair; neither do those that see one another through a
+   body */
 static PetscErrorCode TestAway(DM dm)
 {
-  const SceneContactPair opposite = {.name = "pair", .mortar = "plate.zmin", .nonmortar = "plate.zmax", .gap = GAP_MORTAR, .distance = 1.0}, same = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmax", .gap = GAP_MORTAR}, through = {.name = "pair", .mortar = "slab.zmin", .nonmortar = "block.zmax", .gap = GAP_MORTAR, .distance = 3.0}, on = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
-  SceneContactPair       near   = on;
-  Motion                 motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
+  const SceneContactPair
+    opposite = {.name = "pair", .mortar = "plate.zmin", .nonmortar = "plate.zmax", .gap = GAP_MORTAR, .distance = 1.0},
+    same     = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmax", .gap = GAP_MORTAR},
+    through  = {.name = "pair", .mortar = "slab.zmin", .nonmortar = "block.zmax", .gap = GAP_MORTAR, .distance = 3.0},
+    on       = {.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR};
+  SceneContactPair near   = on;
+  Motion           motion = {.centre = {{0}, {3.7, 0, 0}, {0}}};
 
   PetscFunctionBeginUser;
   PetscCall(CountRows(dm, &opposite, &motion, "opposite sides of a plate"));
@@ -259,7 +272,8 @@ static PetscErrorCode TestOverlap(DM dm)
   PetscFunctionReturn(0);
 }
 
-/* Boxes about z = 0 bent around a cylinder or a sphere of this radius; body 1 lies outside, lifted by the gap and turned */
+/* Boxes about z = 0 bent around a cylinder or a sphere of this radius; body 1 lies outside, lifted by the gap and
+   turned */
 typedef struct {
   PetscReal radius, gap, turn;
   PetscBool sphere;
@@ -268,7 +282,8 @@ typedef struct {
 static void BendField(const PetscReal x[3], PetscInt body, const void *ctx, PetscReal y[3])
 {
   const Bend     *b = (const Bend *)ctx;
-  const PetscReal r = b->radius + x[2] + (body ? b->gap : 0.0), s = PetscTanReal(x[0] + (body ? b->turn : 0.0)), t = b->sphere ? PetscTanReal(x[1]) : 0.0, length = PetscSqrtReal(1.0 + s * s + t * t);
+  const PetscReal r = b->radius + x[2] + (body ? b->gap : 0.0), s = PetscTanReal(x[0] + (body ? b->turn : 0.0)),
+                  t = b->sphere ? PetscTanReal(x[1]) : 0.0, length = PetscSqrtReal(1.0 + s * s + t * t);
 
   y[0] = r * s / length;
   y[1] = b->sphere ? r * t / length : x[1];
@@ -278,8 +293,8 @@ static void BendField(const PetscReal x[3], PetscInt body, const void *ctx, Pets
 /* Largest error of the gap, away from the outline of the nonmortar face if there is one */
 static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, PetscInt *m)
 {
-  const SceneContactPair pair   = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
-  const Motion           rest   = {.angle = {0}};
+  const SceneContactPair pair = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
+  const Motion           rest = {.angle = {0}};
   Box                    box[2] = {
                        {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {6, 5, 1}},
                        {"outer", {-0.3, -0.3, 0.0}, {0.3, 0.3, 0.3}, {4, 4, 1}},
@@ -299,7 +314,8 @@ static PetscErrorCode BentError(Bend *bend, PetscInt refine, PetscReal *error, P
   PetscFunctionReturn(0);
 }
 
-/* Curved surfaces that do not match: the gap converges to the one between the surfaces, with the square of the mesh size */
+/* Curved surfaces that do not match: the gap converges to the one between the surfaces, with the square of the mesh
+   size */
 static PetscErrorCode TestBent(PetscBool sphere, PetscReal gap)
 {
   Bend      bend     = {.radius = 2.0, .gap = gap, .sphere = sphere};
@@ -319,8 +335,12 @@ static PetscErrorCode TestBent(PetscBool sphere, PetscReal gap)
       wrong += m != n * n;
     }
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, gap %g: %" PetscInt_FMT " wrong numbers of rows, order of the gap %s\n", sphere ? "spheres" : "cylinders", (double)gap, wrong, worst[1] < 0.35 * worst[0] && worst[2] < 0.35 * worst[1] ? "at least 1.5" : "TOO SMALL"));
-  if (wrong || worst[2] > 0.005) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  errors %g %g %g\n", (double)worst[0], (double)worst[1], (double)worst[2]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, gap %g: %" PetscInt_FMT " wrong numbers of rows, order of the gap %s\n",
+    sphere ? "spheres" : "cylinders", (double)gap, wrong,
+    worst[1] < 0.35 * worst[0] && worst[2] < 0.35 * worst[1] ? "at least 1.5" : "TOO SMALL"));
+  if (wrong || worst[2] > 0.005)
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "  errors %g %g %g\n", (double)worst[0], (double)worst[1], (double)worst[2]));
   PetscFunctionReturn(0);
 }
 
@@ -362,10 +382,10 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair 
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal order = PetscLog10Real(remainder[k] / remainder[k + 1]);
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " order %s", order > 1.9 ? "2" : order > 0.9 ? "1"
-                                                                                         : "0"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " order %s", order > 1.9 ? "2" : order > 0.9 ? "1" : "0"));
   }
-  PetscCall(PetscInfo(NULL, "remainders %g %g %g beside %g\n", (double)remainder[0], (double)remainder[1], (double)remainder[2], (double)norm));
+  PetscCall(PetscInfo(NULL, "remainders %g %g %g beside %g\n", (double)remainder[0], (double)remainder[1],
+    (double)remainder[2], (double)norm));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   PetscCall(VecDestroy(&Jv));
   PetscCall(VecDestroy(&v));
@@ -376,11 +396,14 @@ static PetscErrorCode TestTaylor(DM dm, PetscInt npairs, const SceneContactPair 
 /* On planes, and on curved faces of the same vertices */
 static PetscErrorCode TestTaylorAll(DM dm)
 {
-  const SceneContactPair pairs[2] = {{.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR}, {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmin", .gap = GAP_MORTAR}}, bent = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
-  Bend                   bend   = {.radius = 2.0};
-  Box                    box[2] = {
-                       {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
-                       {"outer", {-0.3, -0.6, 0.0}, {0.3, 0.6, 0.3}, {6, 4, 1}},
+  const SceneContactPair pairs[2] =
+    {{.name = "pair", .mortar = "slab.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR},
+      {.name = "pair", .mortar = "slab.zmax", .nonmortar = "plate.zmin", .gap = GAP_MORTAR}},
+                         bent = {.name = "pair", .mortar = "inner.zmax", .nonmortar = "outer.zmin", .gap = GAP_MORTAR};
+  Bend bend                   = {.radius = 2.0};
+  Box  box[2]                 = {
+                     {"inner", {-0.6, -0.6, -0.3}, {0.6, 0.6, 0.0}, {12, 4, 1}},
+                     {"outer", {-0.3, -0.6, 0.0}, {0.3, 0.6, 0.3}, {6, 4, 1}},
   };
   DM curved;
 

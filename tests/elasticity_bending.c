@@ -1,4 +1,5 @@
-static char help[] = "A cantilever 100 times as long as high, one to four cells through its height: deflection of the tip against beam theory.\n\n";
+static char help[] = "A cantilever 100 times as long as high, one to four cells through its height: deflection of the "
+                     "tip against beam theory.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -67,7 +68,8 @@ int main(int argc, char **argv)
     char      text[64];
 
     PetscCall(Solve(element, layers, &ratio));
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%" PetscInt_FMT " through the height: error of the deflection", layers));
+    PetscCall(
+      PetscSNPrintf(text, sizeof(text), "%" PetscInt_FMT " through the height: error of the deflection", layers));
     PetscCall(ProblemReport(text, PetscAbsReal(ratio - 1), tolerance));
   }
   PetscCall(PetscFinalize());

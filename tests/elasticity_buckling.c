@@ -1,4 +1,5 @@
-static char help[] = "Buckling of a slender neo-Hookean column, clamped below and free above: load at which the tangent loses definiteness, against Euler's.\n\n";
+static char help[] = "Buckling of a slender neo-Hookean column, clamped below and free above: load at which the "
+                     "tangent loses definiteness, against Euler's.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -24,7 +25,8 @@ static PetscErrorCode CountNegative(Mat K, PetscInt *negative)
   PetscFunctionReturn(0);
 }
 
-/* Negative eigenvalues of the tangent at the straight column's equilibrium under a dead load; u is where Newton's method starts, and the equilibrium on exit */
+/* Negative eigenvalues of the tangent at the straight column's equilibrium under a dead load; u is where Newton's
+   method starts, and the equilibrium on exit */
 static PetscErrorCode Definiteness(Elasticity e, IS rows, PetscReal load, Mat K, Vec u, PetscInt *negative)
 {
   Vec force;
@@ -44,18 +46,19 @@ int main(int argc, char **argv)
 {
   static char     name[]   = "column";
   const PetscReal lower[3] = {0, 0, 0}, upper[3] = {width, width, height};
-  const PetscReal area = width * width, inertia = area * area / 12, euler = PETSC_PI * PETSC_PI * young * inertia / (4 * height * height);
-  Material        material = {.type = MATERIAL_NEOHOOKEAN, .young = young, .poisson = 0};
-  MaterialType    type     = MATERIAL_NEOHOOKEAN;
-  ElementType     element  = ELEMENT_FULL;
-  PetscReal       stable = 0.9 * euler, buckled = 1.1 * euler, critical, engesser;
-  PetscInt        below, above, cells[3] = {4, 4, 96};
-  SceneBody       column;
-  DM              dm;
-  Elasticity      e;
-  Mat             K;
-  IS              rows;
-  Vec             u;
+  const PetscReal area = width * width, inertia = area * area / 12,
+                  euler = PETSC_PI * PETSC_PI * young * inertia / (4 * height * height);
+  Material     material = {.type = MATERIAL_NEOHOOKEAN, .young = young, .poisson = 0};
+  MaterialType type     = MATERIAL_NEOHOOKEAN;
+  ElementType  element  = ELEMENT_FULL;
+  PetscReal    stable = 0.9 * euler, buckled = 1.1 * euler, critical, engesser;
+  PetscInt     below, above, cells[3] = {4, 4, 96};
+  SceneBody    column;
+  DM           dm;
+  Elasticity   e;
+  Mat          K;
+  IS           rows;
+  Vec          u;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
@@ -75,7 +78,10 @@ int main(int argc, char **argv)
   PetscCall(Definiteness(e, rows, stable, K, u, &below));
   PetscCall(Definiteness(e, rows, buckled, K, u, &above));
   /* a square section buckles in two planes at once */
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g: negative eigenvalues at 0.9 of Euler's load: %" PetscInt_FMT ", at 1.1: %" PetscInt_FMT "\n", ElementTypes[element], (double)material.poisson, below, above));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "%s, Poisson's ratio %g: negative eigenvalues at 0.9 of Euler's load: %" PetscInt_FMT ", at 1.1: %" PetscInt_FMT
+    "\n",
+    ElementTypes[element], (double)material.poisson, below, above));
   while (buckled - stable > 1e-3 * euler) {
     const PetscReal middle = 0.5 * (stable + buckled);
     PetscInt        negative;
@@ -86,7 +92,8 @@ int main(int argc, char **argv)
   }
   critical = 0.5 * (stable + buckled);
   PetscCall(ProblemReport("buckling load against Euler's, relative", PetscAbsReal(critical / euler - 1), 0.02));
-  PetscCall(ProblemReport("buckling load against Engesser's, with shear, relative", PetscAbsReal(critical / engesser - 1), 0.02));
+  PetscCall(ProblemReport("buckling load against Engesser's, with shear, relative",
+    PetscAbsReal(critical / engesser - 1), 0.02));
   PetscCall(VecDestroy(&u));
   PetscCall(MatDestroy(&K));
   PetscCall(ISDestroy(&rows));
@@ -99,16 +106,8 @@ int main(int argc, char **argv)
 /*TEST
 
    testset:
-      args: -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps -mat_mumps_icntl_13 1
-      test:
-         suffix: full
-         nsize: {{1 2}}
-         args: -across 2
-      test:
-         suffix: bbar
-         args: -element bbar -poisson 0.3
-      test:
-         suffix: bbar_incompressible
-         args: -element bbar -poisson 0.49
+      args: -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
+-mat_mumps_icntl_13 1 test: suffix: full nsize: {{1 2}} args: -across 2 test: suffix: bbar args: -element bbar -poisson
+0.3 test: suffix: bbar_incompressible args: -element bbar -poisson 0.49
 
 TEST*/

@@ -1,16 +1,19 @@
-static char help[] = "Cook's membrane in plane strain, nearly incompressible: displacement of the corner against published values, with all elements.\n\n";
+static char help[] = "Cook's membrane in plane strain, nearly incompressible: displacement of the corner against "
+                     "published values, with all elements.\n\n";
 
 #include "elasticity_problem.h"
 
 /*
-   Quadrilateral (0,0) (48,44) (48,60) (0,44), clamped at x = 0, a dead shear force of 100 spread over x = 48 upward, E = 240.565; one
-   cell of thickness 1 without displacement along z. The figure is the vertical displacement of the corner (48,60).
+   Quadrilateral (0,0) (48,44) (48,60) (0,44), clamped at x = 0, a dead shear force of 100 spread over x = 48 upward,
+   E = 240.565; one cell of thickness 1 without displacement along z. The figure is the vertical displacement of the
+   corner (48,60).
 
-   Elguedj, Bazilevs, Calo and Hughes, B-bar and F-bar projection methods for nearly incompressible linear and non-linear elasticity
-   and plasticity using higher-order NURBS elements, 2008, set the problem. OpenGeoSys 6 publishes figures of quadrilaterals on the
-   same n x n meshes: fully integrated, with B-bar, and with the F-bar of de Souza Neto et al., which is another one than ours. Its B-bar
-   figures are given to 2 % only; a plane strain program of this project's, which shares nothing with it, gave 7.7281869 and 7.9347247.
-   Incompatible modes and cells of order 2 are held against the finest meshes.
+   Elguedj, Bazilevs, Calo and Hughes, B-bar and F-bar projection methods for nearly incompressible linear and
+   non-linear elasticity and plasticity using higher-order NURBS elements, 2008, set the problem. OpenGeoSys 6
+   publishes figures of quadrilaterals on the same n x n meshes: fully integrated, with B-bar, and with the F-bar of
+   de Souza Neto et al., which is another one than ours. Its B-bar figures are given to 2 % only; a plane strain
+   program of this project's, which shares nothing with it, gave 7.7281869 and 7.9347247. Incompatible modes and cells
+   of order 2 are held against the finest meshes.
 */
 static const PetscInt meshes[2] = {10, 20};
 
@@ -24,7 +27,7 @@ typedef struct {
 
 static const Published published[] = {
   {0.4999, 1, 8.00, {{2.2603330, 2.5197256}, {7.7281869, 7.9347247}, {8.00, 8.00}}, {1e-4, 1e-7, 0.04}}, /* linear */
-  {0.499, 10, 6.89, {{2.8406922, 3.8811997}, {6.7462840, 6.8589365}, {0, 0}}, {1e-4, 1e-2, 0}}           /* neo-Hookean */
+  {0.499, 10, 6.89, {{2.8406922, 3.8811997}, {6.7462840, 6.8589365}, {0, 0}}, {1e-4, 1e-2, 0}} /* neo-Hookean */
 };
 
 static void Map(const PetscReal s[3], PetscReal x[3])
@@ -132,14 +135,21 @@ int main(int argc, char **argv)
   PetscCall(ProblemOptions(&type, &element));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
   known = &published[type];
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g, %s\n", MaterialTypes[type], (double)known->poisson, ElementTypes[element]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g, %s\n", MaterialTypes[type], (double)known->poisson,
+    ElementTypes[element]));
   for (PetscInt k = 0; k < 2; ++k) {
     PetscReal value;
 
     PetscCall(Solve(type, element, meshes[k], &value));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " x %" PetscInt_FMT " cells: corner moves %.3f, %.0f %% of %g\n", meshes[k], meshes[k], (double)value, (double)(100 * value / known->fine), (double)known->fine));
-    if (order == 1) PetscCall(ProblemReport("  difference from the known value of this mesh, relative", PetscAbsReal(value / known->value[element][k] - 1), known->tolerance[element]));
-    else PetscCall(ProblemReport("  difference from the finest meshes, relative", PetscAbsReal(value / known->fine - 1), 0.01));
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " x %" PetscInt_FMT " cells: corner moves %.3f, %.0f %% of %g\n",
+        meshes[k], meshes[k], (double)value, (double)(100 * value / known->fine), (double)known->fine));
+    if (order == 1)
+      PetscCall(ProblemReport("  difference from the known value of this mesh, relative",
+        PetscAbsReal(value / known->value[element][k] - 1), known->tolerance[element]));
+    else
+      PetscCall(
+        ProblemReport("  difference from the finest meshes, relative", PetscAbsReal(value / known->fine - 1), 0.01));
   }
   PetscCall(PetscFinalize());
   return 0;

@@ -1,4 +1,5 @@
-static char help[] = "Energy, force and tangent of two bodies with vertices moved off the grid: rigid motions, differences, symmetry, objectivity, prescribed rows.\n\n";
+static char help[] = "Energy, force and tangent of two bodies with vertices moved off the grid: rigid motions, "
+                     "differences, symmetry, objectivity, prescribed rows.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -47,7 +48,8 @@ static const PetscReal angle = 2.1, axis[3] = {1. / 3, 2. / 3, 2. / 3};
 
 static void Rotate(const PetscReal x[3], PetscReal y[3])
 {
-  const PetscReal c = PetscCosReal(angle), s = PetscSinReal(angle), along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
+  const PetscReal c = PetscCosReal(angle), s = PetscSinReal(angle),
+                  along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
 
   for (PetscInt i = 0; i < 3; ++i) {
     const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
@@ -115,7 +117,8 @@ static PetscErrorCode CheckDifferences(Elasticity e, Vec u, Vec d, Mat K)
   PetscCall(VecAXPY(Kd, 1 / (2 * h), f));
   PetscCall(VecNorm(Kd, NORM_2, &norm));
   slope = (forward - backward) / (2 * h);
-  PetscCall(ProblemReport("force against differences of the energy, relative", PetscAbsReal(slope - PetscRealPart(work)) / PetscAbsReal(slope), 1e-7));
+  PetscCall(ProblemReport("force against differences of the energy, relative",
+    PetscAbsReal(slope - PetscRealPart(work)) / PetscAbsReal(slope), 1e-7));
   PetscCall(ProblemReport("tangent against differences of the force, relative", norm / scale, 1e-7));
   PetscCall(VecDestroy(&Kd));
   PetscCall(VecDestroy(&w));
@@ -140,7 +143,8 @@ static PetscErrorCode CheckSymmetry(Mat K, Vec a, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* A rotation after the deformation leaves the energy and turns the force; there too force and tangent are derivatives */
+/* A rotation after the deformation leaves the energy and turns the force; there too force and tangent are derivatives
+ */
 static PetscErrorCode CheckRotated(Elasticity e, DM dm, Vec u, Vec d, Mat K)
 {
   Vec       rotated, f, fr;
@@ -262,7 +266,8 @@ static PetscErrorCode CheckMatrix(Mat K, MaterialType type)
   PetscFunctionBeginUser;
   PetscCall(MatGetBlockSize(K, &bs));
   PetscCall(MatGetInfo(K, MAT_GLOBAL_SUM, &info));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "block size %" PetscInt_FMT ", allocations during assembly %g\n", bs, (double)info.mallocs));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "block size %" PetscInt_FMT ", allocations during assembly %g\n", bs,
+    (double)info.mallocs));
   PetscCall(MatGetNearNullSpace(K, &modes));
   PetscCall(MatNullSpaceGetVecs(modes, NULL, &n, &mode));
   if (type == MATERIAL_LINEAR) {

@@ -1,4 +1,5 @@
-static char help[] = "Effectivity of the error estimate: manufactured solution on a cube, Lame's sphere, clamped beam.\n\
+static char help[] =
+  "Effectivity of the error estimate: manufactured solution on a cube, Lame's sphere, clamped beam.\n\
   -problem <cube|sphere|beam>, -material, -element, -poisson, -effectivity_view\n\n";
 
 #include "elasticity_truth.h"
@@ -47,7 +48,10 @@ static void CubeGradient(const PetscReal x[3], PetscReal H[3][3])
 
 static void CubeDisplacement(const PetscReal x[3], PetscReal u[3])
 {
-  for (PetscInt i = 0; i < 3; ++i) u[i] = amplitude[i] * PetscSinReal(PETSC_PI * x[0]) * PetscSinReal(PETSC_PI * x[1]) * PetscSinReal(PETSC_PI * x[2]) + linear[i][0] * x[0] + linear[i][1] * x[1] + linear[i][2] * x[2];
+  for (PetscInt i = 0; i < 3; ++i)
+    u[i] =
+      amplitude[i] * PetscSinReal(PETSC_PI * x[0]) * PetscSinReal(PETSC_PI * x[1]) * PetscSinReal(PETSC_PI * x[2]) +
+      linear[i][0] * x[0] + linear[i][1] * x[1] + linear[i][2] * x[2];
 }
 
 static void CubeStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6])
@@ -64,7 +68,8 @@ static void CubeStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6]
 }
 
 /* The load f = -div P of a cell, and its part of the exact potential int W - f u */
-static PetscErrorCode CubeCell(const Material *material, PetscReal X[8][3], const PetscInt offsets[8], PetscScalar load[], PetscReal *potential)
+static PetscErrorCode CubeCell(const Material *material, PetscReal X[8][3], const PetscInt offsets[8],
+  PetscScalar load[], PetscReal *potential)
 {
   const MaterialLaw *law;
   MaterialModuli     moduli;
@@ -79,7 +84,8 @@ static PetscErrorCode CubeCell(const Material *material, PetscReal X[8][3], cons
     CellPointGet(X, q, &p);
     CubeDerivatives(p.x, H, second);
     CubeDisplacement(p.x, u);
-    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "The exact solution is turned inside out");
     for (PetscInt n = 0; n < 81; ++n) f[n / 27] -= A[n] * amplitude[n / 3 % 3] * second[n / 9 % 3][n % 3];
     *potential += p.weight * (law->energy(&moduli, &H[0][0]) - f[0] * u[0] - f[1] * u[1] - f[2] * u[2]);
     for (PetscInt a = 0; a < 8; ++a) {
@@ -119,17 +125,19 @@ static PetscErrorCode CubeLoad(DM dm, const Material *material, Vec load, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Sphere of radii 1 and 2 under internal pressure p: s_r = c (1 - b^3/r^3), s_t = c (1 + b^3/(2 r^3)), c = p a^3/(b^3 - a^3) */
+/* Sphere of radii 1 and 2 under internal pressure p: s_r = c (1 - b^3/r^3), s_t = c (1 + b^3/(2 r^3)), c = p a^3/(b^3
+   - a^3) */
 static const PetscReal pressure = 0.01;
 
 static void SphereStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6])
 {
   static const PetscInt row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  const PetscReal       r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2], ratio = 8 / (r2 * PetscSqrtReal(r2)), c = pressure / 7;
-  const PetscReal       radial = c * (1 - ratio), hoop = c * (1 + ratio / 2);
+  const PetscReal r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2], ratio = 8 / (r2 * PetscSqrtReal(r2)), c = pressure / 7;
+  const PetscReal radial = c * (1 - ratio), hoop = c * (1 + ratio / 2);
 
   (void)ctx;
-  for (PetscInt k = 0; k < 6; ++k) sigma[k] = (radial - hoop) * x[row[k]] * x[column[k]] / r2 + (row[k] == column[k] ? hoop : 0);
+  for (PetscInt k = 0; k < 6; ++k)
+    sigma[k] = (radial - hoop) * x[row[k]] * x[column[k]] / r2 + (row[k] == column[k] ? hoop : 0);
 }
 
 static void MakeBody(const Context *context, SceneBody *body)
@@ -151,10 +159,10 @@ static void MakeBody(const Context *context, SceneBody *body)
 
 static PetscErrorCode PrescribedRows(const Context *context, DM dm, IS *rows)
 {
-  static const char *const faces[] = {"body.xmin", "body.xmax", "body.ymin", "body.ymax", "body.zmin", "body.zmax"}, *const planes[] = {"body.x0", "body.y0", "body.z0"};
-  const PetscInt n = context->problem == PROBLEM_CUBE ? 6 : context->problem == PROBLEM_SPHERE ? 3
-                                                                                               : 1;
-  IS             parts[6];
+  static const char *const faces[] = {"body.xmin", "body.xmax", "body.ymin", "body.ymax", "body.zmin", "body.zmax"},
+                           *const planes[] = {"body.x0", "body.y0", "body.z0"};
+  const PetscInt                  n = context->problem == PROBLEM_CUBE ? 6 : context->problem == PROBLEM_SPHERE ? 3 : 1;
+  IS                              parts[6];
 
   PetscFunctionBeginUser;
   for (PetscInt i = 0; i < n; ++i) {
@@ -167,15 +175,20 @@ static PetscErrorCode PrescribedRows(const Context *context, DM dm, IS *rows)
 }
 
 /*
-   Squared energy norm of the error: from the stresses of an exact solution; or twice the surplus of the potential over the exact one,
-   for the beam, which has it from Richardson's extrapolation, and for full integration at finite strain
+   Squared energy norm of the error: from the stresses of an exact solution; or twice the surplus of the potential
+   over the exact one, for the beam, which has it from Richardson's extrapolation, and for full integration at finite
+   strain
 */
-static PetscErrorCode Truth(const Context *context, DM dm, Elasticity e, Vec u, Vec load, PetscReal potential, PetscReal *truth)
+static PetscErrorCode Truth(const Context *context, DM dm, Elasticity e, Vec u, Vec load, PetscReal potential,
+  PetscReal *truth)
 {
-  const ExactSolution exact   = {context->material, context->element, context->problem == PROBLEM_SPHERE ? SphereStress : CubeStress, CubeGradient, context};
-  const PetscBool     surplus = (PetscBool)(context->problem == PROBLEM_BEAM || (context->material.type == MATERIAL_NEOHOOKEAN && context->element == ELEMENT_FULL));
-  PetscReal           energy;
-  PetscScalar         work;
+  const ExactSolution exact = {context->material, context->element,
+    context->problem == PROBLEM_SPHERE ? SphereStress : CubeStress, CubeGradient, context};
+  const PetscBool     surplus =
+    (PetscBool)(context->problem == PROBLEM_BEAM ||
+                (context->material.type == MATERIAL_NEOHOOKEAN && context->element == ELEMENT_FULL));
+  PetscReal   energy;
+  PetscScalar work;
 
   PetscFunctionBeginUser;
   if (surplus) {
@@ -189,12 +202,13 @@ static PetscErrorCode Truth(const Context *context, DM dm, Elasticity e, Vec u, 
 static PetscErrorCode Run(const Context *context, PetscInt level)
 {
   const PetscReal weight[3] = {0, 0, -0.001};
-  PetscReal       potential = -3.319e-4; /* the beam's, within 1e-7: extrapolated with both elements, up to 64 x 16 x 16 cells */
-  PetscReal       estimate, truth;
-  SceneBody       shape;
-  DM              dm;
-  IS              rows;
-  ProblemBody     body;
+  PetscReal       potential =
+    -3.319e-4; /* the beam's, within 1e-7: extrapolated with both elements, up to 64 x 16 x 16 cells */
+  PetscReal   estimate, truth;
+  SceneBody   shape;
+  DM          dm;
+  IS          rows;
+  ProblemBody body;
 
   PetscFunctionBeginUser;
   MakeBody(context, &shape);
@@ -205,7 +219,8 @@ static PetscErrorCode Run(const Context *context, PetscInt level)
     PetscCall(VecDestroy(&body.u));
     PetscCall(ProblemInterpolate(dm, CubeDisplacement, &body.u));
     PetscCall(CubeLoad(dm, &context->material, body.load, &potential));
-  } else if (context->problem == PROBLEM_SPHERE) PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, body.load));
+  } else if (context->problem == PROBLEM_SPHERE)
+    PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, body.load));
   else PetscCall(ElasticityAddBodyForce(body.e, 0, weight, body.load));
   PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
   PetscCall(ElasticityEstimateError(body.e, body.u, &estimate, NULL));
@@ -241,13 +256,9 @@ int main(int argc, char **argv)
          args: -pc_type pbjacobi -material {{linear neohookean}} -element {{full bbar}}
       test:
          suffix: sphere
-         args: -problem sphere -element {{full bbar}} -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
-      test:
-         suffix: incompressible
-         nsize: 2
-         args: -problem sphere -element bbar -poisson 0.4999 -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
-      test:
-         suffix: beam
+         args: -problem sphere -element {{full bbar}} -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky
+-pc_factor_mat_solver_type mumps test: suffix: incompressible nsize: 2 args: -problem sphere -element bbar -poisson
+0.4999 -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps test: suffix: beam
          args: -problem beam -pc_type hypre
 
 TEST*/

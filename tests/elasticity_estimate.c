@@ -1,4 +1,5 @@
-static char help[] = "The error estimate where it must be exact: fields linear in each body, and quadratic fields on uniform meshes.\n\n";
+static char help[] =
+  "The error estimate where it must be exact: fields linear in each body, and quadratic fields on uniform meshes.\n\n";
 
 #include "elasticity_truth.h"
 
@@ -30,8 +31,10 @@ static void Quadratic(const PetscReal x[3], PetscReal u[3])
 
 static void QuadraticStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6])
 {
-  const PetscReal H[9]   = {0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2], 0.3 * x[1] + 0.1, 0.3 * x[0], 0, 0.1 * x[2], 0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]};
-  const PetscReal lambda = linear.young * linear.poisson / ((1 + linear.poisson) * (1 - 2 * linear.poisson)), mu = linear.young / (2 * (1 + linear.poisson));
+  const PetscReal H[9] = {0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2], 0.3 * x[1] + 0.1, 0.3 * x[0], 0, 0.1 * x[2],
+    0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]};
+  const PetscReal lambda = linear.young * linear.poisson / ((1 + linear.poisson) * (1 - 2 * linear.poisson)),
+                  mu     = linear.young / (2 * (1 + linear.poisson));
 
   (void)ctx;
   for (PetscInt k = 0; k < 3; ++k) sigma[k] = lambda * (H[0] + H[4] + H[8]) + 2 * mu * H[4 * k];
@@ -75,9 +78,11 @@ static PetscErrorCode CreateMesh(PetscInt nx, PetscInt ny, PetscBool cut, Field 
 }
 
 /* The estimate of each body, checked to be the sum over the cells; energy is that of all, at scale times the field */
-static PetscErrorCode Estimate(DM dm, MaterialType type, ElementType element, Field field, PetscReal scale, PetscReal bodies[3], PetscReal *energy)
+static PetscErrorCode Estimate(DM dm, MaterialType type, ElementType element, Field field, PetscReal scale,
+  PetscReal bodies[3], PetscReal *energy)
 {
-  const Material    materials[3] = {{.type = type, .young = 2, .poisson = 0.3}, {.type = type, .young = 50, .poisson = 0.1}, {.type = type, .young = 3, .poisson = 0.4}};
+  const Material    materials[3] = {{.type = type, .young = 2, .poisson = 0.3},
+       {.type = type, .young = 50, .poisson = 0.1}, {.type = type, .young = 3, .poisson = 0.4}};
   const ElementType elements[3]  = {element, element, element};
   Elasticity        e;
   Vec               u;
@@ -93,7 +98,8 @@ static PetscErrorCode Estimate(DM dm, MaterialType type, ElementType element, Fi
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   for (PetscInt c = 0; c < end - start; ++c) sum += cells[c];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  PetscCall(ProblemReport("  sum over cells against bodies", PetscAbsReal(sum - bodies[0] - bodies[1] - bodies[2]) / (sum + *energy), 1e-13));
+  PetscCall(ProblemReport("  sum over cells against bodies",
+    PetscAbsReal(sum - bodies[0] - bodies[1] - bodies[2]) / (sum + *energy), 1e-13));
   PetscCall(PetscFree(cells));
   PetscCall(VecDestroy(&u));
   PetscCall(ElasticityDestroy(&e));
@@ -109,7 +115,8 @@ static PetscErrorCode CheckKinked(MaterialType type, ElementType element)
   PetscFunctionBeginUser;
   PetscCall(CreateMesh(6, 3, PETSC_TRUE, Skew, &dm));
   PetscCall(Estimate(dm, type, element, Kinked, 1, bodies, &energy));
-  PetscCall(ProblemReport("  linear in each of three glued bodies: error over energy", (bodies[0] + bodies[1] + bodies[2]) / energy, 1e-24));
+  PetscCall(ProblemReport("  linear in each of three glued bodies: error over energy",
+    (bodies[0] + bodies[1] + bodies[2]) / energy, 1e-24));
   PetscCall(DMDestroy(&dm));
   PetscCall(CreateMesh(6, 3, PETSC_FALSE, Skew, &dm));
   PetscCall(Estimate(dm, type, element, Kinked, 1, bodies, &energy));
@@ -132,7 +139,8 @@ static PetscErrorCode CheckQuadratic(MaterialType type, ElementType element)
   PetscCall(ProblemInterpolate(dm, Quadratic, &u));
   PetscCall(TrueError(dm, &exact, u, &truth));
   PetscCall(Estimate(dm, type, element, Quadratic, scale, bodies, &energy));
-  PetscCall(ProblemReport("  quadratic: relative distance from the true error", PetscAbsReal(bodies[0] / (scale * scale * truth) - 1), type == MATERIAL_LINEAR ? 1e-12 : 1e-6));
+  PetscCall(ProblemReport("  quadratic: relative distance from the true error",
+    PetscAbsReal(bodies[0] / (scale * scale * truth) - 1), type == MATERIAL_LINEAR ? 1e-12 : 1e-6));
   PetscCall(VecDestroy(&u));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
@@ -162,7 +170,8 @@ static PetscErrorCode CheckRanks(MaterialType type, ElementType element)
   PetscFunctionBeginUser;
   PetscCall(CreateMesh(9, 5, PETSC_TRUE, Skew, &dm));
   PetscCall(Estimate(dm, type, element, Skew, 0.5, bodies, &energy));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  smooth: error over energy %.4e %.4e %.4e\n", (double)(bodies[0] / energy), (double)(bodies[1] / energy), (double)(bodies[2] / energy)));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  smooth: error over energy %.4e %.4e %.4e\n", (double)(bodies[0] / energy),
+    (double)(bodies[1] / energy), (double)(bodies[2] / energy)));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }

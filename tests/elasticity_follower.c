@@ -1,4 +1,5 @@
-static char help[] = "The slope of pressures that follow their faces against differences of their load: its symmetric part over some faces, all of it over a closed surface.\n\n";
+static char help[] = "The slope of pressures that follow their faces against differences of their load: its symmetric "
+                     "part over some faces, all of it over a closed surface.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -77,7 +78,8 @@ static PetscErrorCode CheckSlope(Elasticity e, PetscInt n, Vec u, Vec a, Vec b, 
   PetscCall(VecDot(Fa, b, &ba));
   PetscCall(VecDot(Fb, a, &ab));
   PetscCall(VecDot(Sa, b, &slope));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " faces, load's derivative %s\n", n, PetscAbsScalar(ab - ba) < 1e-12 ? "symmetric" : "not symmetric"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " faces, load's derivative %s\n", n,
+    PetscAbsScalar(ab - ba) < 1e-12 ? "symmetric" : "not symmetric"));
   PetscCall(ProblemReport("slope less the derivative's symmetric part", PetscAbsScalar(slope - (ab + ba) / 2), 1e-12));
   PetscCall(VecNorm(Fa, NORM_2, &size));
   PetscCall(VecAXPY(Sa, -1, Fa));

@@ -1,8 +1,10 @@
-static char help[] = "Dead loads on two bodies with vertices moved off the grid: pressure against the force of a uniform stress, body force against the mass.\n\n";
+static char help[] = "Dead loads on two bodies with vertices moved off the grid: pressure against the force of a "
+                     "uniform stress, body force against the mass.\n\n";
 
 #include "elasticity_problem.h"
 
-static const char *const faces[] = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax", "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
+static const char *const faces[] = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax",
+  "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
 
 static const PetscReal strain = 0.01;
 
@@ -11,7 +13,8 @@ static void Dilation(const PetscReal x[3], PetscReal u[3])
   for (PetscInt i = 0; i < 3; ++i) u[i] = strain * x[i];
 }
 
-/* The stress 3 kappa strain of a dilation is in equilibrium with a pressure of minus that on the whole surface, at every vertex */
+/* The stress 3 kappa strain of a dilation is in equilibrium with a pressure of minus that on the whole surface, at
+   every vertex */
 static PetscErrorCode CheckPressure(DM dm, const Material materials[], ElementType element)
 {
   const ElementType elements[2] = {element, element};
@@ -61,7 +64,8 @@ static PetscErrorCode CheckBodyForce(DM dm, const Material materials[])
     PetscCall(VecStrideNorm(mass, d, NORM_1, &volume));
     sums[d] = PetscAbsReal(sums[d] - volume * PetscAbsReal(density[d]));
   }
-  PetscCall(ProblemReport("sum of the body force less density times volume", PetscMax(PetscMax(sums[0], sums[1]), sums[2]), 1e-12));
+  PetscCall(ProblemReport("sum of the body force less density times volume",
+    PetscMax(PetscMax(sums[0], sums[1]), sums[2]), 1e-12));
   PetscCall(ElasticityAddBodyForce(e, 1, density, one));
   PetscCall(VecStrideNorm(one, 0, NORM_1, &volume));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume of the block %.9f\n", (double)(volume / density[0])));
@@ -100,7 +104,8 @@ int main(int argc, char **argv)
   noface = ElasticityAddPressure(e, "slab.top", 1, force);
   nobody = ElasticityAddBodyForce(e, 2, (PetscReal[3]){0, 0, 1}, force);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a face and a body that are not there: %s\n", noface && nobody ? "refused" : "ACCEPTED"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a face and a body that are not there: %s\n",
+    noface && nobody ? "refused" : "ACCEPTED"));
   PetscCall(VecDestroy(&force));
   PetscCall(ElasticityDestroy(&e));
   PetscCall(DMDestroy(&dm));

@@ -1,9 +1,12 @@
-static char help[] = "Manufactured solution on a cube, of cubes, of distorted or of curved cells: order of convergence in displacement and gradient, and\nhow far the error estimate is from the true error.\n\n";
+static char help[] = "Manufactured solution on a cube, of cubes, of distorted or of curved cells: order of convergence "
+                     "in displacement and gradient, and\nhow far the error estimate is from the true error.\n\n";
 
 #include "elasticity_problem.h"
 #include "elasticity_stresses.h"
 
-static const Material materials[]  = {{.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3}, {.type = MATERIAL_NEOHOOKEAN, .young = 2, .poisson = 0.3}, {.type = MATERIAL_SAINT_VENANT, .young = 2, .poisson = 0.3}};
+static const Material materials[]  = {{.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3},
+   {.type = MATERIAL_NEOHOOKEAN, .young = 2, .poisson = 0.3},
+   {.type = MATERIAL_SAINT_VENANT, .young = 2, .poisson = 0.3}};
 static PetscReal      amplitude[3] = {0.2, -0.1, 0.14};
 
 /* u = amplitude sin(pi x) sin(pi y) sin(pi z) + (0.1 y, 0.2 z - 0.1 x, 0.3 x) */
@@ -57,7 +60,8 @@ static PetscErrorCode BodyForce(const Material *material, const PetscReal x[3], 
   PetscCall(MaterialGetModuli(material, &moduli, NULL));
   SineDerivatives(x, d1, d2);
   ExactGradient(x, H);
-  PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+  PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "The exact solution is turned inside out");
   for (PetscInt i = 0; i < 3; ++i) {
     f[i] = 0;
     for (PetscInt j = 0; j < 3; ++j) {
@@ -86,8 +90,10 @@ static PetscErrorCode CellLoad(const Material *material, const PointCell *cell, 
   PetscFunctionReturn(0);
 }
 
-/* Adds its squared errors against the exact solution: of the displacement, of its gradient, and in the energy norm of full integration */
-static PetscErrorCode CellErrors(const Material *material, const PointCell *cell, const PetscScalar u[], PetscReal errors[3])
+/* Adds its squared errors against the exact solution: of the displacement, of its gradient, and in the energy norm of
+   full integration */
+static PetscErrorCode CellErrors(const Material *material, const PointCell *cell, const PetscScalar u[],
+  PetscReal errors[3])
 {
   const MaterialLaw *law;
   MaterialModuli     moduli;
@@ -103,7 +109,8 @@ static PetscErrorCode CellErrors(const Material *material, const PointCell *cell
     PetscCall(PointGet(cell, q, &p));
     Exact(p.x, value);
     ExactGradient(p.x, H);
-    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB, "The exact solution is turned inside out");
+    PetscCheck(law->tangent(&moduli, &H[0][0], A), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "The exact solution is turned inside out");
     for (PetscInt a = 0; a < cell->n; ++a) {
       for (PetscInt i = 0; i < 3; ++i) {
         value[i] -= p.N[a] * PetscRealPart(u[cell->offset[a] + i]);
@@ -153,7 +160,8 @@ static PetscErrorCode Integrate(DM dm, const Material *material, Vec load, Vec u
 /* Curved everywhere, and ever less as the cells are refined */
 static void Bend(const PetscReal x[3], PetscReal image[3])
 {
-  for (PetscInt d = 0; d < 3; ++d) image[d] = x[d] + 0.06 * PetscSinReal(3 * x[(d + 1) % 3] + 2 * x[(d + 2) % 3] + (PetscReal)d);
+  for (PetscInt d = 0; d < 3; ++d)
+    image[d] = x[d] + 0.06 * PetscSinReal(3 * x[(d + 1) % 3] + 2 * x[(d + 2) % 3] + (PetscReal)d);
 }
 
 /* Moves the vertices by up to so many cells, the same on all ranks; edges stay straight */
@@ -179,15 +187,18 @@ static PetscErrorCode Distort(DM dm, PetscReal distance)
     width = cell.n == 8 ? 2 : 3;
     last  = width - 1;
     for (PetscInt a = 0; a < cell.n; ++a) {
-      const PetscReal at[3] = {(PetscReal)(a % width) / (PetscReal)last, (PetscReal)(a / width % width) / (PetscReal)last, (PetscReal)(a / (width * width)) / (PetscReal)last};
+      const PetscReal at[3] = {(PetscReal)(a % width) / (PetscReal)last,
+        (PetscReal)(a / width % width) / (PetscReal)last, (PetscReal)(a / (width * width)) / (PetscReal)last};
 
       for (PetscInt d = 0; d < 3; ++d) x[cell.offset[a] + d] = cell.X[a][d];
       for (PetscInt k = 0; k < 8; ++k) {
         const PetscReal *X    = cell.X[last * ((k & 1) + width * (k >> 1 & 1) + width * width * (k >> 2))];
         const PetscReal  size = cell.X[last][0] - cell.X[0][0], phase = 37.1 * X[0] + 91.7 * X[1] + 53.3 * X[2];
-        const PetscReal  weight = (k & 1 ? at[0] : 1 - at[0]) * (k >> 1 & 1 ? at[1] : 1 - at[1]) * (k >> 2 ? at[2] : 1 - at[2]);
+        const PetscReal  weight =
+          (k & 1 ? at[0] : 1 - at[0]) * (k >> 1 & 1 ? at[1] : 1 - at[1]) * (k >> 2 ? at[2] : 1 - at[2]);
 
-        for (PetscInt d = 0; d < 3; ++d) x[cell.offset[a] + d] += weight * distance * size * PetscSinReal((1 + 0.3 * d) * phase + 2 * d);
+        for (PetscInt d = 0; d < 3; ++d)
+          x[cell.offset[a] + d] += weight * distance * size * PetscSinReal((1 + 0.3 * d) * phase + 2 * d);
       }
     }
   }
@@ -210,7 +221,8 @@ static PetscErrorCode SurfaceRows(DM dm, IS *rows)
   PetscFunctionReturn(0);
 }
 
-/* Solves with the exact displacement prescribed on the surface; u is new. Newton's method starts from the exact values at the nodes */
+/* Solves with the exact displacement prescribed on the surface; u is new. Newton's method starts from the exact
+   values at the nodes */
 static PetscErrorCode Solve(DM dm, Elasticity e, const Material *material, Vec *u)
 {
   IS  surface;
@@ -233,13 +245,17 @@ static PetscErrorCode Solve(DM dm, Elasticity e, const Material *material, Vec *
 }
 
 /* below, above: by how much the observed order may be smaller or greater, before it settles */
-static PetscErrorCode ReportOrder(const char name[], const PetscReal errors[], PetscReal expected, PetscReal below, PetscReal above)
+static PetscErrorCode ReportOrder(const char name[], const PetscReal errors[], PetscReal expected, PetscReal below,
+  PetscReal above)
 {
   const PetscReal order = PetscLog2Real(errors[1] / errors[2]);
 
   PetscFunctionBeginUser;
-  if (order > expected - below && order < expected + above) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "order of the %s: %g\n", name, (double)expected));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "order of the %s: %g, NOT %g; errors %g %g %g\n", name, (double)order, (double)expected, (double)errors[0], (double)errors[1], (double)errors[2]));
+  if (order > expected - below && order < expected + above)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "order of the %s: %g\n", name, (double)expected));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "order of the %s: %g, NOT %g; errors %g %g %g\n", name, (double)order,
+      (double)expected, (double)errors[0], (double)errors[1], (double)errors[2]));
   PetscFunctionReturn(0);
 }
 
@@ -263,7 +279,8 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-below", &below, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-curved", &curved, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-stresses", &stresses, NULL)); /* the true error by the element's own */
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-amplitude", &scale, NULL));   /* Saint Venant-Kirchhoff is stable at moderate strain only */
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-amplitude", &scale,
+    NULL)); /* Saint Venant-Kirchhoff is stable at moderate strain only */
   for (PetscInt i = 0; i < 3; ++i) amplitude[i] *= scale;
   ProblemBox(name, lower, upper, cells, &cube);
   PetscCall(ProblemSetOrder(1, &cube));
@@ -284,7 +301,8 @@ int main(int argc, char **argv)
     if (effectivity > 0 && level == 2) {
       PetscCall(ElasticityEstimateError(e, u, &estimate, NULL));
       if (stresses) PetscCall(StressesError(dm, e, &materials[type], ExactGradient, u, &errors[2]));
-      PetscCall(ProblemReport("effectivity of the estimate: distance from 1", PetscAbsReal(PetscSqrtReal(estimate / errors[2]) - 1), effectivity));
+      PetscCall(ProblemReport("effectivity of the estimate: distance from 1",
+        PetscAbsReal(PetscSqrtReal(estimate / errors[2]) - 1), effectivity));
     }
     PetscCall(VecDestroy(&u));
     PetscCall(ElasticityDestroy(&e));

@@ -1,4 +1,5 @@
-static char help[] = "Linear and neo-Hookean bodies in one mesh: how often each is assembled, and cells turned inside out.\n\n";
+static char help[] =
+  "Linear and neo-Hookean bodies in one mesh: how often each is assembled, and cells turned inside out.\n\n";
 
 #include "elasticity_problem.h"
 #include <petsc/private/petscimpl.h> /* PetscObjectStateSet() */
@@ -27,7 +28,8 @@ static void InsideOut(const PetscReal x[3], PetscReal u[3])
 }
 
 /*
-   A chain of three unit cubes of 2 x 2 x 2 cells, bodies 0, 1 and 2, glued together at x = 1 and x = 2, and a fourth cube apart.
+   A chain of three unit cubes of 2 x 2 x 2 cells, bodies 0, 1 and 2, glued together at x = 1 and x = 2, and a fourth
+   cube apart.
 */
 static PetscErrorCode CreateMesh(DM *dm)
 {
@@ -199,8 +201,10 @@ static PetscErrorCode CheckInsideOut(DM dm, const char name[], const MaterialTyp
     if (stress[7 * c] >= PETSC_INFINITY && stress[7 * c + 6] >= PETSC_INFINITY) ++infinite;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &infinite, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: energy %s, norm of the force %s, tangent %s, cells with infinite stress %" PetscInt_FMT "\n", name, lowest >= PETSC_INFINITY ? "infinite" : "finite",
-                        norm >= PETSC_INFINITY ? "infinite" : "finite", entries < PETSC_INFINITY ? "finite" : "NOT FINITE", infinite));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "%s: energy %s, norm of the force %s, tangent %s, cells with infinite stress %" PetscInt_FMT "\n", name,
+    lowest >= PETSC_INFINITY ? "infinite" : "finite", norm >= PETSC_INFINITY ? "infinite" : "finite",
+    entries < PETSC_INFINITY ? "finite" : "NOT FINITE", infinite));
   PetscCall(PetscFree(stress));
   PetscCall(MatDestroy(&K));
   PetscCall(VecDestroy(&force));
@@ -212,8 +216,9 @@ static PetscErrorCode CheckInsideOut(DM dm, const char name[], const MaterialTyp
 int main(int argc, char **argv)
 {
   const MaterialType l = MATERIAL_LINEAR, n = MATERIAL_NEOHOOKEAN;
-  const MaterialType linear[] = {l, l, l, l}, apart[] = {l, l, l, n}, glued[] = {n, l, l, l}, all[] = {n, n, n, n}, full[] = {n, l, n, l}, tip[] = {l, l, n, l};
-  DM                 dm;
+  const MaterialType linear[] = {l, l, l, l}, apart[] = {l, l, l, n}, glued[] = {n, l, l, l}, all[] = {n, n, n, n},
+                     full[] = {n, l, n, l}, tip[] = {l, l, n, l};
+  DM dm;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));

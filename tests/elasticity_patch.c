@@ -1,21 +1,25 @@
-static char help[] = "Patch test: an affine displacement of vertices moved off the grid has constant stress and no force inside.\n\n";
+static char help[] =
+  "Patch test: an affine displacement of vertices moved off the grid has constant stress and no force inside.\n\n";
 
 #include "elasticity_problem.h"
 
-static const char *const faces[] = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax", "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
+static const char *const faces[] = {"slab.xmin", "slab.xmax", "slab.ymin", "slab.ymax", "slab.zmin", "slab.zmax",
+  "block.xmin", "block.xmax", "block.ymin", "block.ymax", "block.zmin", "block.zmax"};
 
 static const PetscReal gradient[9] = {0.02, 0.05, -0.01, 0.03, -0.04, 0.02, 0.06, 0.01, 0.03};
 
 static void Affine(const PetscReal x[3], PetscReal u[3])
 {
-  for (PetscInt i = 0; i < 3; ++i) u[i] = 0.1 * (i + 1) + gradient[3 * i] * x[0] + gradient[3 * i + 1] * x[1] + gradient[3 * i + 2] * x[2];
+  for (PetscInt i = 0; i < 3; ++i)
+    u[i] = 0.1 * (i + 1) + gradient[3 * i] * x[0] + gradient[3 * i + 1] * x[1] + gradient[3 * i + 2] * x[2];
 }
 
 /* Hooke's stress of the gradient, xx yy zz xy yz zx, and the von Mises stress from its deviator */
 static void HookeStress(const Material *m, PetscReal sigma[7])
 {
-  const PetscReal lambda = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), mu = 0.5 * m->young / (1 + m->poisson);
-  const PetscReal trace = gradient[0] + gradient[4] + gradient[8];
+  const PetscReal lambda = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)),
+                  mu     = 0.5 * m->young / (1 + m->poisson);
+  const PetscReal trace  = gradient[0] + gradient[4] + gradient[8];
   PetscReal       mean, square = 0;
 
   for (PetscInt k = 0; k < 3; ++k) sigma[k] = lambda * trace + 2 * mu * gradient[4 * k];
@@ -66,7 +70,8 @@ static void Smooth(const PetscReal x[3], PetscReal u[3])
   u[2] = 0.08 * PetscCosReal(x[1] - 2 * x[2]);
 }
 
-/* Averaged over a cell, the pressure kappa theta of full integration is that of the mean dilatation: both elements have the same cell stress */
+/* Averaged over a cell, the pressure kappa theta of full integration is that of the mean dilatation: both elements
+   have the same cell stress */
 static PetscErrorCode CheckElements(DM dm, const Material materials[])
 {
   const ElementType elements[2] = {ELEMENT_BBAR, ELEMENT_BBAR};
@@ -148,9 +153,10 @@ static PetscErrorCode FacetVolume(DM dm, PetscReal *volume)
     PetscCall(ISGetIndices(facets, &f));
     for (PetscInt q = 0; q < 4 * n; ++q) { /* int x_z n_z dA at 4 points of each bilinear facet */
       const PetscReal s = gauss[q & 1], t = gauss[q >> 1 & 1];
-      const PetscReal N[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}, Ns[4] = {t - 1, 1 - t, t, -t}, Nt[4] = {s - 1, -s, s, 1 - s};
-      PetscInt        v[4];
-      PetscReal       p[3] = {0, 0, 0}, ps[3] = {0, 0, 0}, pt[3] = {0, 0, 0};
+      const PetscReal N[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}, Ns[4] = {t - 1, 1 - t, t, -t},
+                      Nt[4] = {s - 1, -s, s, 1 - s};
+      PetscInt  v[4];
+      PetscReal p[3] = {0, 0, 0}, ps[3] = {0, 0, 0}, pt[3] = {0, 0, 0};
 
       PetscCall(MeshGetFacetVertices(dm, f[q / 4], v));
       for (PetscInt a = 0; a < 4; ++a) {
@@ -173,7 +179,8 @@ static PetscErrorCode FacetVolume(DM dm, PetscReal *volume)
   PetscFunctionReturn(0);
 }
 
-/* By the same theorem from the loads of a unit tension on facets of any order: x = sum N_a x_a, so the volume is sum x_a . int N_a n dA / 3 */
+/* By the same theorem from the loads of a unit tension on facets of any order: x = sum N_a x_a, so the volume is sum
+   x_a . int N_a n dA / 3 */
 static PetscErrorCode LoadVolume(Elasticity e, DM dm, PetscReal *volume)
 {
   Vec         coordinates, places, load;
@@ -207,8 +214,10 @@ static PetscErrorCode CheckMass(Elasticity e, DM dm, PetscBool bilinear)
   PetscCall(VecDestroy(&mass));
   if (bilinear) PetscCall(FacetVolume(dm, &volume));
   else PetscCall(LoadVolume(e, dm, &volume));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume %.9f, lumped masses: %s\n", (double)volume, smallest > 0 ? "positive" : "NOT POSITIVE"));
-  PetscCall(ProblemReport("sum of the lumped mass less the volume", PetscAbsReal(PetscRealPart(sum) / 3 - volume), 1e-13));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume %.9f, lumped masses: %s\n", (double)volume,
+    smallest > 0 ? "positive" : "NOT POSITIVE"));
+  PetscCall(
+    ProblemReport("sum of the lumped mass less the volume", PetscAbsReal(PetscRealPart(sum) / 3 - volume), 1e-13));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
-/* Points of isoparametric hexahedra of 8 and 27 nodes and of tetrahedra of 4 and 10, from nothing of the library but its mesh */
+/* Points of isoparametric hexahedra of 8 and 27 nodes and of tetrahedra of 4 and 10, from nothing of the library but
+   its mesh */
 #ifndef ELASTICITY_POINT_H
 #define ELASTICITY_POINT_H
 
@@ -61,7 +62,8 @@ static inline void PointHexahedron(PetscInt n, const PetscReal place[3], PetscRe
   }
 }
 
-/* Of a tetrahedron, between the origin and the ends of the unit vectors; after the corners, the edges 01, 12, 02, 03, 13 and 23 */
+/* Of a tetrahedron, between the origin and the ends of the unit vectors; after the corners, the edges 01, 12, 02, 03,
+   13 and 23 */
 static inline void PointTetrahedron(PetscInt n, const PetscReal x[3], PetscReal N[], PetscReal D[][3])
 {
   static const PetscReal dl[4][3]    = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -80,7 +82,8 @@ static inline void PointTetrahedron(PetscInt n, const PetscReal x[3], PetscReal 
   }
 }
 
-/* Point q of POINTS^3 Gauss points, of a tetrahedron those of a cube whose far sides are shrunk. Gradients solve J^T g = dN by Cramer's rule */
+/* Point q of POINTS^3 Gauss points, of a tetrahedron those of a cube whose far sides are shrunk. Gradients solve J^T
+   g = dN by Cramer's rule */
 static inline PetscErrorCode PointGet(const PointCell *c, PetscInt q, Point *p)
 {
   const PetscInt index[3] = {q % POINTS, q / POINTS % POINTS, q / (POINTS * POINTS)};
@@ -100,7 +103,9 @@ static inline PetscErrorCode PointGet(const PointCell *c, PetscInt q, Point *p)
     for (PetscInt d = 0; d < 3; ++d) p->x[d] += p->N[a] * c->X[a][d];
     for (PetscInt i = 0; i < 9; ++i) J[i / 3][i % 3] += D[a][i / 3] * c->X[a][i % 3];
   }
-  for (PetscInt i = 0; i < 9; ++i) C[i / 3][i % 3] = J[(i / 3 + 1) % 3][(i + 1) % 3] * J[(i / 3 + 2) % 3][(i + 2) % 3] - J[(i / 3 + 1) % 3][(i + 2) % 3] * J[(i / 3 + 2) % 3][(i + 1) % 3];
+  for (PetscInt i = 0; i < 9; ++i)
+    C[i / 3][i % 3] = J[(i / 3 + 1) % 3][(i + 1) % 3] * J[(i / 3 + 2) % 3][(i + 2) % 3] -
+                      J[(i / 3 + 1) % 3][(i + 2) % 3] * J[(i / 3 + 2) % 3][(i + 1) % 3];
   for (PetscInt i = 0; i < 3; ++i) det += J[0][i] * C[0][i];
   p->weight *= det;
   for (PetscInt a = 0; a < c->n; ++a) {

@@ -8,7 +8,8 @@
 #include "elasticity_tetrahedra.h"
 
 /* A box; material, element and all the rest are the caller's to set */
-static inline void ProblemBox(char name[], const PetscReal lower[3], const PetscReal upper[3], const PetscInt cells[3], SceneBody *body)
+static inline void ProblemBox(char name[], const PetscReal lower[3], const PetscReal upper[3], const PetscInt cells[3],
+  SceneBody *body)
 {
   *body       = (SceneBody){0};
   body->name  = name;
@@ -26,7 +27,8 @@ static inline PetscErrorCode ProblemBodies(MaterialType type, SceneBody bodies[2
   static char     slab[] = "slab", block[] = "block";
   const PetscReal lower[2][3] = {{-1, -0.5, -1}, {-0.5, -0.25, 0.2}}, upper[2][3] = {{1, 0.5, 0}, {0, 0.25, 0.7}};
   const PetscInt  cells[2][3]  = {{6, 3, 2}, {2, 2, 2}};
-  const Material  materials[2] = {{.type = type, .young = 1, .poisson = 0.3}, {.type = type, .young = 10, .poisson = 0.1}};
+  const Material  materials[2] = {{.type = type, .young = 1, .poisson = 0.3},
+     {.type = type, .young = 10, .poisson = 0.1}};
 
   PetscFunctionBeginUser;
   ProblemBox(slab, lower[0], upper[0], cells[0], &bodies[0]);
@@ -76,7 +78,8 @@ static inline PetscErrorCode ProblemMoveNodes(DM dm, PetscReal distance)
   PetscCall(VecGetLocalSize(coordinates, &n));
   PetscCall(VecGetArray(coordinates, &x));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal phase = 37.1 * PetscRealPart(x[i]) + 91.7 * PetscRealPart(x[i + 1]) + 53.3 * PetscRealPart(x[i + 2]);
+    const PetscReal phase =
+      37.1 * PetscRealPart(x[i]) + 91.7 * PetscRealPart(x[i + 1]) + 53.3 * PetscRealPart(x[i + 2]);
 
     for (PetscInt d = 0; d < 3; ++d) x[i + d] += distance * PetscSinReal((1 + 0.3 * d) * phase + 2 * d);
   }
@@ -158,7 +161,8 @@ static inline PetscErrorCode ProblemFixFace(DM dm, const char face[], IS *rows)
   PetscFunctionReturn(0);
 }
 
-/* Newton's method for force(u) = load on the rows that are not prescribed, from u, which holds the prescribed displacements; -ksp_ and -pc_ options */
+/* Newton's method for force(u) = load on the rows that are not prescribed, from u, which holds the prescribed
+   displacements; -ksp_ and -pc_ options */
 static inline PetscErrorCode ProblemNewton(Elasticity e, IS prescribed, Vec load, Mat K, Vec u)
 {
   const PetscReal rtol = 1e-9;
@@ -182,7 +186,8 @@ static inline PetscErrorCode ProblemNewton(Elasticity e, IS prescribed, Vec load
     PetscCall(VecISSet(residual, prescribed, 0));
     PetscCall(VecNorm(residual, NORM_2, &norm));
     if (norm <= rtol * PetscMax(external, internal)) break;
-    PetscCheck(it < 20, PetscObjectComm((PetscObject)u), PETSC_ERR_NOT_CONVERGED, "Newton's method left a residual of %g of the forces", (double)(norm / PetscMax(external, internal)));
+    PetscCheck(it < 20, PetscObjectComm((PetscObject)u), PETSC_ERR_NOT_CONVERGED,
+      "Newton's method left a residual of %g of the forces", (double)(norm / PetscMax(external, internal)));
     PetscCall(ElasticityTangent(e, u, K));
     PetscCall(KSPSetOperators(ksp, K, K));
     PetscCall(KSPSolve(ksp, residual, step));
@@ -204,7 +209,8 @@ typedef struct {
 } ProblemBody;
 
 /* Takes over dm and rows */
-static inline PetscErrorCode ProblemBodyCreate(DM dm, const Material *material, ElementType element, IS rows, ProblemBody *body)
+static inline PetscErrorCode ProblemBodyCreate(DM dm, const Material *material, ElementType element, IS rows,
+  ProblemBody *body)
 {
   PetscFunctionBeginUser;
   body->dm   = dm;

@@ -1,4 +1,5 @@
-static char help[] = "Thick sphere under internal pressure, an octant of it: displacement and stress against Lame's solution on three meshes.\n\n";
+static char help[] = "Thick sphere under internal pressure, an octant of it: displacement and stress against Lame's "
+                     "solution on three meshes.\n\n";
 
 #include "elasticity_problem.h"
 
@@ -6,7 +7,8 @@ static char help[] = "Thick sphere under internal pressure, an octant of it: dis
 
 static const PetscReal inner = 1, outer = 2, pressure = 0.01, young = 1;
 
-/* u_r = c ((1 - 2 nu) r + (1 + nu) b^3/(2 r^2))/E, s_r = c (1 - b^3/r^3), s_t = c (1 + b^3/(2 r^3)), c = p a^3/(b^3 - a^3) */
+/* u_r = c ((1 - 2 nu) r + (1 + nu) b^3/(2 r^2))/E, s_r = c (1 - b^3/r^3), s_t = c (1 + b^3/(2 r^3)), c = p a^3/(b^3 -
+   a^3) */
 typedef struct {
   PetscReal c, b3, poisson;
 } Lame;
@@ -27,20 +29,25 @@ static void LameDisplacement(const Lame *lame, const PetscReal x[3], PetscReal u
 {
   const PetscReal r = Radius(x);
 
-  for (PetscInt d = 0; d < 3; ++d) u[d] = lame->c / young * ((1 - 2 * lame->poisson) * r + (1 + lame->poisson) * lame->b3 / (2 * r * r)) * x[d] / r;
+  for (PetscInt d = 0; d < 3; ++d)
+    u[d] = lame->c / young * ((1 - 2 * lame->poisson) * r + (1 + lame->poisson) * lame->b3 / (2 * r * r)) * x[d] / r;
 }
 
 /* xx yy zz xy yz zx */
 static void LameStress(const Lame *lame, const PetscReal x[3], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  const PetscReal  r = Radius(x), r3 = r * r * r, radial = lame->c * (1 - lame->b3 / r3), hoop = lame->c * (1 + lame->b3 / (2 * r3));
+  const PetscReal  r = Radius(x), r3 = r * r * r, radial = lame->c * (1 - lame->b3 / r3),
+                  hoop = lame->c * (1 + lame->b3 / (2 * r3));
 
-  for (PetscInt k = 0; k < 6; ++k) sigma[k] = (radial - hoop) * x[row[k]] * x[column[k]] / (r * r) + (row[k] == column[k] ? hoop : 0);
+  for (PetscInt k = 0; k < 6; ++k)
+    sigma[k] = (radial - hoop) * x[row[k]] * x[column[k]] / (r * r) + (row[k] == column[k] ? hoop : 0);
 }
 
-/* Adds the squared errors of stress at the cells' centroids, and of displacement at their vertices, and the squares of the exact ones */
-static PetscErrorCode AddSquares(DM dm, const Lame *lame, const PetscScalar x[], const PetscScalar u[], const PetscReal stress[], PetscReal squares[4])
+/* Adds the squared errors of stress at the cells' centroids, and of displacement at their vertices, and the squares
+   of the exact ones */
+static PetscErrorCode AddSquares(DM dm, const Lame *lame, const PetscScalar x[], const PetscScalar u[],
+  const PetscReal stress[], PetscReal squares[4])
 {
   PetscSection section;
   PetscInt     start, end;
@@ -158,12 +165,16 @@ int main(int argc, char **argv)
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g\n", ElementTypes[element], (double)poisson));
   for (PetscInt level = 0; level < LEVELS; ++level) {
     PetscCall(Solve(level, element, poisson, errors[level]));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": error of the displacement %.2g %%, of the stress %.2g %%\n", level, (double)(100 * errors[level][0]), (double)(100 * errors[level][1])));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "level %" PetscInt_FMT ": error of the displacement %.2g %%, of the stress %.2g %%\n", level,
+      (double)(100 * errors[level][0]), (double)(100 * errors[level][1])));
   }
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal order = PetscLog2Real(errors[LEVELS - 2][k] / errors[LEVELS - 1][k]);
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s %g %%, order %s %g\n", k ? "stress" : "displacement", errors[LEVELS - 1][k] < limit[k] ? "below" : "above", (double)(100 * limit[k]), order > least ? "above" : "below", (double)least));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s %g %%, order %s %g\n", k ? "stress" : "displacement",
+      errors[LEVELS - 1][k] < limit[k] ? "below" : "above", (double)(100 * limit[k]), order > least ? "above" : "below",
+      (double)least));
   }
   PetscCall(PetscFinalize());
   return 0;

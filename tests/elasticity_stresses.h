@@ -1,4 +1,5 @@
-/* Energy norm of the true error by the elements' own stresses at their own points, for elements whose stress is not that of their displacements */
+/* Energy norm of the true error by the elements' own stresses at their own points, for elements whose stress is not
+   that of their displacements */
 #ifndef ELASTICITY_STRESSES_H
 #define ELASTICITY_STRESSES_H
 
@@ -15,8 +16,7 @@ static inline PetscErrorCode StressesWeight(PetscBool tetrahedron, PetscInt n, P
   PetscCall(PetscDTGaussQuadrature(width, 0, 1, gauss, line));
   if (!tetrahedron) *weight = line[index[0]] * line[index[1]] * line[index[2]];
   else if (n == 4) *weight = 0.25;
-  else *weight = q < 4 ? 0.11268792571801585080 : q < 8 ? 0.073493043116361949544
-                                                        : 0.042546020777081466438;
+  else *weight = q < 4 ? 0.11268792571801585080 : q < 8 ? 0.073493043116361949544 : 0.042546020777081466438;
   PetscFunctionReturn(0);
 }
 
@@ -43,8 +43,10 @@ static inline PetscReal StressesSquared(const MaterialModuli *moduli, const Pets
   return square / (2 * moduli->mu) + PetscSqr(mean) / (moduli->lambda + 2 * moduli->mu / 3);
 }
 
-/* Squared: over cells that are parallelepipeds or straight tetrahedra, of a linear material with the exact displacement gradient */
-static inline PetscErrorCode StressesError(DM dm, Elasticity e, const Material *material, void (*gradient)(const PetscReal x[3], PetscReal H[3][3]), Vec u, PetscReal *error)
+/* Squared: over cells that are parallelepipeds or straight tetrahedra, of a linear material with the exact
+   displacement gradient */
+static inline PetscErrorCode StressesError(DM dm, Elasticity e, const Material *material,
+  void (*gradient)(const PetscReal x[3], PetscReal H[3][3]), Vec u, PetscReal *error)
 {
   const MaterialLaw *law;
   MaterialModuli     moduli;

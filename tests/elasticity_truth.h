@@ -1,4 +1,5 @@
-/* Energy norm of the true error, from nothing of the library but mesh and law: stress of the elements against an exact one */
+/* Energy norm of the true error, from nothing of the library but mesh and law: stress of the elements against an
+   exact one */
 #ifndef ELASTICITY_TRUTH_H
 #define ELASTICITY_TRUTH_H
 
@@ -23,15 +24,18 @@ typedef struct {
 
 static inline PetscReal Determinant(PetscReal A[3][3])
 {
-  return A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1]) - A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0]) + A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
+  return A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1]) - A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0]) +
+         A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
 }
 
-/* Point q of 3 x 3 x 3 Gauss points of the cell with vertices X[a][d] in tensor order. Gradients by Cramer's rule: J^T g = dN */
+/* Point q of 3 x 3 x 3 Gauss points of the cell with vertices X[a][d] in tensor order. Gradients by Cramer's rule:
+   J^T g = dN */
 static inline void CellPointGet(PetscReal X[8][3], PetscInt q, CellPoint *p)
 {
-  const PetscReal gauss[3] = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)}, weight[3] = {5. / 18, 8. / 18, 5. / 18};
-  const PetscInt  index[3] = {q % 3, q / 3 % 3, q / 9};
-  PetscReal       D[8][3], J[3][3] = {{0}}, det;
+  const PetscReal gauss[3]  = {0.5 - PetscSqrtReal(0.15), 0.5, 0.5 + PetscSqrtReal(0.15)},
+                  weight[3] = {5. / 18, 8. / 18, 5. / 18};
+  const PetscInt index[3]   = {q % 3, q / 3 % 3, q / 9};
+  PetscReal      D[8][3], J[3][3] = {{0}}, det;
 
   *p = (CellPoint){.weight = weight[index[0]] * weight[index[1]] * weight[index[2]]};
   for (PetscInt a = 0; a < 8; ++a) {
@@ -69,7 +73,8 @@ static inline void CellPointGradient(const CellPoint *p, PetscReal U[8][3], Pets
 }
 
 /* Of one cell: int (s - s_h) : C^(-1) : (s - s_h), s_h = 2 mu dev e + kappa (trace or mean trace) */
-static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal lambda, PetscReal mu, PetscReal X[8][3], PetscReal U[8][3])
+static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal lambda, PetscReal mu, PetscReal X[8][3],
+  PetscReal U[8][3])
 {
   static const PetscInt row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   const PetscReal       kappa  = lambda + 2 * mu / 3;
@@ -89,7 +94,8 @@ static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal la
     }
     exact->stress(exact->ctx, p.x, sigma);
     for (PetscInt k = 0; k < 6; ++k) sigma[k] -= mu * (H[row[k]][column[k]] + H[column[k]][row[k]]);
-    for (PetscInt k = 0; k < 3; ++k) sigma[k] -= kappa * (exact->element == ELEMENT_BBAR ? mean / volume : trace) - 2 * mu / 3 * trace;
+    for (PetscInt k = 0; k < 3; ++k)
+      sigma[k] -= kappa * (exact->element == ELEMENT_BBAR ? mean / volume : trace) - 2 * mu / 3 * trace;
     pressure = (sigma[0] + sigma[1] + sigma[2]) / 3;
     for (PetscInt k = 0; k < 6; ++k) square += k < 3 ? PetscSqr(sigma[k] - pressure) : 2 * PetscSqr(sigma[k]);
     sum += p.weight * (square / (2 * mu) + pressure * pressure / kappa);
@@ -98,7 +104,8 @@ static inline PetscReal CellStressError(const ExactSolution *exact, PetscReal la
 }
 
 /* The same of mean dilatation at finite strain: int (H - H_h) : d2W_iso(H_h) : (H - H_h) + kappa (theta - Theta_h)^2 */
-static inline PetscReal CellGradientError(const ExactSolution *exact, const MaterialLaw *law, const MaterialModuli *moduli, const MaterialModuli *isochoric, PetscReal X[8][3], PetscReal U[8][3])
+static inline PetscReal CellGradientError(const ExactSolution *exact, const MaterialLaw *law,
+  const MaterialModuli *moduli, const MaterialModuli *isochoric, PetscReal X[8][3], PetscReal U[8][3])
 {
   PetscReal volume = 0, mean = 0, sum = 0;
 
@@ -123,7 +130,8 @@ static inline PetscReal CellGradientError(const ExactSolution *exact, const Mate
 }
 
 /* Vertices X[a][d] of a cell and their displacements, and the offsets of both */
-static inline PetscErrorCode CellGather(DM dm, PetscInt cell, const PetscScalar x[], const PetscScalar u[], PetscReal X[8][3], PetscReal U[8][3], PetscInt offsets[8])
+static inline PetscErrorCode CellGather(DM dm, PetscInt cell, const PetscScalar x[], const PetscScalar u[],
+  PetscReal X[8][3], PetscReal U[8][3], PetscInt offsets[8])
 {
   PetscSection section;
   PetscInt     vertices[8];
@@ -165,7 +173,8 @@ static inline PetscErrorCode TrueError(DM dm, const ExactSolution *exact, Vec u,
     PetscInt  offsets[8];
 
     PetscCall(CellGather(dm, c, x, l, X, U, offsets));
-    *error += law->constant ? CellStressError(exact, m.lambda, m.mu, X, U) : CellGradientError(exact, law, &m, &isochoric, X, U);
+    *error += law->constant ? CellStressError(exact, m.lambda, m.mu, X, U)
+                            : CellGradientError(exact, law, &m, &isochoric, X, U);
   }
   PetscCall(VecRestoreArrayRead(local, &l));
   PetscCall(VecRestoreArrayRead(coordinates, &x));
@@ -174,7 +183,8 @@ static inline PetscErrorCode TrueError(DM dm, const ExactSolution *exact, Vec u,
   PetscFunctionReturn(0);
 }
 
-/* Prints whether the effectivity sqrt(estimate/truth) is within a factor of 1, and its digits only if asked for or if it is not */
+/* Prints whether the effectivity sqrt(estimate/truth) is within a factor of 1, and its digits only if asked for or if
+   it is not */
 static inline PetscErrorCode ReportEffectivity(PetscInt level, PetscReal estimate, PetscReal truth, PetscReal factor)
 {
   const PetscReal effectivity = PetscSqrtReal(estimate / truth);
@@ -182,9 +192,14 @@ static inline PetscErrorCode ReportEffectivity(PetscInt level, PetscReal estimat
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-effectivity_view", &view, NULL));
-  if (view) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": true error %g, effectivity %.4f\n", level, (double)PetscSqrtReal(truth), (double)effectivity));
-  else if (effectivity > 1 / factor && effectivity < factor) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": effectivity within a factor %.1f of 1\n", level, (double)factor));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": effectivity %g\n", level, (double)effectivity));
+  if (view)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": true error %g, effectivity %.4f\n", level,
+      (double)PetscSqrtReal(truth), (double)effectivity));
+  else if (effectivity > 1 / factor && effectivity < factor)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": effectivity within a factor %.1f of 1\n", level,
+      (double)factor));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "level %" PetscInt_FMT ": effectivity %g\n", level, (double)effectivity));
   PetscFunctionReturn(0);
 }
 

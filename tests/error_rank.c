@@ -1,4 +1,5 @@
-static char help[] = "What fails on one rank fails on all: one sentence, the same error on every rank, and no hang.\n\n";
+static char help[] =
+  "What fails on one rank fails on all: one sentence, the same error on every rank, and no hang.\n\n";
 
 #include <mesh.h>
 #include <elasticity.h>
@@ -35,7 +36,9 @@ static PetscErrorCode FailOn(PetscInt from, PetscInt to)
   if (from < 0) from += size;
   if (to < 0) to += size;
   PetscCall(RankErrorBegin(&error));
-  if (rank >= from && rank <= to) ierr = PetscError(PETSC_COMM_SELF, __LINE__, PETSC_FUNCTION_NAME, __FILE__, PETSC_ERR_USER, PETSC_ERROR_INITIAL, "rank %d of those that fail", rank - (int)from);
+  if (rank >= from && rank <= to)
+    ierr = PetscError(PETSC_COMM_SELF, __LINE__, PETSC_FUNCTION_NAME, __FILE__, PETSC_ERR_USER, PETSC_ERROR_INITIAL,
+      "rank %d of those that fail", rank - (int)from);
   PetscCall(RankErrorEnd(PETSC_COMM_WORLD, ierr, &error));
   PetscCheck(!error.code, PETSC_COMM_WORLD, error.code, "%s", error.message);
   PetscFunctionReturn(0);
@@ -60,7 +63,8 @@ static PetscErrorCode WriteText(const char file[], const char text[])
   if (!rank) {
     FILE *stream = fopen(file, "w");
 
-    PetscCheck(stream && fputs(text, stream) >= 0 && !fclose(stream), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write %s", file);
+    PetscCheck(stream && fputs(text, stream) >= 0 && !fclose(stream), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,
+      "cannot write %s", file);
   }
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
   PetscFunctionReturn(0);
@@ -84,14 +88,16 @@ static const char *starved; /* the function that gets no memory */
 static PetscMPIInt hungry;  /* on this rank */
 static PetscInt    denied;
 
-static PetscErrorCode DenyMemory(size_t n, PetscBool clear, int line, const char function[], const char file[], void **result)
+static PetscErrorCode DenyMemory(size_t n, PetscBool clear, int line, const char function[], const char file[],
+  void **result)
 {
   PetscMPIInt rank;
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != hungry || !function || strcmp(function, starved)) return (*given)(n, clear, line, function, file, result);
   ++denied;
-  return PetscError(PETSC_COMM_SELF, line, function, file, PETSC_ERR_MEM, PETSC_ERROR_INITIAL, "no memory in %s()", function);
+  return PetscError(PETSC_COMM_SELF, line, function, file, PETSC_ERR_MEM, PETSC_ERROR_INITIAL, "no memory in %s()",
+    function);
 }
 
 /* On the first rank, or on the last */
@@ -120,30 +126,30 @@ static PetscErrorCode CreateStarved(const SceneBody *body, const char function[]
 static PetscErrorCode TestMemory(void)
 {
   static char     box[] = "box", ball[] = "ball", blocks[] = "blocks", file[] = "error_rank.msh", volume[] = "bar";
-  const SceneBody bodies[] = {
-    {.name = box, .upper = {1, 1, 1}, .cells = {4, 4, 4}},
-    {.name = ball, .shape = SHAPE_BALL, .curved = PETSC_TRUE, .cells = {2, 2, 2}, .layers = 2, .octant = {.outer = {.radius = 1}}},
+  const SceneBody bodies[] = {{.name = box, .upper = {1, 1, 1}, .cells = {4, 4, 4}},
+    {.name    = ball,
+      .shape  = SHAPE_BALL,
+      .curved = PETSC_TRUE,
+      .cells  = {2, 2, 2},
+      .layers = 2,
+      .octant = {.outer = {.radius = 1}}},
     {.name = blocks, .shape = SHAPE_GMSH, .gmsh = {.file = file, .volume = volume}}};
   const struct {
     const char *what, *function;
     PetscInt    body;
-  } work[] = {
-    {"the grid of a box", "ShapeGridCreate", 0},
-    {"the mesh of all bodies", "MeshJoinVertices", 0},
-    {"the graph of the mesh", "MetisGatherArray", 0},
-    {"the graph for METIS", "MetisPartitionGraph", 0},
-    {"the partition", "MetisPartitionGathered", 0},
-    {"the vertices of a ball", "OctantNumberSurface", 1},
-    {"the names of a Gmsh file", "GmshScanPhysicalNames", 2},
-    {"the nodes of a Gmsh file", "GmshCheckNodes", 2},
-    {"the cells of a Gmsh body", "GmshCutVolume", 2},
-    {"the vertices of a Gmsh body", "GmshCheckVertices", 2}};
+  } work[] = {{"the grid of a box", "ShapeGridCreate", 0}, {"the mesh of all bodies", "MeshJoinVertices", 0},
+    {"the graph of the mesh", "MetisGatherArray", 0}, {"the graph for METIS", "MetisPartitionGraph", 0},
+    {"the partition", "MetisPartitionGathered", 0}, {"the vertices of a ball", "OctantNumberSurface", 1},
+    {"the names of a Gmsh file", "GmshScanPhysicalNames", 2}, {"the nodes of a Gmsh file", "GmshCheckNodes", 2},
+    {"the cells of a Gmsh body", "GmshCutVolume", 2}, {"the vertices of a Gmsh body", "GmshCheckVertices", 2}};
 
   PetscFunctionBeginUser;
-  PetscCall(WriteText(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bar\"\n$EndPhysicalNames\n"
-                            "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
-                            "$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n"));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(work); ++i) ATTEMPT(work[i].what, CreateStarved(&bodies[work[i].body], work[i].function, PETSC_FALSE));
+  PetscCall(
+    WriteText(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bar\"\n$EndPhysicalNames\n"
+                    "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
+                    "$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n"));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(work); ++i)
+    ATTEMPT(work[i].what, CreateStarved(&bodies[work[i].body], work[i].function, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -158,13 +164,18 @@ static PetscErrorCode WriteBricks(const char file[])
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(room, &text));
-  at = text + sprintf(text, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bricks\"\n$EndPhysicalNames\n$Nodes\n%d\n", (N + 1) * (N + 1) * (N + 1));
-  for (int v = 0; v < (N + 1) * (N + 1) * (N + 1); ++v) at += sprintf(at, "%d %d %d %d\n", v + 1, v % (N + 1), v / (N + 1) % (N + 1), v / ((N + 1) * (N + 1)));
+  at =
+    text + sprintf(text,
+             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"bricks\"\n$EndPhysicalNames\n$Nodes\n%d\n",
+             (N + 1) * (N + 1) * (N + 1));
+  for (int v = 0; v < (N + 1) * (N + 1) * (N + 1); ++v)
+    at += sprintf(at, "%d %d %d %d\n", v + 1, v % (N + 1), v / (N + 1) % (N + 1), v / ((N + 1) * (N + 1)));
   at += sprintf(at, "$EndNodes\n$Elements\n%d\n", N * N * N);
   for (int c = 0; c < N * N * N; ++c) {
     const int v = 1 + c % N + (N + 1) * (c / N % N) + (N + 1) * (N + 1) * (c / (N * N)), up = (N + 1) * (N + 1);
 
-    at += sprintf(at, "%d 5 2 1 1 %d %d %d %d %d %d %d %d\n", c + 1, v, v + 1, v + N + 2, v + N + 1, v + up, v + up + 1, v + up + N + 2, v + up + N + 1);
+    at += sprintf(at, "%d 5 2 1 1 %d %d %d %d %d %d %d %d\n", c + 1, v, v + 1, v + N + 2, v + N + 1, v + up, v + up + 1,
+      v + up + N + 2, v + up + N + 1);
   }
   (void)sprintf(at, "$EndElements\n");
   PetscCall(WriteText(file, text));
@@ -201,7 +212,8 @@ static PetscErrorCode TestPrism(void)
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_WORLD, 3, rank ? 0 : 1, rank ? 0 : 6, 6, PETSC_TRUE, cell, 3, x, &dm));
+  PetscCall(
+    DMPlexCreateFromCellListPetsc(PETSC_COMM_WORLD, 3, rank ? 0 : 1, rank ? 0 : 6, 6, PETSC_TRUE, cell, 3, x, &dm));
   PetscCall(DMCreateLabel(dm, MESH_BODY_LABEL));
   if (!rank) PetscCall(DMSetLabelValue(dm, MESH_BODY_LABEL, 0, 0));
   PetscCall(DMPlexGetChart(dm, &pstart, &pend));
@@ -217,7 +229,8 @@ static PetscErrorCode TestPrism(void)
   PetscFunctionReturn(0);
 }
 
-/* The first rank has a point of contact at a vertex that is not its own: of those shared by ranks the last one owns each */
+/* The first rank has a point of contact at a vertex that is not its own: of those shared by ranks the last one owns
+   each */
 static PetscErrorCode TestRow(void)
 {
   static char       name[]  = "box";

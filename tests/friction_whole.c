@@ -1,4 +1,6 @@
-static char help[] = "Coulomb's law on the contact of two blocks whose meshes do not match, on a wavy face: TAOIPFILTER against a semi-smooth Newton method on the whole system, displacements,\n\
+static char help[] =
+  "Coulomb's law on the contact of two blocks whose meshes do not match, on a wavy face: TAOIPFILTER against a\n\
+semi-smooth Newton method on the whole system, displacements,\n\
 normal forces and friction at once, by a direct solver.\n\
   -friction <0.3> : coefficient\n\n";
 
@@ -14,7 +16,8 @@ typedef struct {
   PetscReal        friction;
 } Blocks;
 
-/* The whole system's unknowns in turn: n displacements, m normal forces, 2 m of friction; rho weighs gap and slip against forces */
+/* The whole system's unknowns in turn: n displacements, m normal forces, 2 m of friction; rho weighs gap and slip
+   against forces */
 typedef struct {
   Blocks   *blocks;
   Mat       A;
@@ -27,7 +30,7 @@ static PetscErrorCode CreateMesh(DM *dm, Material materials[2])
 {
   static char     ground[] = "ground", block[] = "block";
   const PetscReal lower[2][3] = {{-0.5, -0.5, -0.5}, {0, 0, 0}}, upper[2][3] = {{2.5, 1.5, 0}, {2, 1, 0.7}};
-  const PetscInt  cells[2][3]  = {{6, 4, 2}, {7, 4, 3}};
+  const PetscInt  cells[2][3] = {{6, 4, 2}, {7, 4, 3}};
   SceneBody       bodies[2];
 
   PetscFunctionBeginUser;
@@ -44,7 +47,8 @@ static PetscErrorCode CreateMesh(DM *dm, Material materials[2])
   PetscFunctionReturn(0);
 }
 
-/* All rows of vertices at the ground's bottom and the block's top; a displacement that bends both faces alike, in `bent` */
+/* All rows of vertices at the ground's bottom and the block's top; a displacement that bends both faces alike, in
+   `bent` */
 static PetscErrorCode HoldEnds(DM dm, Vec bent, IS *held)
 {
   const PetscReal    bottom = -0.5 + 1e-9, top = 0.7 - 1e-9, amount = 0.02;
@@ -75,7 +79,12 @@ static PetscErrorCode HoldEnds(DM dm, Vec bent, IS *held)
 /* The gap less an overlap that varies, the slip with a part that has been; no columns of what is held */
 static PetscErrorCode AssembleContact(DM dm, Vec bent, IS held, Blocks *b)
 {
-  const SceneContactPair pair    = {.name = "joint", .mortar = "ground.zmax", .nonmortar = "block.zmin", .gap = GAP_MORTAR, .friction = b->friction, .shear_limit = PETSC_INFINITY};
+  const SceneContactPair pair    = {.name = "joint",
+       .mortar                            = "ground.zmax",
+       .nonmortar                         = "block.zmin",
+       .gap                               = GAP_MORTAR,
+       .friction                          = b->friction,
+       .shear_limit                       = PETSC_INFINITY};
   const PetscReal        overlap = 0.02, slipped = 4e-3;
   Contact                contact;
   ContactLinearization   lin;
@@ -97,7 +106,8 @@ static PetscErrorCode AssembleContact(DM dm, Vec bent, IS held, Blocks *b)
   PetscCall(VecGetSize(b->q.g, &m));
   for (PetscInt i = 0; i < m; ++i) {
     PetscCall(VecSetValue(b->q.g, i, overlap * (0.7 + PetscCosReal(0.9 * i)), INSERT_VALUES));
-    for (PetscInt a = 0; a < 2; ++a) PetscCall(VecSetValue(b->t, 2 * i + a, slipped * PetscSinReal(1.3 * i + a), INSERT_VALUES));
+    for (PetscInt a = 0; a < 2; ++a)
+      PetscCall(VecSetValue(b->t, 2 * i + a, slipped * PetscSinReal(1.3 * i + a), INSERT_VALUES));
   }
   PetscCall(VecAssemblyBegin(b->q.g));
   PetscCall(VecAssemblyEnd(b->q.g));
@@ -164,7 +174,8 @@ static PetscErrorCode AddRow(Mat B, PetscInt from, PetscReal scale, PetscInt to,
 
   PetscFunctionBeginUser;
   PetscCall(MatGetRow(B, from, &n, &columns, &values));
-  for (PetscInt k = 0; k < n; ++k) PetscCall(MatSetValue(A, to, columns[k], scale * PetscRealPart(values[k]), ADD_VALUES));
+  for (PetscInt k = 0; k < n; ++k)
+    PetscCall(MatSetValue(A, to, columns[k], scale * PetscRealPart(values[k]), ADD_VALUES));
   PetscCall(MatRestoreRow(B, from, &n, &columns, &values));
   PetscFunctionReturn(0);
 }
@@ -182,18 +193,23 @@ static PetscErrorCode AddTranspose(Mat B, PetscReal scale, PetscInt first, Mat A
     PetscInt           n;
 
     PetscCall(MatGetRow(B, r, &n, &columns, &values));
-    for (PetscInt k = 0; k < n; ++k) PetscCall(MatSetValue(A, columns[k], first + r, scale * PetscRealPart(values[k]), ADD_VALUES));
+    for (PetscInt k = 0; k < n; ++k)
+      PetscCall(MatSetValue(A, columns[k], first + r, scale * PetscRealPart(values[k]), ADD_VALUES));
     PetscCall(MatRestoreRow(B, r, &n, &columns, &values));
   }
   PetscFunctionReturn(0);
 }
 
-/* Of one row, p = y - rho c and s = tau - rho v: y - max(0, p) and tau - P(s), P onto |tau| <= friction max(0, p), and their derivatives */
-static PetscErrorCode WholeAddLaws(Whole *w, PetscInt i, PetscReal c, const PetscReal v[2], PetscScalar z[], PetscScalar r[])
+/* Of one row, p = y - rho c and s = tau - rho v: y - max(0, p) and tau - P(s), P onto |tau| <= friction max(0, p),
+   and their derivatives */
+static PetscErrorCode WholeAddLaws(Whole *w, PetscInt i, PetscReal c, const PetscReal v[2], PetscScalar z[],
+  PetscScalar r[])
 {
   Blocks         *b   = w->blocks;
   const PetscInt  row = w->n + i, tau = w->n + w->m + 2 * i;
-  const PetscReal p = PetscRealPart(z[row]) - w->rho * c, s[2] = {PetscRealPart(z[tau]) - w->rho * v[0], PetscRealPart(z[tau + 1]) - w->rho * v[1]}, size = hypot(s[0], s[1]), bound = b->friction * PetscMax(0.0, p);
+  const PetscReal p    = PetscRealPart(z[row]) - w->rho * c,
+                  s[2] = {PetscRealPart(z[tau]) - w->rho * v[0], PetscRealPart(z[tau + 1]) - w->rho * v[1]},
+                  size = hypot(s[0], s[1]), bound = b->friction * PetscMax(0.0, p);
   const PetscBool slips = (PetscBool)(size > bound);
 
   PetscFunctionBeginUser;
@@ -250,7 +266,9 @@ static PetscErrorCode WholeAssemble(Whole *w)
   PetscCall(AddTranspose(b->T, -1.0, w->n + w->m, w->A));
   PetscCall(VecGetArrayRead(gap, &c));
   PetscCall(VecGetArrayRead(slip, &v));
-  for (PetscInt i = 0; i < w->m; ++i) PetscCall(WholeAddLaws(w, i, PetscRealPart(c[i]), (PetscReal[2]){PetscRealPart(v[2 * i]), PetscRealPart(v[2 * i + 1])}, z, r));
+  for (PetscInt i = 0; i < w->m; ++i)
+    PetscCall(WholeAddLaws(w, i, PetscRealPart(c[i]),
+      (PetscReal[2]){PetscRealPart(v[2 * i]), PetscRealPart(v[2 * i + 1])}, z, r));
   PetscCall(VecRestoreArrayRead(slip, &v));
   PetscCall(VecRestoreArrayRead(gap, &c));
   PetscCall(MatAssemblyBegin(w->A, MAT_FINAL_ASSEMBLY));
@@ -317,7 +335,8 @@ static PetscErrorCode WholeSolve(Whole *w)
     PetscCall(KSPSolve(ksp, w->r, step));
     PetscCall(VecAXPY(w->z, -1.0, step));
   }
-  PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s\n", its < most ? "the whole system: solved" : "the whole system: NOT solved"));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_SELF, "%s\n", its < most ? "the whole system: solved" : "the whole system: NOT solved"));
   PetscCall(VecDestroy(&step));
   PetscCall(KSPDestroy(&ksp));
   PetscFunctionReturn(0);
@@ -348,7 +367,8 @@ static PetscErrorCode Compare(const char what[], Vec found, const PetscScalar ex
   PetscFunctionReturn(0);
 }
 
-/* Coulomb's law at every row of the answer: gap and force, the cone, friction against slip; and how many rows are open, stick, slip */
+/* Coulomb's law at every row of the answer: gap and force, the cone, friction against slip; and how many rows are
+   open, stick, slip */
 static PetscErrorCode CheckLaws(Blocks *b, Vec x, Vec y, Vec tau)
 {
   const PetscScalar *f, *q, *c, *v;
@@ -370,19 +390,25 @@ static PetscErrorCode CheckLaws(Blocks *b, Vec x, Vec y, Vec tau)
   PetscCall(VecGetArrayRead(y, &f));
   PetscCall(VecGetArrayRead(tau, &q));
   for (PetscInt i = 0; i < m; ++i) {
-    const PetscReal p = PetscRealPart(f[i]), g = PetscRealPart(c[i]), size = hypot(PetscRealPart(q[2 * i]), PetscRealPart(q[2 * i + 1])), way = hypot(PetscRealPart(v[2 * i]), PetscRealPart(v[2 * i + 1]));
-    const PetscInt  open = p <= 1e-9 * largest, sticks = !open && way <= 1e-9 * slid;
+    const PetscReal p = PetscRealPart(f[i]), g = PetscRealPart(c[i]),
+                    size = hypot(PetscRealPart(q[2 * i]), PetscRealPart(q[2 * i + 1])),
+                    way  = hypot(PetscRealPart(v[2 * i]), PetscRealPart(v[2 * i + 1]));
+    const PetscInt open = p <= 1e-9 * largest, sticks = !open && way <= 1e-9 * slid;
 
     ++counts[open ? 0 : sticks ? 1 : 2];
     errors[0] = PetscMax(errors[0], PetscMax(PetscMax(-p / largest, -g / slid), PetscAbsReal(p * g) / largest / slid));
     errors[1] = PetscMax(errors[1], (size - b->friction * p) / largest);
-    for (PetscInt a = 0; a < 2; ++a) errors[2] = PetscMax(errors[2], PetscAbsReal(way * PetscRealPart(q[2 * i + a]) + b->friction * p * PetscRealPart(v[2 * i + a])) / largest / slid);
+    for (PetscInt a = 0; a < 2; ++a)
+      errors[2] = PetscMax(errors[2],
+        PetscAbsReal(way * PetscRealPart(q[2 * i + a]) + b->friction * p * PetscRealPart(v[2 * i + a])) / largest /
+          slid);
   }
   PetscCall(VecRestoreArrayRead(tau, &q));
   PetscCall(VecRestoreArrayRead(y, &f));
   PetscCall(VecRestoreArrayRead(slip, &v));
   PetscCall(VecRestoreArrayRead(gap, &c));
-  PetscCall(PetscPrintf(PETSC_COMM_SELF, "%" PetscInt_FMT " rows open, %" PetscInt_FMT " stick, %" PetscInt_FMT " slip\n", counts[0], counts[1], counts[2]));
+  PetscCall(PetscPrintf(PETSC_COMM_SELF,
+    "%" PetscInt_FMT " rows open, %" PetscInt_FMT " stick, %" PetscInt_FMT " slip\n", counts[0], counts[1], counts[2]));
   PetscCall(ProblemVerdict("gap, force, and either 0", errors[0], 1e-8));
   PetscCall(ProblemVerdict("friction beyond its bound", errors[1], 1e-8));
   PetscCall(ProblemVerdict("friction against slip", errors[2], 1e-8));

@@ -24,7 +24,8 @@ static PetscErrorCode RunFolder(const char kind[], PetscErrorCode (*target)(cons
   int             n;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscSNPrintf(folder, sizeof(folder), "%s/tests/fuzz/corpus/%s", getenv("AMGF_DIR") ? getenv("AMGF_DIR") : ".", kind));
+  PetscCall(PetscSNPrintf(folder, sizeof(folder), "%s/tests/fuzz/corpus/%s",
+    getenv("AMGF_DIR") ? getenv("AMGF_DIR") : ".", kind));
   n = scandir(folder, &entries, IsInput, NameOrder);
   PetscCheck(n > 0, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "No inputs in %s", folder);
   for (int i = 0; i < n; ++i) {
@@ -32,8 +33,10 @@ static PetscErrorCode RunFolder(const char kind[], PetscErrorCode (*target)(cons
 
     PetscCall(PetscSNPrintf(file, sizeof(file), "%s/%s", folder, entries[i]->d_name));
     PetscCall(FuzzRun(target, file, &sound));
-    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s %s: %s\n", kind, entries[i]->d_name, sound ? "sound" : verbose ? attempt_sentence
-                                                                                                              : "refused"));
+    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s %s: %s\n", kind, entries[i]->d_name,
+      sound     ? "sound"
+      : verbose ? attempt_sentence
+                : "refused"));
     free(entries[i]);
   }
   free(entries);

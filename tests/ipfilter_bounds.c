@@ -1,10 +1,11 @@
-static char help[] = "Variables with equal bounds, and bounds on all displacements of an elastic block, beside constraints.\n\n";
+static char help[] =
+  "Variables with equal bounds, and bounds on all displacements of an elastic block, beside constraints.\n\n";
 
 #include <petscdmda.h>
 #include "ipfilter_problem.h"
 
-/* Trilinear hexahedra of edge h on an n x n x n grid of nodes, E = 1, nu = 0.3. The lower face is held, the upper one sheared, by equal
-   bounds: the stiffness itself is singular. */
+/* Trilinear hexahedra of edge h on an n x n x n grid of nodes, E = 1, nu = 0.3. The lower face is held, the upper one
+   sheared, by equal bounds: the stiffness itself is singular. */
 typedef struct {
   DM               da;
   QuadraticProgram q;
@@ -28,7 +29,8 @@ static void StrainRow(const PetscReal grad[3], PetscInt i, PetscReal strain[6])
 static void ElementStiffness(PetscReal h, PetscScalar Ke[24 * 24])
 {
   const PetscReal lambda = 0.3 / (1.3 * 0.4), mu = 1.0 / 2.6, gauss = 1.0 / PetscSqrtReal(3.0);
-  const PetscInt  node[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  const PetscInt  node[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+     {-1, 1, 1}};
 
   for (PetscInt k = 0; k < 24 * 24; k++) Ke[k] = 0.0;
   for (PetscInt q = 0; q < 8; q++) {
@@ -63,14 +65,16 @@ static PetscErrorCode AssembleStiffness(Block *b, PetscReal h)
   PetscCall(MatSetOption(b->q.H, MAT_SYMMETRIC, PETSC_TRUE));
   ElementStiffness(h, Ke);
   PetscCall(DMDAGetElements(b->da, &ne, &nen, &elements));
-  for (PetscInt e = 0; e < ne; e++) PetscCall(MatSetValuesBlockedLocal(b->q.H, nen, &elements[nen * e], nen, &elements[nen * e], Ke, ADD_VALUES));
+  for (PetscInt e = 0; e < ne; e++)
+    PetscCall(MatSetValuesBlockedLocal(b->q.H, nen, &elements[nen * e], nen, &elements[nen * e], Ke, ADD_VALUES));
   PetscCall(DMDARestoreElements(b->da, &ne, &nen, &elements));
   PetscCall(MatAssemblyBegin(b->q.H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(b->q.H, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-/* Equal bounds on the lower face (0) and for u_x on the upper face (0.1); |u| <= most elsewhere. A downward force on the upper face. */
+/* Equal bounds on the lower face (0) and for u_x on the upper face (0.1); |u| <= most elsewhere. A downward force on
+   the upper face. */
 static PetscErrorCode FillBounds(Block *b, PetscReal most)
 {
   DMDALocalInfo   info;
@@ -111,7 +115,8 @@ static PetscErrorCode CreateConstraints(Block *b)
   PetscCall(PetscMalloc1(info.xm * info.ym, &cols));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++)
     for (PetscInt i = info.xs; i < info.xs + info.xm; i++)
-      if (info.zs + info.zm == info.mz && 2 * i < info.mx && 2 * j < info.my) cols[count++] = i + info.mx * (j + info.my * (info.mz - 1));
+      if (info.zs + info.zm == info.mz && 2 * i < info.mx && 2 * j < info.my)
+        cols[count++] = i + info.mx * (j + info.my * (info.mz - 1));
   PetscCall(AOApplicationToPetsc(ao, count, cols));
   PetscCall(VecGetLocalSize(b->q.b, &n));
   PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &b->q.J));
@@ -129,7 +134,8 @@ static PetscErrorCode CreateBlock(PetscInt n, PetscReal most, PetscBool constrai
 {
   PetscFunctionBeginUser;
   *b = (Block){.da = NULL};
-  PetscCall(DMDACreate3d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX, n, n, n, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 3, 1, NULL, NULL, NULL, &b->da));
+  PetscCall(DMDACreate3d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX, n, n,
+    n, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 3, 1, NULL, NULL, NULL, &b->da));
   PetscCall(DMDASetElementType(b->da, DMDA_ELEMENT_Q1));
   PetscCall(DMSetFromOptions(b->da));
   PetscCall(DMSetUp(b->da));
@@ -249,7 +255,11 @@ static PetscErrorCode CheckFilter(Tao tao, Block *b)
   PetscCall(TaoIPFilterGetFilterUse(tao, &systems, &filtered));
   if (amgf) {
     PetscCall(PCAMGFGetFilterSize(pc, &n));
-    if (n != expected || (n > 0) != (filtered > 0) || filtered > systems) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "filter of %" PetscInt_FMT " unknowns in %" PetscInt_FMT " of %" PetscInt_FMT " systems, for %" PetscInt_FMT " constraints\n", n, filtered, systems, expected));
+    if (n != expected || (n > 0) != (filtered > 0) || filtered > systems)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+        "filter of %" PetscInt_FMT " unknowns in %" PetscInt_FMT " of %" PetscInt_FMT " systems, for %" PetscInt_FMT
+        " constraints\n",
+        n, filtered, systems, expected));
   }
   PetscFunctionReturn(0);
 }
@@ -270,7 +280,9 @@ static PetscErrorCode Test(PetscInt n, PetscReal most, PetscBool constrained, Pe
   PetscCall(TaoSetFromOptions(tao));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoGetConvergedReason(tao, &reason));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: %s\n", most < PETSC_INFINITY ? "all bounded" : "free but for the fixed ones", constrained ? "constraints" : "no constraints", TaoConvergedReasons[reason]));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "%s, %s: %s\n", most < PETSC_INFINITY ? "all bounded" : "free but for the fixed ones",
+      constrained ? "constraints" : "no constraints", TaoConvergedReasons[reason]));
   PetscCall(CheckFilter(tao, &b));
   if (compare) {
     PetscCall(VecDuplicate(x, &reference));

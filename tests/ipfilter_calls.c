@@ -1,11 +1,12 @@
-static char help[] = "TAO's own calls on a TAOIPFILTER: convergence tests, tolerances, multipliers, warm starts, rows with two bounds.\n\n";
+static char help[] = "TAO's own calls on a TAOIPFILTER: convergence tests, tolerances, multipliers, warm starts, rows "
+                     "with two bounds.\n\n";
 
 #include "ipfilter_problem.h"
 #include "attempt.h"
 #include <petsccompat.h>
 
-/* min sum (x_i - x_{i-1})^2 / 2 + x_i^2 / 2 - b_i x_i of n unknowns, subject to rows x_i + x_{i+1} within [l_i, u_i], to the sum of all
-   x_i = total, and to bounds */
+/* min sum (x_i - x_{i-1})^2 / 2 + x_i^2 / 2 - b_i x_i of n unknowns, subject to rows x_i + x_{i+1} within [l_i, u_i],
+   to the sum of all x_i = total, and to bounds */
 typedef struct {
   QuadraticProgram q; /* J: the rows; g: 0 */
   Mat              sum;
@@ -97,7 +98,8 @@ static PetscErrorCode DestroyChain(Chain *chain)
 }
 
 /* A solver with what of the constraints is asked for */
-static PetscErrorCode CreateChainSolver(Chain *chain, PetscBool rows, PetscBool total, PetscBool bounds, Vec x, Tao *tao)
+static PetscErrorCode CreateChainSolver(Chain *chain, PetscBool rows, PetscBool total, PetscBool bounds, Vec x,
+  Tao *tao)
 {
   PetscFunctionBeginUser;
   PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
@@ -136,7 +138,8 @@ static PetscErrorCode StopAt(Tao tao, void *user)
   PetscFunctionBeginUser;
   chain->ntests++;
   PetscCall(TaoGetSolutionStatus(tao, &its, &f, &residual, &cnorm, NULL, NULL));
-  PetscCheck(residual > 0.0 && cnorm == 0.0, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "At iteration %" PetscInt_FMT " the test sees objective %g and residual %g", its, (double)f, (double)residual);
+  PetscCheck(residual > 0.0 && cnorm == 0.0, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+    "At iteration %" PetscInt_FMT " the test sees objective %g and residual %g", its, (double)f, (double)residual);
   if (its == chain->stop_at) PetscCall(TaoSetConvergedReason(tao, TAO_CONVERGED_USER));
   PetscFunctionReturn(0);
 }
@@ -153,7 +156,7 @@ static PetscErrorCode StopAtOrConverge(Tao tao, void *user)
 static PetscErrorCode TestConvergenceTests(void)
 {
   PetscErrorCode (*const tests[3])(Tao, void *) = {StopAt, StopAtOrConverge, TaoDefaultConvergenceTest};
-  const char *const names[3]                    = {"a test that stops at iteration 3", "one that calls the default", "PETSc's"};
+  const char *const names[3] = {"a test that stops at iteration 3", "one that calls the default", "PETSc's"};
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k < 3; k++) {
@@ -174,7 +177,8 @@ static PetscErrorCode TestConvergenceTests(void)
     PetscCall(TaoSolve(tao));
     PetscCall(TaoGetSolutionStatus(tao, &its, NULL, NULL, NULL, NULL, &reason));
     PetscCall(TaoIPFilterGetKKTError(tao, &error, NULL));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s, %s\n", names[k], TaoConvergedReasons[reason], k == 2 || chain.ntests == its + 1 ? "asked at every iterate" : "not asked at every iterate"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s, %s\n", names[k], TaoConvergedReasons[reason],
+      k == 2 || chain.ntests == its + 1 ? "asked at every iterate" : "not asked at every iterate"));
     if (k == 0 && its != 3) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %" PetscInt_FMT " iterations\n", its));
     if (k) PetscCall(ProblemVerdict("  KKT error", error, k == 1 ? 1e-8 : 1e-6));
     PetscCall(VecDestroy(&x));
@@ -216,7 +220,8 @@ static PetscErrorCode TestBoundMultipliers(void)
   PetscCall(ProblemVerdict("bounds: wrong sign of a multiplier", PetscMax(-extreme, norm), 0.0));
   PetscCall(VecMax(DL, NULL, &extreme));
   PetscCall(VecMin(DU, NULL, &norm));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "bounds of both kinds press: %s\n", extreme > 0.1 && norm < -0.1 ? "yes" : "no"));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "bounds of both kinds press: %s\n", extreme > 0.1 && norm < -0.1 ? "yes" : "no"));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&g));
   PetscCall(VecDestroy(&DL));
@@ -254,7 +259,8 @@ static PetscErrorCode CopyMultipliers(Tao from, Tao to, PetscBool rows, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* A solved problem from its own solution, in a new solver: no or one iteration; then with the load changed a little, fewer than from cold */
+/* A solved problem from its own solution, in a new solver: no or one iteration; then with the load changed a little,
+   fewer than from cold */
 static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool bounds)
 {
   Chain              chain;
@@ -279,17 +285,25 @@ static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool b
   PetscCall(CopyMultipliers(first, again, rows, total, bounds));
   PetscCall(TaoSolve(again));
   PetscCall(TaoGetSolutionStatus(again, &its[1], &f[1], NULL, NULL, NULL, &reason));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? ", rows" : "", total ? ", equality" : "", bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? ", rows" : "", total ? ", equality" : "",
+    bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
   if (its[1] <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n", its[1], its[0]));
-  PetscCall(ProblemVerdict("  change of the objective, relative", PetscAbsReal(f[1] - f[0]) / PetscAbsReal(f[0]), 1e-7));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "  from the solution: %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n", its[1], its[0]));
+  PetscCall(
+    ProblemVerdict("  change of the objective, relative", PetscAbsReal(f[1] - f[0]) / PetscAbsReal(f[0]), 1e-7));
   PetscCall(VecScale(chain.q.b, 1.001));
   PetscCall(VecCopy(x, y));
   PetscCall(CopyMultipliers(first, again, rows, total, bounds));
   PetscCall(TaoSolve(again));
   PetscCall(TaoGetSolutionStatus(again, &its[2], NULL, NULL, NULL, NULL, &reason));
-  if (reason > 0 && its[2] <= its[0]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  another load: no more iterations than from zero\n"));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  another load: %s, %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n", TaoConvergedReasons[reason], its[2], its[0]));
+  if (reason > 0 && its[2] <= its[0])
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  another load: no more iterations than from zero\n"));
+  else
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "  another load: %s, %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n",
+        TaoConvergedReasons[reason], its[2], its[0]));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&y));
   PetscCall(TaoDestroy(&first));
@@ -322,7 +336,8 @@ static PetscErrorCode SphereJacobian(Tao tao, Vec x, Mat J, Mat pre, void *user)
   PetscCall(VecDuplicate(x, &twice));
   PetscCall(VecAXPBY(twice, 2.0, 0.0, x));
   PetscCall(MatGetOwnershipRange(J, &lo, &hi));
-  for (PetscInt j = 0; j < ((Chain *)user)->n && lo < hi; j++) PetscCall(MatSetValues(J, 1, &lo, 1, &j, &one, INSERT_VALUES));
+  for (PetscInt j = 0; j < ((Chain *)user)->n && lo < hi; j++)
+    PetscCall(MatSetValues(J, 1, &lo, 1, &j, &one, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatDiagonalScale(J, NULL, twice));
@@ -395,7 +410,8 @@ static PetscErrorCode TestConstraintTolerances(void)
     PetscCall(SphereConstraint(tao, x, c, &chain));
     PetscCall(VecNorm(c, NORM_INFINITY, &violation));
     PetscCall(FindInView(tao, names[k], &said));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "constraints, %s: violation %s, %s\n", names[k], violation <= 1e-7 ? "within 1e-7" : "above", said ? "and it is said" : "of which nothing is said"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "constraints, %s: violation %s, %s\n", names[k],
+      violation <= 1e-7 ? "within 1e-7" : "above", said ? "and it is said" : "of which nothing is said"));
     PetscCall(MatDestroy(&H));
     PetscCall(VecDestroy(&c));
     PetscCall(VecDestroy(&x));
@@ -408,8 +424,9 @@ static PetscErrorCode TestConstraintTolerances(void)
 /* Bounds of row r by its kind: two sides, an upper one, a lower one, equal ones, none; shift moves them */
 static PetscErrorCode FillSides(Chain *chain, PetscInt kinds, PetscReal shift)
 {
-  const PetscReal lower[5] = {0.9, PETSC_NINFINITY, 1.3, 0.7, PETSC_NINFINITY}, upper[5] = {1.0, 0.8, PETSC_INFINITY, 0.7, PETSC_INFINITY};
-  PetscInt        lo, hi;
+  const PetscReal lower[5] = {0.9, PETSC_NINFINITY, 1.3, 0.7, PETSC_NINFINITY},
+                  upper[5] = {1.0, 0.8, PETSC_INFINITY, 0.7, PETSC_INFINITY};
+  PetscInt lo, hi;
 
   PetscFunctionBeginUser;
   PetscCall(VecGetOwnershipRange(chain->row_lower, &lo, &hi));
@@ -424,7 +441,8 @@ static PetscErrorCode FillSides(Chain *chain, PetscInt kinds, PetscReal shift)
   PetscFunctionReturn(0);
 }
 
-/* Largest violation of the sides, and product of a row's multiplier with the distance from the side that it presses on */
+/* Largest violation of the sides, and product of a row's multiplier with the distance from the side that it presses
+   on */
 static PetscErrorCode MeasureSides(Chain *chain, Vec c, Vec DI, PetscReal measures[2])
 {
   const PetscScalar *v, *d, *l, *u;
@@ -479,8 +497,8 @@ static PetscErrorCode CheckSides(Tao tao, Chain *chain, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Rows with bounds of all kinds, or of the first ones; then again from the solution, with other bounds, and with bounds that are
-   all equal */
+/* Rows with bounds of all kinds, or of the first ones; then again from the solution, with other bounds, and with
+   bounds that are all equal */
 static PetscErrorCode TestSides(PetscInt kinds, const char name[])
 {
   Chain    chain;

@@ -1,12 +1,13 @@
-static char help[] = "Corners of TAOIPFILTER: nothing to solve, errors and NaN in callbacks, solving again, constraints that are redundant or void.\n\n";
+static char help[] = "Corners of TAOIPFILTER: nothing to solve, errors and NaN in callbacks, solving again, "
+                     "constraints that are redundant or void.\n\n";
 
 #include "ipfilter_problem.h"
 
 /* f = sum_i (k_i/2 x_i^2 - b_i x_i) + stiffness/2 sum_i (x_i - x_{i-1})^2 over n unknowns; constraints J x - g >= 0 */
 typedef struct {
   QuadraticProgram q;
-  PetscInt         calls, fail_at, nan_after; /* calls of the objective, the one that fails, and the last that gives a number */
-  PetscBool        nan_constraint;            /* the constraint is not a number where x_0 > 1 */
+  PetscInt calls, fail_at, nan_after; /* calls of the objective, the one that fails, and the last that gives a number */
+  PetscBool nan_constraint;           /* the constraint is not a number where x_0 > 1 */
 } Corner;
 
 static PetscErrorCode Objective(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
@@ -34,7 +35,8 @@ static PetscErrorCode Constraint(Tao tao, Vec x, Vec v, void *user)
 }
 
 /* k_i = k grow^i, b_i = (-1)^i b grow^i; m constraints x_i >= g, i = 0, 1, ... (row r: unknown r mod n) */
-static PetscErrorCode Create(PetscInt n, PetscInt m, PetscReal k, PetscReal b, PetscReal grow, PetscReal stiffness, PetscReal g, Corner *c)
+static PetscErrorCode Create(PetscInt n, PetscInt m, PetscReal k, PetscReal b, PetscReal grow, PetscReal stiffness,
+  PetscReal g, Corner *c)
 {
   PetscInt lo, hi, nlocal;
 
@@ -168,7 +170,8 @@ static PetscErrorCode CallbackError(void)
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   error = TaoSolve(tao);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "error in a callback: %s\n", error == PETSC_ERR_USER ? "the caller gets it" : "LOST"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "error in a callback: %s\n",
+    error == PETSC_ERR_USER ? "the caller gets it" : "LOST"));
   PetscCall(Destroy(&c, &x, &tao));
   PetscFunctionReturn(0);
 }
@@ -197,7 +200,8 @@ static PetscErrorCode Again(void)
   PetscFunctionReturn(0);
 }
 
-/* Unknowns whose stiffness spans 12 orders, pressed against constraints or drawn from them, to the end of double precision: z/s spans 30 */
+/* Unknowns whose stiffness spans 12 orders, pressed against constraints or drawn from them, to the end of double
+   precision: z/s spans 30 */
 static PetscErrorCode Span(void)
 {
   Corner    c;

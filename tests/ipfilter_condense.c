@@ -1,4 +1,5 @@
-static char help[] = "The condensed matrix and the Newton direction against their definitions, in all matrix formats.\n\n";
+static char help[] =
+  "The condensed matrix and the Newton direction against their definitions, in all matrix formats.\n\n";
 
 #include "ipfilter_problem.h"
 
@@ -59,7 +60,8 @@ static PetscErrorCode CreateConstraints(PetscInt m, Data *d)
   PetscCall(VecDuplicate(d->q.g, &d->mass));
   PetscCall(MatGetOwnershipRange(d->q.J, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++) {
-    for (PetscInt k = 0; k < 3; k++) PetscCall(MatSetValue(d->q.J, i, (2 * i + k * (N / 3)) % N, 0.5 + Noise(i, 1000 + k), INSERT_VALUES));
+    for (PetscInt k = 0; k < 3; k++)
+      PetscCall(MatSetValue(d->q.J, i, (2 * i + k * (N / 3)) % N, 0.5 + Noise(i, 1000 + k), INSERT_VALUES));
     PetscCall(VecSetValue(d->q.g, i, Noise(i, 2000), INSERT_VALUES));
     PetscCall(VecSetValue(d->mass, i, 0.5 + Noise(i, 3000), INSERT_VALUES));
   }
@@ -111,7 +113,8 @@ static PetscErrorCode RightHandSide(Data *d, PetscReal z0, Vec b)
 }
 
 /* Relative differences: A v against its definition, and A d against b for the step d, whose length alpha is free */
-static PetscErrorCode Compare(Tao tao, Data *d, PetscReal z0, PetscBool bounded, Vec x, PetscReal *matrix, PetscReal *direction)
+static PetscErrorCode Compare(Tao tao, Data *d, PetscReal z0, PetscBool bounded, Vec x, PetscReal *matrix,
+  PetscReal *direction)
 {
   KSP         ksp;
   Mat         A;
@@ -195,8 +198,12 @@ static PetscErrorCode Test(MatType type, PetscInt bs, PetscBool bounded)
     matrix    = PetscMax(matrix, m);
     direction = PetscMax(direction, s);
   }
-  if (matrix < 1e-13 && direction < 1e-9) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix and direction as defined\n", type, bs, bounded ? "bounds" : "no bounds"));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix off by %g, direction by %g\n", type, bs, bounded ? "bounds" : "no bounds", (double)matrix, (double)direction));
+  if (matrix < 1e-13 && direction < 1e-9)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix and direction as defined\n",
+      type, bs, bounded ? "bounds" : "no bounds"));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, block size %" PetscInt_FMT ", %s: matrix off by %g, direction by %g\n",
+      type, bs, bounded ? "bounds" : "no bounds", (double)matrix, (double)direction));
   PetscCall(TaoDestroy(&tao));
   PetscCall(ProblemDestroy(&d.q));
   PetscCall(VecDestroy(&d.mass));
@@ -225,7 +232,8 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3}}
-      args: -tao_ipfilter_start cold -tao_ipfilter_scaling none -tao_ipfilter_barrier monotone -tao_ipfilter_mu_reductions_first 0
-      args: -tao_ipfilter_forcing fixed -tao_ipfilter_ksp_rtol 1e-12 -tao_ipfilter_pc_type jacobi
+      args: -tao_ipfilter_start cold -tao_ipfilter_scaling none -tao_ipfilter_barrier monotone
+-tao_ipfilter_mu_reductions_first 0 args: -tao_ipfilter_forcing fixed -tao_ipfilter_ksp_rtol 1e-12 -tao_ipfilter_pc_type
+jacobi
 
 TEST*/

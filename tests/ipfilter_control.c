@@ -1,4 +1,6 @@
-static char help[] = "Distributed control: min 1/2 |y - y_d|^2 + alpha/2 |u|^2 subject to -Laplace y = u + f in the unit square, y = 0 around it, where asked y <= y_max.\n\
+static char help[] =
+  "Distributed control: min 1/2 |y - y_d|^2 + alpha/2 |u|^2 subject to -Laplace y = u + f in the unit square, y\n\
+= 0 around it, where asked y <= y_max.\n\
   -n N              grid points in each direction\n\
   -alpha A          cost of the control\n\
   -state_max Y      bound of the state; none by default\n\n";
@@ -51,7 +53,8 @@ static PetscErrorCode AssembleObjective(Control *c)
   PetscCall(VecGetOwnershipRange(c->q.b, &lo, &hi));
   m = hi - lo;
   PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, m, m, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &c->q.H));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(MatSetValue(c->q.H, i, i, PetscSqr(c->h) * ((i - lo) % 2 ? c->alpha : 1.0), INSERT_VALUES));
+  for (PetscInt i = lo; i < hi; i++)
+    PetscCall(MatSetValue(c->q.H, i, i, PetscSqr(c->h) * ((i - lo) % 2 ? c->alpha : 1.0), INSERT_VALUES));
   PetscCall(MatAssemblyBegin(c->q.H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(c->q.H, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
@@ -82,7 +85,8 @@ static PetscErrorCode AssembleEquation(Control *c)
       for (PetscInt d = 0; d < 4; d++) {
         const PetscInt ni = i + di[d], nj = j + dj[d];
 
-        if (ni >= 0 && nj >= 0 && ni < info.mx && nj < info.my) PetscCall(MatSetValue(c->q.J, row, 2 * global[here + di[d] + dj[d] * info.gxm], -1.0, INSERT_VALUES));
+        if (ni >= 0 && nj >= 0 && ni < info.mx && nj < info.my)
+          PetscCall(MatSetValue(c->q.J, row, 2 * global[here + di[d] + dj[d] * info.gxm], -1.0, INSERT_VALUES));
       }
     }
   }
@@ -103,7 +107,8 @@ static PetscErrorCode AssembleSource(Control *c, PetscBool mode)
   PetscCall(DMDAGetLocalInfo(c->states, &info));
   PetscCall(DMDAVecGetArray(c->states, c->q.g, &g));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++)
-    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) g[j][i] = PetscSqr(c->h) * source * (mode ? Mode((i + 1) * c->h, (j + 1) * c->h) : 1.0);
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++)
+      g[j][i] = PetscSqr(c->h) * source * (mode ? Mode((i + 1) * c->h, (j + 1) * c->h) : 1.0);
   PetscCall(DMDAVecRestoreArray(c->states, c->q.g, &g));
   PetscFunctionReturn(0);
 }
@@ -112,9 +117,11 @@ static PetscErrorCode CreateControl(PetscInt n, PetscReal alpha, Control *c)
 {
   PetscFunctionBeginUser;
   *c = (Control){.n = n, .h = 1.0 / (n + 1), .alpha = alpha};
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &c->states));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, &c->states));
   PetscCall(DMSetUp(c->states));
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE, PETSC_DECIDE, 2, 1, NULL, NULL, &c->unknowns));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE,
+    PETSC_DECIDE, 2, 1, NULL, NULL, &c->unknowns));
   PetscCall(DMSetUp(c->unknowns));
   PetscCall(AssembleObjective(c));
   PetscCall(AssembleEquation(c));
@@ -167,13 +174,15 @@ static PetscErrorCode SolveControl(Control *c, PetscReal state_max, Vec x, Tao *
   PetscFunctionReturn(0);
 }
 
-/* Without bounds and with sources of the lowest mode the solution is (Y, U) times it, of which y is the largest error in units of Y, u in those of U */
+/* Without bounds and with sources of the lowest mode the solution is (Y, U) times it, of which y is the largest error
+   in units of Y, u in those of U */
 static PetscErrorCode ModeErrors(Control *c, Vec x, PetscReal *y, PetscReal *u)
 {
-  const PetscReal lambda = Eigenvalue(c->h), Y = (1.0 + c->alpha * lambda * source) / (1.0 + c->alpha * PetscSqr(lambda)), U = lambda * Y - source;
-  DMDALocalInfo   info;
-  PetscScalar  ***a;
-  PetscReal       error[2] = {0.0, 0.0};
+  const PetscReal lambda = Eigenvalue(c->h),
+                  Y = (1.0 + c->alpha * lambda * source) / (1.0 + c->alpha * PetscSqr(lambda)), U = lambda * Y - source;
+  DMDALocalInfo  info;
+  PetscScalar ***a;
+  PetscReal      error[2] = {0.0, 0.0};
 
   PetscFunctionBeginUser;
   PetscCall(DMDAGetLocalInfo(c->unknowns, &info));
@@ -215,7 +224,8 @@ static PetscErrorCode TestMode(PetscInt n, PetscReal alpha)
   PetscFunctionReturn(0);
 }
 
-/* The same in the state alone, u = -Laplace y - f being put in: H = h^2 + alpha/h^2 A^T A, b = h^2 y_d + alpha/h^2 A^T g with A y = 4 y - ... = h^2 (u + f) */
+/* The same in the state alone, u = -Laplace y - f being put in: H = h^2 + alpha/h^2 A^T A, b = h^2 y_d + alpha/h^2
+   A^T g with A y = 4 y - ... = h^2 (u + f) */
 static PetscErrorCode ReduceToStates(Control *c, QuadraticProgram *reduced, PetscReal *constant)
 {
   IS          states, rows;
@@ -332,7 +342,9 @@ static PetscErrorCode Measure(PetscInt n, PetscReal alpha, PetscReal state_max)
   seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
   PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, NULL));
   PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " x %" PetscInt_FMT ": objective %.10e, %" PetscInt_FMT " steps, %.2f s of CPU; %s\n", n, n, (double)f, its, seconds, sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "%" PetscInt_FMT " x %" PetscInt_FMT ": objective %.10e, %" PetscInt_FMT " steps, %.2f s of CPU; %s\n", n, n,
+    (double)f, its, seconds, sentence));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(DestroyControl(&c));

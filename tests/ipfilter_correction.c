@@ -1,9 +1,10 @@
-static char help[] = "Second-order correction: Maratos's problem, where full Newton steps violate the constraint and raise the objective.\n\n";
+static char help[] = "Second-order correction: Maratos's problem, where full Newton steps violate the constraint and "
+                     "raise the objective.\n\n";
 
 #include "ipfilter_problem.h"
 
-/* min 2 (|x|^2 - 1) - x_0 subject to |x|^2 - 1 = 0, or >= 0: the minimum is (1, 0), from a point of the circle that is not near.
-   The unknowns lie on rank 0. */
+/* min 2 (|x|^2 - 1) - x_0 subject to |x|^2 - 1 = 0, or >= 0: the minimum is (1, 0), from a point of the circle that
+   is not near. The unknowns lie on rank 0. */
 typedef struct {
   PetscBool equality;
   PetscInt  evaluations;
@@ -96,13 +97,15 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
   PetscCall(TaoGetDualVariables(tao, &DE, &DI));
   PetscCall(VecSum(circle->equality ? DE : DI, &y));
   PetscCall(MatGetOwnershipRange(H, &lo, &hi));
-  for (PetscInt i = lo; i < hi; i++) PetscCall(MatSetValue(H, i, i, circle->equality ? 4.0 + 2.0 * y : 4.0 - 2.0 * y, INSERT_VALUES));
+  for (PetscInt i = lo; i < hi; i++)
+    PetscCall(MatSetValue(H, i, i, circle->equality ? 4.0 + 2.0 * y : 4.0 - 2.0 * y, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Solve(PetscBool equality, PetscReal angle, const char corrections[], PetscInt *newton, PetscInt *evaluations)
+static PetscErrorCode Solve(PetscBool equality, PetscReal angle, const char corrections[], PetscInt *newton,
+  PetscInt *evaluations)
 {
   Circle             circle = {equality, 0};
   PetscMPIInt        rank;
@@ -143,7 +146,9 @@ static PetscErrorCode Solve(PetscBool equality, PetscReal angle, const char corr
   PetscCall(TaoGetConvergedReason(tao, &reason));
   PetscCall(TaoGetIterationNumber(tao, newton));
   PetscCall(GetPoint(x, p));
-  if (reason < 0 || PetscAbsReal(p[0] - 1.0) > 1e-6 || PetscAbsReal(p[1]) > 1e-4) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s at (%g, %g)\n", TaoConvergedReasons[reason], (double)p[0], (double)p[1]));
+  if (reason < 0 || PetscAbsReal(p[0] - 1.0) > 1e-6 || PetscAbsReal(p[1]) > 1e-4)
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "%s at (%g, %g)\n", TaoConvergedReasons[reason], (double)p[0], (double)p[1]));
   *evaluations = circle.evaluations;
   PetscCall(TaoDestroy(&tao));
   PetscCall(MatDestroy(&H));
@@ -167,8 +172,14 @@ int main(int argc, char **argv)
 
     PetscCall(Solve(equality, angle, "0", &newton[0], &evaluations[0]));
     PetscCall(Solve(equality, angle, "4", &newton[1], &evaluations[1]));
-    if (newton[1] < newton[0] && evaluations[1] <= evaluations[0] + newton[1]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: with correction fewer steps\n", equality ? "equality" : "inequality"));
-    else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " steps, %" PetscInt_FMT " evaluations without correction, %" PetscInt_FMT " and %" PetscInt_FMT " with it\n", equality ? "equality" : "inequality", newton[0], evaluations[0], newton[1], evaluations[1]));
+    if (newton[1] < newton[0] && evaluations[1] <= evaluations[0] + newton[1])
+      PetscCall(
+        PetscPrintf(PETSC_COMM_WORLD, "%s: with correction fewer steps\n", equality ? "equality" : "inequality"));
+    else
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+        "%s: %" PetscInt_FMT " steps, %" PetscInt_FMT " evaluations without correction, %" PetscInt_FMT
+        " and %" PetscInt_FMT " with it\n",
+        equality ? "equality" : "inequality", newton[0], evaluations[0], newton[1], evaluations[1]));
   }
   PetscCall(PetscFinalize());
   return 0;
@@ -180,6 +191,7 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 2}}
       args: -tao_ipfilter_pc_type jacobi
-      args: -tao_ipfilter_start cold -tao_ipfilter_slack_init 1e-4 -tao_ipfilter_dual_init 1.5 -tao_ipfilter_mu_init 1.5e-4
+      args: -tao_ipfilter_start cold -tao_ipfilter_slack_init 1e-4 -tao_ipfilter_dual_init 1.5
+-tao_ipfilter_mu_init 1.5e-4
 
 TEST*/

@@ -1,11 +1,12 @@
-static char help[] = "A double-well energy with a finite domain, above an obstacle: infinite trial values, indefinite Hessians.\n\n";
+static char help[] =
+  "A double-well energy with a finite domain, above an obstacle: infinite trial values, indefinite Hessians.\n\n";
 
 #include <petscdmda.h>
 #include "ipfilter_problem.h"
 
-/* f = sum h^2 [(1 + u) log(1 + u) + (1 - u) log(1 - u) - theta/2 u^2] + eps^2/2 sum (u_i - u_j)^2 over grid edges (Cahn and Hilliard's
-   energy with logarithmic terms), infinite where some |u| >= 1, concave about u = 0 for theta > 2. An obstacle holds u above 0.98, beyond
-   the well, near the left edge. */
+/* f = sum h^2 [(1 + u) log(1 + u) + (1 - u) log(1 - u) - theta/2 u^2] + eps^2/2 sum (u_i - u_j)^2 over grid edges
+   (Cahn and Hilliard's energy with logarithmic terms), infinite where some |u| >= 1, concave about u = 0 for theta >
+   2. An obstacle holds u above 0.98, beyond the well, near the left edge. */
 typedef struct {
   DM        da;
   PetscReal theta, eps, h2;
@@ -61,7 +62,10 @@ static PetscErrorCode Evaluate(Energy *e, Vec u, PetscReal *f, Vec g)
         edges += g ? d : 0.5 * d * d;
       }
       if (g) ga[j][i] = e->h2 * (PetscLogReal((1.0 + v) / (1.0 - v)) - e->theta * v) + PetscSqr(e->eps) * edges;
-      else sum += e->h2 * ((1.0 + v) * PetscLogReal(1.0 + v) + (1.0 - v) * PetscLogReal(1.0 - v) - 0.5 * e->theta * v * v) + PetscSqr(e->eps) * edges;
+      else
+        sum +=
+          e->h2 * ((1.0 + v) * PetscLogReal(1.0 + v) + (1.0 - v) * PetscLogReal(1.0 - v) - 0.5 * e->theta * v * v) +
+          PetscSqr(e->eps) * edges;
     }
   }
   if (g) PetscCall(DMDAVecRestoreArray(e->da, g, &ga));
@@ -181,7 +185,8 @@ static PetscErrorCode FillStart(Energy *e, Vec u)
   PetscCall(DMDAGetLocalInfo(e->da, &info));
   PetscCall(DMDAVecGetArray(e->da, u, &a));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++)
-    for (PetscInt i = info.xs; i < info.xs + info.xm; i++) a[j][i] = 0.05 * PetscSinReal(12.0 * i / info.mx) * PetscCosReal(9.0 * j / info.my);
+    for (PetscInt i = info.xs; i < info.xs + info.xm; i++)
+      a[j][i] = 0.05 * PetscSinReal(12.0 * i / info.mx) * PetscCosReal(9.0 * j / info.my);
   PetscCall(DMDAVecRestoreArray(e->da, u, &a));
   PetscFunctionReturn(0);
 }
@@ -253,7 +258,8 @@ static PetscErrorCode Report(Tao tao, Energy *e, Vec u)
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", TaoConvergedReasons[reason]));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "trial points of infinite energy: %s\n", e->infinite ? "yes" : "none"));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "constraints or derivatives there: %s\n", e->outside ? "YES" : "none"));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "shifted Hessians: %s\n", steps > 0 && retries >= steps && largest > 0.0 ? "yes" : "NONE"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "shifted Hessians: %s\n",
+    steps > 0 && retries >= steps && largest > 0.0 ? "yes" : "NONE"));
   PetscCall(PositiveDefinite(tao, &positive));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "last matrix positive definite: %s\n", positive ? "yes" : "NO"));
   PetscCall(CheckOptimality(tao, e, u));
@@ -272,7 +278,8 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &n, NULL));
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &e.da));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, &e.da));
   PetscCall(DMSetUp(e.da));
   e.h2 = 1.0 / (n * n);
   PetscCall(DMCreateGlobalVector(e.da, &u));

@@ -1,4 +1,5 @@
-static char help[] = "The derivatives of the formulas that the tests of TAOIPFILTER are stated in, against central differences.\n\n";
+static char help[] =
+  "The derivatives of the formulas that the tests of TAOIPFILTER are stated in, against central differences.\n\n";
 
 #include "ipfilter_expression.h"
 
@@ -21,7 +22,8 @@ static const char *const formulas[] = {
   "7",
 };
 
-static PetscReal FirstDifference(const char *formula, const PetscReal x[], PetscInt i, PetscReal step, PetscInt j, PetscReal *second)
+static PetscReal FirstDifference(const char *formula, const PetscReal x[], PetscInt i, PetscReal step, PetscInt j,
+  PetscReal *second)
 {
   PetscReal y[N];
   Jet       up, down;
@@ -62,11 +64,13 @@ int main(int argc, char **argv)
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(formulas); k++) {
     const PetscReal error = DerivativeError(formulas[k], x);
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s", formulas[k], error < 1e-7 ? "derivatives as by differences\n" : "DERIVATIVES ARE OFF"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s", formulas[k],
+      error < 1e-7 ? "derivatives as by differences\n" : "DERIVATIVES ARE OFF"));
     if (!(error < 1e-7)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " by %g\n", (double)error));
   }
   ExpressionEvaluate("1+sinh(x1)", x, NULL, &unknown);
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a function that is not known %s\n", PetscIsNanReal(unknown.v) ? "makes no number" : "MAKES A NUMBER"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a function that is not known %s\n",
+    PetscIsNanReal(unknown.v) ? "makes no number" : "MAKES A NUMBER"));
   PetscCall(PetscFinalize());
   return 0;
 }

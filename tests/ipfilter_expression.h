@@ -77,7 +77,8 @@ static inline void JetMultiply(Jet *a, Jet *b)
   JetWiden(a, b->n);
   JetWiden(b, a->n);
   for (PetscInt i = 0; i < a->n; i++) {
-    for (PetscInt j = 0; j < a->n; j++) a->h[i][j] = a->h[i][j] * b->v + a->g[i] * b->g[j] + b->g[i] * a->g[j] + a->v * b->h[i][j];
+    for (PetscInt j = 0; j < a->n; j++)
+      a->h[i][j] = a->h[i][j] * b->v + a->g[i] * b->g[j] + b->g[i] * a->g[j] + a->v * b->h[i][j];
   }
   for (PetscInt i = 0; i < a->n; i++) a->g[i] = a->g[i] * b->v + a->v * b->g[i];
   a->v *= b->v;
@@ -88,7 +89,8 @@ static inline void JetPower(Jet *a, PetscReal p)
 {
   const PetscReal v = a->v;
 
-  JetChain(a, PetscPowReal(v, p), p == 0.0 ? 0.0 : p * PetscPowReal(v, p - 1.0), p * (p - 1.0) == 0.0 ? 0.0 : p * (p - 1.0) * PetscPowReal(v, p - 2.0));
+  JetChain(a, PetscPowReal(v, p), p == 0.0 ? 0.0 : p * PetscPowReal(v, p - 1.0),
+    p * (p - 1.0) == 0.0 ? 0.0 : p * (p - 1.0) * PetscPowReal(v, p - 2.0));
 }
 
 /* a = e^a, log a */
@@ -146,8 +148,12 @@ static inline void ExpressionFunction(ExpressionReader *r, Jet *a)
   else if (IS("cos")) JetChain(a, PetscCosReal(v), -PetscSinReal(v), -PetscCosReal(v));
   else if (IS("cosh")) JetChain(a, PetscCoshReal(v), PetscSinhReal(v), PetscCoshReal(v));
   else if (IS("atan")) JetChain(a, PetscAtanReal(v), 1.0 / (1.0 + v * v), -2.0 * v / PetscSqr(1.0 + v * v));
-  else if (IS("tanh")) JetChain(a, PetscTanhReal(v), 1.0 - PetscSqr(PetscTanhReal(v)), -2.0 * PetscTanhReal(v) * (1.0 - PetscSqr(PetscTanhReal(v))));
-  else if (IS("erf")) JetChain(a, erf(v), 2.0 / PetscSqrtReal(PETSC_PI) * PetscExpReal(-v * v), -4.0 * v / PetscSqrtReal(PETSC_PI) * PetscExpReal(-v * v));
+  else if (IS("tanh"))
+    JetChain(a, PetscTanhReal(v), 1.0 - PetscSqr(PetscTanhReal(v)),
+      -2.0 * PetscTanhReal(v) * (1.0 - PetscSqr(PetscTanhReal(v))));
+  else if (IS("erf"))
+    JetChain(a, erf(v), 2.0 / PetscSqrtReal(PETSC_PI) * PetscExpReal(-v * v),
+      -4.0 * v / PetscSqrtReal(PETSC_PI) * PetscExpReal(-v * v));
   else JetConstant(NAN, a);
 #undef IS
 }

@@ -1,10 +1,11 @@
-static char help[] = "Linear solvers that fail: each is seen, another takes its place in order, or the solve ends and says so.\n\n";
+static char help[] =
+  "Linear solvers that fail: each is seen, another takes its place in order, or the solve ends and says so.\n\n";
 
 #include "ipfilter_problem.h"
 #include "ipfilter_separable.h"
 
-/* A string of n masses on springs that stiffen, f = 1/2 x^T K x + 1/4 sum_i c_i x_i^4 + sum_i x_i. Each of the second n/20 masses and one of
-   the first hold an obstacle between them: (x_i + x_j)/2 >= -depth. */
+/* A string of n masses on springs that stiffen, f = 1/2 x^T K x + 1/4 sum_i c_i x_i^4 + sum_i x_i. Each of the second
+   n/20 masses and one of the first hold an obstacle between them: (x_i + x_j)/2 >= -depth. */
 typedef struct {
   PetscReal string; /* stiffness of the string, */
   PetscReal rest;   /* of the springs at rest, negative where they buckle, */
@@ -14,7 +15,8 @@ typedef struct {
 
 static const PetscReal depth = 0.3;
 
-/* A spring's fourth-order term and the load. The former differ by orders of magnitude: the stiffness at rest says nothing about later */
+/* A spring's fourth-order term and the load. The former differ by orders of magnitude: the stiffness at rest says
+   nothing about later */
 static void Spring(const void *ctx, PetscInt i, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 {
   const PetscReal c = PetscPowReal(10.0, (PetscReal)(i % 7) - 3.0);
@@ -78,7 +80,8 @@ static PetscErrorCode CreateString(PetscInt n, String *s, Vec *x)
   for (PetscInt i = lo; i < hi; i++) {
     PetscCall(MatSetValue(s->K, i, i, s->rest, ADD_VALUES));
     if (i > 0) PetscCall(AddSpring(s->K, i - 1, i, s->string));
-    if (s->rods > 0.0 && i >= m && i < 2 * m) PetscCall(AddSpring(s->K, i, i + m, s->rods * PetscPowReal(10.0, (PetscReal)(i % 5))));
+    if (s->rods > 0.0 && i >= m && i < 2 * m)
+      PetscCall(AddSpring(s->K, i, i + m, s->rods * PetscPowReal(10.0, (PetscReal)(i % 5))));
   }
   PetscCall(MatAssemblyBegin(s->K, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(s->K, MAT_FINAL_ASSEMBLY));
@@ -117,15 +120,23 @@ static PetscErrorCode Report(Tao tao, const char name[], PetscReal *optimum)
   PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
   for (PetscInt k = 0; k < n; k++) sum += its[k];
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n  refined %s, AMG rebuilt %s, filter tightened %s, by MUMPS %s, failed %s, Hessian shifted %s\n", name, TaoConvergedReasons[reason], Said((PetscBool)(count.refinements > 0)), Said((PetscBool)(count.amg_rebuilds > 0)),
-                        Said((PetscBool)(count.filters > 0)), Said((PetscBool)(count.direct > 0)), Said((PetscBool)(count.failures > 0)), Said((PetscBool)(shifted > 0))));
-  if (reason < 0) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  after %s iterations: %.20s...; %.31s\n", sum <= 20 ? "few" : "MANY", sentence, strstr(sentence, "; ") ? strstr(sentence, "; ") + 2 : "no more is said"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "%s: %s\n  refined %s, AMG rebuilt %s, filter tightened %s, by MUMPS %s, failed %s, Hessian shifted %s\n", name,
+    TaoConvergedReasons[reason], Said((PetscBool)(count.refinements > 0)), Said((PetscBool)(count.amg_rebuilds > 0)),
+    Said((PetscBool)(count.filters > 0)), Said((PetscBool)(count.direct > 0)), Said((PetscBool)(count.failures > 0)),
+    Said((PetscBool)(shifted > 0))));
+  if (reason < 0)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  after %s iterations: %.20s...; %.31s\n", sum <= 20 ? "few" : "MANY",
+      sentence, strstr(sentence, "; ") ? strstr(sentence, "; ") + 2 : "no more is said"));
   else if (*optimum == PETSC_INFINITY) *optimum = f;
-  else PetscCall(ProblemVerdict("  objective against that of the first", PetscAbsReal(f - *optimum) / PetscAbsReal(*optimum), 1e-7));
+  else
+    PetscCall(ProblemVerdict("  objective against that of the first",
+      PetscAbsReal(f - *optimum) / PetscAbsReal(*optimum), 1e-7));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Test(const char name[], const char text[], PetscReal string, PetscReal rest, PetscReal rods, PetscReal *optimum)
+static PetscErrorCode Test(const char name[], const char text[], PetscReal string, PetscReal rest, PetscReal rods,
+  PetscReal *optimum)
 {
   String       s = {string, rest, rods, NULL, NULL};
   Vec          x, c;
@@ -136,7 +147,8 @@ static PetscErrorCode Test(const char name[], const char text[], PetscReal strin
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsCreate(&options));
-  PetscCall(PetscOptionsInsertString(options, "-tao_ipfilter_subspace false -tao_ipfilter_amgf_amg_pc_type jacobi -tao_max_it 100"));
+  PetscCall(PetscOptionsInsertString(options,
+    "-tao_ipfilter_subspace false -tao_ipfilter_amgf_amg_pc_type jacobi -tao_max_it 100"));
   PetscCall(PetscOptionsInsertString(options, text));
   PetscCall(PetscOptionsPush(options));
   PetscCall(CreateString(240, &s, &x));
@@ -172,15 +184,25 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(Test("no difficulty", "", 0.001, 1.0, 0.0, &optimum));
   PetscCall(Test("preconditioned norm", "-tao_ipfilter_ksp_norm_type preconditioned", 0.001, 1.0, 0.0, &optimum));
-  PetscCall(Test("AMG of the first matrix", "-tao_ipfilter_pc_amgf_amg_lag -1 -tao_ipfilter_ksp_max_it 4 -tao_ipfilter_direct_memory 0", 0.001, 1.0, 0.0, &optimum));
-  PetscCall(Test("no filter", "-tao_ipfilter_filter_switch 1e30 -tao_ipfilter_ksp_max_it 5 -tao_ipfilter_direct_memory 0", 0.001, 1.0, 0.0, &optimum));
+  PetscCall(Test("AMG of the first matrix",
+    "-tao_ipfilter_pc_amgf_amg_lag -1 -tao_ipfilter_ksp_max_it 4 -tao_ipfilter_direct_memory 0", 0.001, 1.0, 0.0,
+    &optimum));
+  PetscCall(
+    Test("no filter", "-tao_ipfilter_filter_switch 1e30 -tao_ipfilter_ksp_max_it 5 -tao_ipfilter_direct_memory 0",
+      0.001, 1.0, 0.0, &optimum));
   PetscCall(Test("no PC", "-tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type none", 0.001, 1.0, 0.0, &optimum));
   PetscCall(Test("taut string", "", 1.0, 0.001, 0.0, &taut));
   PetscCall(Test("taut string, one iteration of CG", "-tao_ipfilter_ksp_max_it 1", 1.0, 0.001, 0.0, &taut));
-  PetscCall(Test("taut string, one iteration of CG, no memory", "-tao_ipfilter_pc_type jacobi -tao_ipfilter_ksp_max_it 1 -tao_ipfilter_direct_memory 0", 1.0, 0.001, 0.0, &taut));
-  PetscCall(Test("buckling springs, one iteration of CG", "-tao_ipfilter_pc_type jacobi -tao_ipfilter_ksp_max_it 1", 0.1, -0.2, 0.0, NULL));
-  PetscCall(Test("stiff rods", "-tao_ipfilter_pc_type cholesky -tao_ipfilter_pc_factor_mat_solver_type mumps", 0.001, 1.0, 10.0, &stiff));
-  PetscCall(Test("stiff rods, their ends to be filtered", "-tao_ipfilter_forcing_reduce 0.5 -tao_ipfilter_filter_switch 0 -tao_ipfilter_ksp_max_it 12 -tao_ipfilter_direct_memory 0", 0.001, 1.0, 10.0, &stiff));
+  PetscCall(Test("taut string, one iteration of CG, no memory",
+    "-tao_ipfilter_pc_type jacobi -tao_ipfilter_ksp_max_it 1 -tao_ipfilter_direct_memory 0", 1.0, 0.001, 0.0, &taut));
+  PetscCall(Test("buckling springs, one iteration of CG", "-tao_ipfilter_pc_type jacobi -tao_ipfilter_ksp_max_it 1",
+    0.1, -0.2, 0.0, NULL));
+  PetscCall(Test("stiff rods", "-tao_ipfilter_pc_type cholesky -tao_ipfilter_pc_factor_mat_solver_type mumps", 0.001,
+    1.0, 10.0, &stiff));
+  PetscCall(Test("stiff rods, their ends to be filtered",
+    "-tao_ipfilter_forcing_reduce 0.5 -tao_ipfilter_filter_switch 0 -tao_ipfilter_ksp_max_it 12 "
+    "-tao_ipfilter_direct_memory 0",
+    0.001, 1.0, 10.0, &stiff));
   PetscCall(PetscFinalize());
   return 0;
 }

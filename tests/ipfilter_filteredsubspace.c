@@ -1,5 +1,8 @@
-static char help[] = "The filtered subspace method: the interior point method's solution for a fraction of its linear iterations, on the same solver and on another\n\
-one again, with dependent rows, by Newton's method where the objective is not quadratic; the interior point method where it cannot be.\n\n";
+static char help[] =
+  "The filtered subspace method: the interior point method's solution for a fraction of its linear iterations,\n\
+on the same solver and on another\n\
+one again, with dependent rows, by Newton's method where the objective is not quadratic; the interior point\n\
+method where it cannot be.\n\n";
 
 #include "ipfilter_problem.h"
 
@@ -20,7 +23,8 @@ static PetscErrorCode AssembleMembrane(PetscInt n, Membrane *m)
   PetscCall(MatCreateVecs(m->q.H, &m->q.b, NULL));
   PetscCall(MatGetOwnershipRange(m->q.H, &start, &end));
   for (PetscInt r = start; r < end; r++) {
-    const PetscInt i = r % n, j = r / n, near[4] = {i > 0 ? r - 1 : -1, i < n - 1 ? r + 1 : -1, j > 0 ? r - n : -1, j < n - 1 ? r + n : -1};
+    const PetscInt i = r % n, j = r / n,
+                   near[4] = {i > 0 ? r - 1 : -1, i < n - 1 ? r + 1 : -1, j > 0 ? r - n : -1, j < n - 1 ? r + n : -1};
 
     PetscCall(MatSetValue(m->q.H, r, r, 4.0 + m->stiffness, INSERT_VALUES));
     for (PetscInt k = 0; k < 4; k++) PetscCall(MatSetValue(m->q.H, r, near[k], -1.0, INSERT_VALUES));
@@ -31,7 +35,8 @@ static PetscErrorCode AssembleMembrane(PetscInt n, Membrane *m)
   PetscFunctionReturn(0);
 }
 
-/* Every point of the cap and its right neighbour stay above it in the mean; the ranks that own the edge alone have no rows */
+/* Every point of the cap and its right neighbour stay above it in the mean; the ranks that own the edge alone have no
+   rows */
 static PetscErrorCode AssembleCap(PetscInt n, PetscReal lift, Membrane *m)
 {
   PetscInt start, end, first, nlocal, count = 0;
@@ -43,7 +48,8 @@ static PetscErrorCode AssembleCap(PetscInt n, PetscReal lift, Membrane *m)
   PetscCall(VecGetLocalSize(m->q.b, &nlocal));
   for (PetscInt pass = 0; pass < 2; pass++) {
     if (pass) {
-      PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 2, NULL, 2, NULL, &m->q.J));
+      PetscCall(
+        MatCreateAIJ(PETSC_COMM_WORLD, count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 2, NULL, 2, NULL, &m->q.J));
       PetscCall(MatCreateVecs(m->q.J, NULL, &m->q.g));
       PetscCall(MatGetOwnershipRange(m->q.J, &first, NULL));
     }
@@ -183,7 +189,8 @@ static PetscErrorCode Compare(const char what[], Membrane *m, Tao tao, PetscInt 
   PetscCall(Solve(other, &g, interior, &left));
   PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, &reason));
   PetscCall(TaoGetConvergedReason(other, &expected));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", what, reason == expected ? "the same end" : TaoConvergedReasons[reason]));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", what, reason == expected ? "the same end" : TaoConvergedReasons[reason]));
   PetscCall(CompareSolutions(m, tao, other, PetscAbsReal(f - g) / PetscAbsReal(g)));
   PetscCall(TaoDestroy(&other));
   PetscCall(VecDestroy(&y));
@@ -216,7 +223,8 @@ static PetscErrorCode TestKept(PetscInt n)
   PetscCall(Solve(tao, &f, &its[0], &left));
   lost += left;
   PetscCall(Compare("first cap", &m, tao, &interior));
-  PetscCall(Expect("at most half of the interior point method's linear iterations", (PetscBool)(2 * its[0] <= interior), its[0], interior));
+  PetscCall(Expect("at most half of the interior point method's linear iterations", (PetscBool)(2 * its[0] <= interior),
+    its[0], interior));
   PetscCall(VecShift(m.q.g, -0.002));
   PetscCall(Solve(tao, &f, &its[1], &left));
   lost += left;
@@ -255,8 +263,12 @@ static PetscErrorCode TestOne(const char what[], PetscInt n, Membrane *m, PetscI
   PetscCall(CreateTao(m, x, "true", &tao));
   PetscCall(Solve(tao, &f, &its, &left));
   PetscCall(Compare(what, m, tao, &interior));
-  if (leaves >= 0) PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
-  if (m->quartic > 0.0 && m->stiffness == 0.0) PetscCall(Expect("at most half of the interior point method's linear iterations", (PetscBool)(2 * its <= interior), its, interior));
+  if (leaves >= 0)
+    PetscCall(
+      Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
+  if (m->quartic > 0.0 && m->stiffness == 0.0)
+    PetscCall(Expect("at most half of the interior point method's linear iterations", (PetscBool)(2 * its <= interior),
+      its, interior));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(ProblemDestroy(&m->q));
@@ -282,7 +294,8 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
   PetscCall(Solve(tao, &f, &its, &left));
   PetscCall(TaoGetConvergedReason(tao, &reason));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s 4: %s\n", option, TaoConvergedReasons[reason]));
-  PetscCall(Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
+  PetscCall(
+    Expect(leaves ? "left for the interior point method" : "never left", (PetscBool)(left == leaves), left, leaves));
   PetscCall(PetscOptionsClearValue(NULL, option));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
@@ -293,7 +306,8 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
 int main(int argc, char **argv)
 {
   const PetscInt n         = 24;
-  Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 0.5}, indefinite = {.copies = 1, .stiffness = -0.05}, wells = {.copies = 1, .quartic = 0.5, .stiffness = -0.05};
+  Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 0.5},
+           indefinite = {.copies = 1, .stiffness = -0.05}, wells = {.copies = 1, .quartic = 0.5, .stiffness = -0.05};
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));

@@ -40,7 +40,8 @@ static inline void FormulasSplit(const char *list, PetscInt n, Constraints *c)
 static inline void FormulasRead(const NLP *p, Formulas *formulas)
 {
   *formulas = (Formulas){.p = p};
-  for (const char *s = p->start; *s; s++) formulas->n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
+  for (const char *s = p->start; *s; s++)
+    formulas->n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
   FormulasSplit(p->inequalities, formulas->n, &formulas->ci);
   FormulasSplit(p->equalities, formulas->n, &formulas->ce);
 }
@@ -161,7 +162,8 @@ static inline PetscErrorCode FormulasJacobian(Tao tao, Vec x, Mat J, Mat Jpre, v
 }
 
 /* Adds the Hessians of the constraints times their multipliers */
-static inline PetscErrorCode FormulasAddConstraints(const Constraints *c, const PetscReal x[], PetscReal sign, Vec multipliers, Jet *sum)
+static inline PetscErrorCode FormulasAddConstraints(const Constraints *c, const PetscReal x[], PetscReal sign,
+  Vec multipliers, Jet *sum)
 {
   PetscReal y[FORMULAS_MAX];
 
@@ -219,7 +221,8 @@ static inline PetscErrorCode FormulasMatrix(Vec r, Vec c, const char option[], M
 }
 
 /* Violation of a constraint; relative: as the distance that it takes to mend it, where the row's entries are above 1 */
-static inline PetscReal FormulasRowViolation(const char *formula, const PetscReal x[], PetscBool equality, PetscBool relative)
+static inline PetscReal FormulasRowViolation(const char *formula, const PetscReal x[], PetscBool equality,
+  PetscBool relative)
 {
   Jet       jet;
   PetscReal size = 1.0;
@@ -298,7 +301,8 @@ static inline PetscErrorCode FormulasDestroy(FormulasProblem *problem)
   PetscFunctionReturn(0);
 }
 
-/* Largest violation of constraints and bounds, evaluated here; relative: to the rows of the Jacobian, and to the bounds, where those are above 1 */
+/* Largest violation of constraints and bounds, evaluated here; relative: to the rows of the Jacobian, and to the
+   bounds, where those are above 1 */
 static inline PetscErrorCode FormulasViolation(const FormulasProblem *problem, PetscBool relative, PetscReal *violation)
 {
   const Formulas *ctx = &problem->formulas;
@@ -314,8 +318,10 @@ static inline PetscErrorCode FormulasViolation(const FormulasProblem *problem, P
 
     *violation = PetscMax(*violation, PetscMax(l[i] - a[i], a[i] - u[i]) / size);
   }
-  for (PetscInt i = 0; i < ctx->ce.m; i++) *violation = PetscMax(*violation, FormulasRowViolation(ctx->ce.formula[i], a, PETSC_TRUE, relative));
-  for (PetscInt i = 0; i < ctx->ci.m; i++) *violation = PetscMax(*violation, FormulasRowViolation(ctx->ci.formula[i], a, PETSC_FALSE, relative));
+  for (PetscInt i = 0; i < ctx->ce.m; i++)
+    *violation = PetscMax(*violation, FormulasRowViolation(ctx->ce.formula[i], a, PETSC_TRUE, relative));
+  for (PetscInt i = 0; i < ctx->ci.m; i++)
+    *violation = PetscMax(*violation, FormulasRowViolation(ctx->ci.formula[i], a, PETSC_FALSE, relative));
   PetscFunctionReturn(0);
 }
 

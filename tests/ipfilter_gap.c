@@ -1,9 +1,11 @@
-static char help[] = "A membrane over the ground, by bounds: the error of its energy does not grow with their number.\n\n";
+static char help[] =
+  "A membrane over the ground, by bounds: the error of its energy does not grow with their number.\n\n";
 
 #include "ipfilter_problem.h"
 
-/* min 1/2 u^T K u - b^T u, u >= 0 on n x n points of the unit square, with K the five point difference and b the load sin(3 pi x) h^2, which
-   presses the middle third down: the energy is of one size whatever the number of points, that of one bound is not */
+/* min 1/2 u^T K u - b^T u, u >= 0 on n x n points of the unit square, with K the five point difference and b the load
+   sin(3 pi x) h^2, which presses the middle third down: the energy is of one size whatever the number of points, that
+   of one bound is not */
 typedef struct {
   Mat K;
   Vec b;
@@ -34,8 +36,10 @@ static PetscErrorCode CreateMembrane(PetscInt n, Membrane *membrane)
   PetscCall(MatCreateVecs(membrane->K, &membrane->b, NULL));
   PetscCall(MatGetOwnershipRange(membrane->K, &lo, &hi));
   for (PetscInt k = lo; k < hi; k++) {
-    const PetscInt i = k % n, j = k / n, column[5] = {k, i ? k - 1 : -1, i + 1 < n ? k + 1 : -1, j ? k - n : -1, j + 1 < n ? k + n : -1}; /* negative ones are ignored */
-    PetscScalar    entry[5] = {4.0, -1.0, -1.0, -1.0, -1.0};
+    const PetscInt i = k % n, j = k / n,
+                   column[5] = {k, i ? k - 1 : -1, i + 1 < n ? k + 1 : -1, j ? k - n : -1,
+                     j + 1 < n ? k + n : -1}; /* negative ones are ignored */
+    PetscScalar entry[5]     = {4.0, -1.0, -1.0, -1.0, -1.0};
 
     PetscCall(MatSetValues(membrane->K, 1, &k, 5, column, entry, INSERT_VALUES));
     PetscCall(VecSetValue(membrane->b, k, h * h * PetscSinReal(3.0 * PETSC_PI * (i + 1) * h), INSERT_VALUES));
@@ -71,7 +75,8 @@ static PetscErrorCode SolveMembrane(Membrane *membrane, PetscReal tol, PetscReal
   if (tol > 0.0) PetscCall(TaoSetTolerances(tao, tol, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoGetSolutionStatus(tao, NULL, f, NULL, NULL, NULL, &reason));
-  if (reason != TAO_CONVERGED_GATOL) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  tolerance %g: %s\n", (double)tol, TaoConvergedReasons[reason]));
+  if (reason != TAO_CONVERGED_GATOL)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  tolerance %g: %s\n", (double)tol, TaoConvergedReasons[reason]));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&u));
   PetscCall(VecDestroy(&lower));
@@ -93,8 +98,12 @@ int main(int argc, char **argv)
     PetscCall(CreateMembrane(n[k], &membrane));
     PetscCall(SolveMembrane(&membrane, 0.0, &f));
     PetscCall(SolveMembrane(&membrane, 1e-11, &exact));
-    if (PetscAbsReal(f - exact) <= 1e-6 * PetscAbsReal(exact)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " bounds: the energy is right to 1e-6\n", n[k] * n[k]));
-    else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " bounds: the energy %.9e differs from %.9e by %.1e of it\n", n[k] * n[k], (double)f, (double)exact, (double)PetscAbsReal(f / exact - 1.0)));
+    if (PetscAbsReal(f - exact) <= 1e-6 * PetscAbsReal(exact))
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " bounds: the energy is right to 1e-6\n", n[k] * n[k]));
+    else
+      PetscCall(
+        PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " bounds: the energy %.9e differs from %.9e by %.1e of it\n",
+          n[k] * n[k], (double)f, (double)exact, (double)PetscAbsReal(f / exact - 1.0)));
     PetscCall(MatDestroy(&membrane.K));
     PetscCall(VecDestroy(&membrane.b));
   }

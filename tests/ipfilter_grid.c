@@ -92,8 +92,9 @@ static PetscScalar SurfaceValue(const Grid *grid, PetscScalar **u, PetscInt i, P
   return GridBoundary(grid->problem, x, y);
 }
 
-/* Area, and its gradient in g, or its Hessian in H; each may be NULL. A triangle counts on the rank of its right angle, or of the unknown
-   next to it where that lies on the boundary; what it gives to unknowns of others is sent to them. */
+/* Area, and its gradient in g, or its Hessian in H; each may be NULL. A triangle counts on the rank of its right
+   angle, or of the unknown next to it where that lies on the boundary; what it gives to unknowns of others is sent to
+   them. */
 static PetscErrorCode SurfaceEvaluate(Grid *grid, Vec x, PetscReal *f, Vec g, Mat H)
 {
   const double  h = 1.0 / (grid->n + 1.0);
@@ -114,13 +115,15 @@ static PetscErrorCode SurfaceEvaluate(Grid *grid, Vec x, PetscReal *f, Vec g, Ma
   for (PetscInt j = info.ys - 1; j <= info.ys + info.ym; j++) {
     for (PetscInt i = info.xs - 1; i <= info.xs + info.xm; i++) {
       for (PetscInt side = -1; side <= 1; side += 2) { /* of the right angle on which the triangle lies */
-        const PetscInt   ii[3] = {i, i + side, i}, jj[3] = {j, j, j + side}, owner_i = PetscMin(PetscMax(i, 0), grid->n - 1), owner_j = PetscMin(PetscMax(j, 0), grid->n - 1);
+        const PetscInt ii[3] = {i, i + side, i}, jj[3] = {j, j, j + side},
+                       owner_i = PetscMin(PetscMax(i, 0), grid->n - 1), owner_j = PetscMin(PetscMax(j, 0), grid->n - 1);
         const MatStencil node[3] = {{.i = ii[0], .j = jj[0]}, {.i = ii[1], .j = jj[1]}, {.i = ii[2], .j = jj[2]}};
         double           gradient[3], hessian[3][3], values[3];
         PetscBool        known[3];
 
         if (i + side < -1 || i + side > grid->n || j + side < -1 || j + side > grid->n) continue;
-        if (owner_i < info.xs || owner_i >= info.xs + info.xm || owner_j < info.ys || owner_j >= info.ys + info.ym) continue;
+        if (owner_i < info.xs || owner_i >= info.xs + info.xm || owner_j < info.ys || owner_j >= info.ys + info.ym)
+          continue;
         for (PetscInt k = 0; k < 3; k++) {
           known[k]  = (PetscBool)(ii[k] < 0 || ii[k] >= grid->n || jj[k] < 0 || jj[k] >= grid->n);
           values[k] = PetscRealPart(SurfaceValue(grid, u, ii[k], jj[k]));
@@ -180,7 +183,8 @@ static PetscErrorCode CreateGrid(int problem, PetscInt n, Grid *grid)
 
   PetscFunctionBeginUser;
   *grid = (Grid){.problem = problem, .n = (int)n};
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, stencil, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &grid->da));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, stencil, n, n, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, &grid->da));
   PetscCall(DMSetFromOptions(grid->da));
   PetscCall(DMSetUp(grid->da));
   PetscCall(DMCreateMatrix(grid->da, &grid->q.H));
@@ -217,7 +221,8 @@ static PetscErrorCode SetRows(Tao tao, Grid *grid)
   PetscCall(VecGetArrayRead(grid->upper, &u));
   for (PetscInt i = 0; i < hi - lo; i++)
     if (PetscRealPart(l[i]) > PETSC_NINFINITY || PetscRealPart(u[i]) < PETSC_INFINITY) bounded[count++] = i;
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, hi - lo, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &grid->q.J));
+  PetscCall(
+    MatCreateAIJ(PETSC_COMM_WORLD, count, hi - lo, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &grid->q.J));
   PetscCall(MatCreateVecs(grid->q.J, NULL, &c));
   PetscCall(VecDuplicate(c, &rl));
   PetscCall(VecDuplicate(c, &ru));
@@ -277,7 +282,8 @@ static PetscErrorCode ProcessorTime(PetscReal *seconds)
 
   PetscFunctionBeginUser;
   getrusage(RUSAGE_SELF, &usage);
-  local = (PetscReal)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * (PetscReal)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  local = (PetscReal)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+          1e-6 * (PetscReal)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
   PetscCallMPI(MPI_Allreduce(&local, seconds, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(0);
 }
@@ -323,7 +329,9 @@ static PetscErrorCode Report(Grid *grid, const char type[], PetscBool rows)
   PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
   PetscCall(TaoGetLinearSolveIterations(tao, &krylov));
   PetscCall(Violation(grid, x, &violation));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.15e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.2f|%.2f\n", grid_names[grid->problem], TaoConvergedReasons[reason], (double)f, (double)violation, its, krylov, end - begin, (double)(cpu[1] - cpu[0])));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.15e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.2f|%.2f\n",
+    grid_names[grid->problem], TaoConvergedReasons[reason], (double)f, (double)violation, its, krylov, end - begin,
+    (double)(cpu[1] - cpu[0])));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(0);

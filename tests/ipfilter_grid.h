@@ -1,6 +1,7 @@
 /*
-   Shared by ipfilter_grid.c and stress/grid_ipopt.c, without PETSc: obstacle problems on a grid of n x n unknowns, number i + n j at
-   column i and row j. All but the surface are quadratic, f = 1/2 u^T K u - b^T u + constant, with K of five points.
+   Shared by ipfilter_grid.c and stress/grid_ipopt.c, without PETSc: obstacle problems on a grid of n x n unknowns,
+   number i + n j at column i and row j. All but the surface are quadratic, f = 1/2 u^T K u - b^T u + constant, with K
+   of five points.
 
      obstacle   a membrane on [-2, 2]^2 over a ball, with the boundary values of a solution that is known
      torsion    elastic-plastic torsion of a square rod, |u| <= distance from the boundary
@@ -65,7 +66,8 @@ static inline double GridFilm(double angle)
   return pow(1.0 + 0.1 * cos(angle), 3);
 }
 
-/* Row of K at (i, j): the diagonal and the neighbours to the west, east, south and north, be they unknowns or not; and the load there */
+/* Row of K at (i, j): the diagonal and the neighbours to the west, east, south and north, be they unknowns or not;
+   and the load there */
 static inline void GridStencil(int problem, int n, int i, int j, double v[5], double *load)
 {
   const double pi = 3.14159265358979323846, h = 1.0 / (n + 1.0);
@@ -75,7 +77,8 @@ static inline void GridStencil(int problem, int n, int i, int j, double v[5], do
   *load                     = 0.0;
   if (problem == GRID_TORSION) *load = 5.0 * h * h;
   if (problem == GRID_BEARING) {
-    const double hx = 2.0 * pi * h, hy = 20.0 * h, here = GridFilm((i + 1) * hx), west = GridFilm(i * hx), east = GridFilm((i + 2) * hx);
+    const double hx = 2.0 * pi * h, hy = 20.0 * h, here = GridFilm((i + 1) * hx), west = GridFilm(i * hx),
+                 east = GridFilm((i + 2) * hx);
 
     v[1]  = -0.5 * (west + here) * hy / hx;
     v[2]  = -0.5 * (east + here) * hy / hx;
@@ -114,7 +117,8 @@ static inline void GridBounds(int problem, int n, int i, int j, double *lower, d
 }
 
 /* What the boundary's values add to the load at (i, j) and to the objective */
-static inline void GridBoundaryTerms(int problem, int n, int i, int j, const double v[5], double *load, double *constant)
+static inline void GridBoundaryTerms(int problem, int n, int i, int j, const double v[5], double *load,
+  double *constant)
 {
   const int di[5] = {0, -1, 1, 0, 0}, dj[5] = {0, 0, 0, -1, 1};
 
@@ -129,20 +133,22 @@ static inline void GridBoundaryTerms(int problem, int n, int i, int j, const dou
   }
 }
 
-/* Area of a triangle with legs h over which u has the values a at the right angle, b and c; its gradient and Hessian in them */
+/* Area of a triangle with legs h over which u has the values a at the right angle, b and c; its gradient and Hessian
+   in them */
 static inline double GridTriangle(double h, double a, double b, double c, double g[3], double H[3][3])
 {
   const double p = (b - a) / h, q = (c - a) / h, root = sqrt(1.0 + p * p + q * q), area = 0.5 * h * h;
-  const double slope[3][2] = {
-    {-1.0 / h, -1.0 / h},
-    {1.0 / h, 0.0},
-    {0.0, 1.0 / h}};
+  const double slope[3][2] = {{-1.0 / h, -1.0 / h}, {1.0 / h, 0.0}, {0.0, 1.0 / h}};
 
   for (int r = 0; r < 3; r++) {
     const double along = p * slope[r][0] + q * slope[r][1];
 
     g[r] = area * along / root;
-    for (int s = 0; s < 3; s++) H[r][s] = area * (slope[r][0] * slope[s][0] + slope[r][1] * slope[s][1] - along * (p * slope[s][0] + q * slope[s][1]) / (root * root)) / root;
+    for (int s = 0; s < 3; s++)
+      H[r][s] = area *
+                (slope[r][0] * slope[s][0] + slope[r][1] * slope[s][1] -
+                  along * (p * slope[s][0] + q * slope[s][1]) / (root * root)) /
+                root;
   }
   return area * root;
 }

@@ -1,4 +1,5 @@
-static char help[] = "Hessians and Jacobians of every type: the solution is that with AIJ, or one sentence says what is refused.\n\n";
+static char help[] =
+  "Hessians and Jacobians of every type: the solution is that with AIJ, or one sentence says what is refused.\n\n";
 
 #include "ipfilter_matrices.h"
 
@@ -22,7 +23,8 @@ static PetscErrorCode Test(PetscInt n, const char Htype[], const char Jtype[], c
   PetscCall(CreateAs(p.q.H, Htype, &H));
   if (Jtype) PetscCall(CreateAs(p.q.J, Jtype, &J));
   if (Etype) PetscCall(CreateAs(p.E, Etype, &E));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "H %s, J %s, E %s%s%s: ", Htype, Jtype ? Jtype : "none", Etype ? Etype : "none", options[0] ? ", " : "", options));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "H %s, J %s, E %s%s%s: ", Htype, Jtype ? Jtype : "none",
+    Etype ? Etype : "none", options[0] ? ", " : "", options));
   PetscCall(Solve(&p, H, J, E, options, x, &error, &reason));
   PetscCall(AttemptCompareRanks(Htype, error));
   if (error) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", attempt_sentence));
@@ -70,9 +72,11 @@ static PetscErrorCode TestNestedVector(void)
 
 int main(int argc, char **argv)
 {
-  const char *const hessians[]  = {MATAIJ, MATBAIJ, MATSBAIJ, MATDENSE, "nest", MATIS, MATCONSTANTDIAGONAL, "shell", "shell with diagonal", "nest with a shell", "transpose"};
+  const char *const hessians[]  = {MATAIJ, MATBAIJ, MATSBAIJ, MATDENSE, "nest", MATIS, MATCONSTANTDIAGONAL, "shell",
+     "shell with diagonal", "nest with a shell", "transpose"};
   const char *const jacobians[] = {MATBAIJ, MATDENSE, "nest", MATIS, "shell", "nest with a shell", "transpose"};
-  const char *const products[]  = {"-tao_ipfilter_pc_type none", "-tao_ipfilter_pc_type jacobi", "-tao_ipfilter_pc_type shell"};
+  const char *const products[]  = {"-tao_ipfilter_pc_type none", "-tao_ipfilter_pc_type jacobi",
+     "-tao_ipfilter_pc_type shell"};
   const PetscInt    few = 40, many = 1002;
 
   PetscFunctionBeginUser;

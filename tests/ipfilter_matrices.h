@@ -35,7 +35,8 @@ static inline PetscErrorCode CreateHessian(PetscInt n, Mat *H)
   PetscCall(MatSetOption(*H, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(MatGetOwnershipRange(*H, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++)
-    for (PetscInt j = PetscMax(0, i / 2 * 2 - 2); j < PetscMin(n, i / 2 * 2 + 4); j++) PetscCall(MatSetValue(*H, i, j, i == j ? 8.0 : -Noise(PetscMin(i, j), PetscMax(i, j)), INSERT_VALUES));
+    for (PetscInt j = PetscMax(0, i / 2 * 2 - 2); j < PetscMin(n, i / 2 * 2 + 4); j++)
+      PetscCall(MatSetValue(*H, i, j, i == j ? 8.0 : -Noise(PetscMin(i, j), PetscMax(i, j)), INSERT_VALUES));
   PetscCall(MatAssemblyBegin(*H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatSetOption(*H, MAT_SYMMETRIC, PETSC_TRUE));
@@ -54,7 +55,8 @@ static inline PetscErrorCode CreateRows(PetscInt m, PetscInt place, Vec layout, 
   PetscCall(MatCreateVecs(*J, NULL, g));
   PetscCall(MatGetOwnershipRange(*J, &lo, &hi));
   for (PetscInt i = lo; i < hi; i++) {
-    for (PetscInt k = 0; k < 2; k++) PetscCall(MatSetValue(*J, i, (place + 2 * i + k * (N / 2)) % N, 0.5 + Noise(i, place + k), INSERT_VALUES));
+    for (PetscInt k = 0; k < 2; k++)
+      PetscCall(MatSetValue(*J, i, (place + 2 * i + k * (N / 2)) % N, 0.5 + Noise(i, place + k), INSERT_VALUES));
     PetscCall(VecSetValue(*g, i, 0.1 + 0.2 * Noise(i, 2000 + place), INSERT_VALUES));
   }
   PetscCall(MatAssemblyBegin(*J, MAT_FINAL_ASSEMBLY));
@@ -135,7 +137,8 @@ static inline PetscErrorCode CreateShell(Mat A, PetscBool diagonal, Mat *S)
   PetscFunctionReturn(0);
 }
 
-/* Blocks of two halves of each rank's columns, and of its rows where A is square; the last block a shell if asked for */
+/* Blocks of two halves of each rank's columns, and of its rows where A is square; the last block a shell if asked for
+ */
 static inline PetscErrorCode CreateNest(Mat A, PetscBool shell, Mat *nest)
 {
   IS       rows[2], cols[2];
@@ -154,7 +157,8 @@ static inline PetscErrorCode CreateNest(Mat A, PetscBool shell, Mat *nest)
     if (m == 1) PetscCall(ISCreateStride(PETSC_COMM_WORLD, hi - lo, lo, 1, &rows[k]));
     else PetscCall(ISCreateStride(PETSC_COMM_WORLD, end - begin, begin, 1, &rows[k]));
   }
-  for (PetscInt k = 0; k < 2 * m; k++) PetscCall(MatCreateSubMatrix(A, rows[k / 2], cols[k % 2], MAT_INITIAL_MATRIX, &blocks[k]));
+  for (PetscInt k = 0; k < 2 * m; k++)
+    PetscCall(MatCreateSubMatrix(A, rows[k / 2], cols[k % 2], MAT_INITIAL_MATRIX, &blocks[k]));
   last = blocks[2 * m - 1];
   if (shell) {
     PetscCall(CreateShell(last, PETSC_FALSE, &blocks[2 * m - 1]));
@@ -279,7 +283,8 @@ static inline PetscErrorCode CreateTao(Program *p, Mat H, Mat J, Mat E, const ch
 }
 
 /* Solves from zero, or says why not */
-static inline PetscErrorCode Solve(Program *p, Mat H, Mat J, Mat E, const char options[], Vec x, PetscErrorCode *error, TaoConvergedReason *reason)
+static inline PetscErrorCode Solve(Program *p, Mat H, Mat J, Mat E, const char options[], Vec x, PetscErrorCode *error,
+  TaoConvergedReason *reason)
 {
   Tao tao;
 

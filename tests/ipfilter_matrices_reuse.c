@@ -38,7 +38,8 @@ static PetscErrorCode TestAnalyses(const char Htype[])
   PetscCall(Solve(&p, H, p.q.J, NULL, "-tao_ipfilter_direct", x, &error, &reason));
   PetscCall(AttemptCompareRanks("analyses", error));
   PetscCall(GetCounts(after));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "H %s by MUMPS: %d analysis, %s\n", Htype, after[0] - before[0], after[1] - before[1] > 3 ? "many factorizations" : "TOO FEW FACTORIZATIONS TO TELL"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "H %s by MUMPS: %d analysis, %s\n", Htype, after[0] - before[0],
+    after[1] - before[1] > 3 ? "many factorizations" : "TOO FEW FACTORIZATIONS TO TELL"));
   PetscCall(VecDestroy(&x));
   PetscCall(MatDestroy(&H));
   PetscCall(DestroyProgram(&p));
@@ -65,7 +66,8 @@ static PetscErrorCode CountEvaluation(Tao tao, Vec x, Mat J, Mat P, void *user)
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian that gives products alone is read by as many as it has columns, once an evaluation, be it that a row of it is an equality constraint */
+/* A Jacobian that gives products alone is read by as many as it has columns, once an evaluation, be it that a row of
+   it is an equality constraint */
 static PetscErrorCode TestConversions(PetscInt n)
 {
   Program  p;
@@ -92,7 +94,8 @@ static PetscErrorCode TestConversions(PetscInt n)
   PetscCall(VecSet(x, 0.0));
   nproducts = 0;
   PetscCall(TaoSolve(tao));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "J shell, a row of equal bounds: %s\n", nproducts == n * nevaluations ? "one product a column and evaluation" : "NOT ONE PRODUCT A COLUMN AND EVALUATION"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "J shell, a row of equal bounds: %s\n",
+    nproducts == n * nevaluations ? "one product a column and evaluation" : "NOT ONE PRODUCT A COLUMN AND EVALUATION"));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&lower));
   PetscCall(VecDestroy(&upper));

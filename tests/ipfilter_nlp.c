@@ -1,8 +1,11 @@
-static char help[] = "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly scaled ones.\n\
+static char help[] =
+  "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly\n\
+scaled ones.\n\
   -mode NAME        solver options by their name below, for which steps and evaluations are held\n\
   -problems A,B     some problems only\n\
   -relaxed          tell also whether the solver says that it has relaxed the constraints\n\
-  -print_counts     the rows of tests/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts them in place\n\n";
+  -print_counts     the rows of tests/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts\n\
+them in place\n\n";
 
 #include "ipfilter_problem.h"
 #include "ipfilter_formulas.h"
@@ -13,9 +16,12 @@ static const struct {
   const char *name, *options, *skip; /* skip: ",the problems,that are not solved,"; why stands above them */
 } modes[NMODES] = {
   {"default", "-tao_max_it 200", ""},
-  /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which is stationary, and so
-     does HS98 */
-  {"direct", "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps", ",bilinear2,HS98,"},
+  /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which
+     is stationary, and so does HS98 */
+  {"direct",
+    "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type "
+    "mumps",
+    ",bilinear2,HS98,"},
   /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", ",HS104,"},
   /* differences know nothing of units as far apart as those of HS54 */
@@ -69,7 +75,8 @@ static PetscReal ObjectiveError(const NLP *p, PetscReal f)
   const char *s     = p->others ? p->others : "";
   char       *end;
 
-  for (PetscReal other = strtod(s, &end); end != s; s = end, other = strtod(s, &end)) error = PetscMin(error, RelativeError(f, other));
+  for (PetscReal other = strtod(s, &end); end != s; s = end, other = strtod(s, &end))
+    error = PetscMin(error, RelativeError(f, other));
   return error;
 }
 
@@ -80,8 +87,8 @@ static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentenc
   return (PetscBool)(violation < 1e-6 && error < (reason == TAO_CONVERGED_STEPTOL ? 1e-3 : 1e-6));
 }
 
-/* The known optimum at a feasible point; or it is said that there is none. Where the solver fails, what it returns violates the constraints
-   no more than the start did, by first. */
+/* The known optimum at a feasible point; or it is said that there is none. Where the solver fails, what it returns
+   violates the constraints no more than the start did, by first. */
 static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Outcome *o)
 {
   const NLP *p   = problem->formulas.p;
@@ -95,7 +102,8 @@ static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Out
   o->error = ObjectiveError(p, o->f);
   if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
   else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
-  else if (p->end == NLP_REACHED) o->good = (PetscBool)(o->reason > 0 && DegenerateIsGood(o->reason, o->sentence, o->error, o->violation));
+  else if (p->end == NLP_REACHED)
+    o->good = (PetscBool)(o->reason > 0 && DegenerateIsGood(o->reason, o->sentence, o->error, o->violation));
   else if (p->end == NLP_INFEASIBLE) o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "infeasible"));
   else o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "unbounded"));
   if (o->reason < 0 && o->violation > (1.0 + PETSC_SMALL) * first) o->good = PETSC_FALSE;
@@ -122,18 +130,26 @@ static PetscErrorCode GetLimits(const NLP *p, PetscInt mode, Counts *most)
 /* mode: whose counts are held, or negative */
 static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *o)
 {
-  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded", "reached"};
+  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded",
+    "reached"};
   Counts                   most;
   PetscBool                relaxed = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(GetLimits(p, mode, &most));
-  if (!o->good) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: NOT AS EXPECTED: %s, objective %.9e, error %g, violation %g; %s\n", p->name, TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->sentence));
+  if (!o->good)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: NOT AS EXPECTED: %s, objective %.9e, error %g, violation %g; %s\n",
+      p->name, TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->sentence));
   else if (o->counts.steps > most.steps || o->counts.evaluations > most.evaluations)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s, IN MORE THAN %" PetscInt_FMT " steps or %" PetscInt_FMT " evaluations: %" PetscInt_FMT " and %" PetscInt_FMT "\n", p->name, verdicts[p->end], most.steps, most.evaluations, o->counts.steps, o->counts.evaluations));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "%s: %s, IN MORE THAN %" PetscInt_FMT " steps or %" PetscInt_FMT " evaluations: %" PetscInt_FMT
+      " and %" PetscInt_FMT "\n",
+      p->name, verdicts[p->end], most.steps, most.evaluations, o->counts.steps, o->counts.evaluations));
   else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", p->name, verdicts[p->end]));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-relaxed", &relaxed, NULL));
-  if (relaxed) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  constraints said to be relaxed: %d\n", strstr(o->sentence, "relaxed by") ? 1 : 0));
+  if (relaxed)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  constraints said to be relaxed: %d\n",
+      strstr(o->sentence, "relaxed by") ? 1 : 0));
   PetscFunctionReturn(0);
 }
 
@@ -167,7 +183,8 @@ static PetscErrorCode PopMode(PetscOptions *options)
   PetscFunctionReturn(0);
 }
 
-/* The most that a problem takes in a mode on the first rank, on the first two, and so on: with each, sums are rounded in another way */
+/* The most that a problem takes in a mode on the first rank, on the first two, and so on: with each, sums are rounded
+   in another way */
 static PetscErrorCode Measure(const NLP *p, PetscInt mode, Counts *most)
 {
   PetscMPIInt  size, rank;
@@ -198,15 +215,18 @@ static PetscErrorCode Measure(const NLP *p, PetscInt mode, Counts *most)
 static PetscErrorCode PrintCounts(void)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "/* {steps, evaluations}; `make -f tests/makefile nlp-counts` makes this file anew.\n  "));
-  for (PetscInt mode = 0; mode < NMODES; mode++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s%s", modes[mode].name, mode + 1 < NMODES ? "," : " */\n"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "/* {steps, evaluations}; `make -f tests/makefile nlp-counts` makes this file anew.\n  "));
+  for (PetscInt mode = 0; mode < NMODES; mode++)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s%s", modes[mode].name, mode + 1 < NMODES ? "," : " */\n"));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  {\"%s\", {", problems[k].name));
     for (PetscInt mode = 0; mode < NMODES; mode++) {
       Counts most;
 
       PetscCall(Measure(&problems[k], mode, &most));
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s{%" PetscInt_FMT ", %" PetscInt_FMT "}", mode ? ", " : "", most.steps, most.evaluations));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s{%" PetscInt_FMT ", %" PetscInt_FMT "}", mode ? ", " : "", most.steps,
+        most.evaluations));
     }
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n"));
   }
@@ -291,10 +311,8 @@ int main(int argc, char **argv)
       suffix: differences
       args: -mode differences
 
-   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line search
-   test:
-      suffix: no_direction
-      args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line
+search test: suffix: no_direction args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
 
    # constraints without an interior are relaxed by less than the tolerance, and the solver says so
    test:
@@ -309,7 +327,8 @@ int main(int argc, char **argv)
    # absolute limits hold where the tolerance does not ask for as much
    test:
       suffix: limits
-      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9 -tao_ipfilter_compl_inf_tol 1e-9
+      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9
+-tao_ipfilter_compl_inf_tol 1e-9
 
    # c = x y - 1 has one nonzero in its Jacobian at the start, two later
    test:

@@ -62,7 +62,8 @@ static PetscErrorCode CreateObstacle(DM da, PetscReal lift, Obstacle *o)
   PetscCall(PetscMalloc2(info.xm * info.ym, &cols, info.xm * info.ym, &values));
   for (PetscInt j = info.ys; j < info.ys + info.ym; j++) {
     for (PetscInt i = info.xs; i < info.xs + info.xm; i++) {
-      const PetscReal x = (PetscReal)i / (info.mx - 1) - 0.5, y = (PetscReal)j / (info.my - 1) - 0.5, r2 = x * x + y * y;
+      const PetscReal x = (PetscReal)i / (info.mx - 1) - 0.5, y = (PetscReal)j / (info.my - 1) - 0.5,
+                      r2 = x * x + y * y;
 
       if (r2 > PetscSqr(0.3)) continue;
       cols[count]     = i + info.mx * j;
@@ -91,7 +92,8 @@ static PetscErrorCode CreateProblem(PetscInt n, PetscReal lift, PetscReal length
   PetscFunctionBeginUser;
   o->length = length;
   o->energy = energy;
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, da));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, da));
   PetscCall(DMSetFromOptions(*da));
   PetscCall(DMSetUp(*da));
   PetscCall(AssembleMembrane(*da, o));
@@ -197,7 +199,8 @@ static PetscErrorCode CountIterations(Tao tao, PetscInt *newton, PetscInt *krylo
   PetscFunctionReturn(0);
 }
 
-/* A new solve of a slightly raised obstacle from the old solution, with the old slacks and multipliers and with predicted ones */
+/* A new solve of a slightly raised obstacle from the old solution, with the old slacks and multipliers and with
+   predicted ones */
 static PetscErrorCode CompareWarmStart(PetscInt n)
 {
   DM       da;
@@ -227,8 +230,14 @@ static PetscErrorCode CompareWarmStart(PetscInt n)
   PetscCall(VecCopy(x0, x));
   PetscCall(TaoSolve(tao));
   PetscCall(CountIterations(tao, &newton[1], &krylov[1]));
-  if (newton[0] <= newton[1] && 3 * krylov[0] <= 2 * krylov[1]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: no more Newton and at most two thirds of the Krylov iterations\n"));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations; predicted start: %" PetscInt_FMT ", %" PetscInt_FMT "\n", newton[0], krylov[0], newton[1], krylov[1]));
+  if (newton[0] <= newton[1] && 3 * krylov[0] <= 2 * krylov[1])
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "warm start: no more Newton and at most two thirds of the Krylov iterations\n"));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "warm start: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations; predicted start: %" PetscInt_FMT
+      ", %" PetscInt_FMT "\n",
+      newton[0], krylov[0], newton[1], krylov[1]));
   PetscCall(VecDestroy(&x0));
   PetscCall(VecDestroy(&ws));
   PetscCall(VecDestroy(&wz));
@@ -259,14 +268,18 @@ static PetscErrorCode CompareUnits(PetscInt n)
     PetscCall(TaoSolve(tao));
     PetscCall(CountIterations(tao, &newton[k], &krylov[k]));
     PetscCall(TaoGetSolutionStatus(tao, NULL, &f[k], NULL, NULL, NULL, NULL));
-    if (PetscAbsInt(newton[k] - newton[0]) > 1 || PetscAbsReal(f[k] / energy[k] - f[0]) > 1e-8 * PetscAbsReal(f[0])) same = PETSC_FALSE;
+    if (PetscAbsInt(newton[k] - newton[0]) > 1 || PetscAbsReal(f[k] / energy[k] - f[0]) > 1e-8 * PetscAbsReal(f[0]))
+      same = PETSC_FALSE;
     PetscCall(VecDestroy(&x));
     PetscCall(TaoDestroy(&tao));
     PetscCall(DestroyProblem(&da, &o));
   }
   if (same) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units: the same iterations and objective\n"));
   else
-    for (PetscInt k = 0; k < 3; k++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "units %g, %g: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations, objective %.10e\n", (double)length[k], (double)energy[k], newton[k], krylov[k], (double)(f[k] / energy[k])));
+    for (PetscInt k = 0; k < 3; k++)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+        "units %g, %g: %" PetscInt_FMT " Newton, %" PetscInt_FMT " Krylov iterations, objective %.10e\n",
+        (double)length[k], (double)energy[k], newton[k], krylov[k], (double)(f[k] / energy[k])));
   PetscFunctionReturn(0);
 }
 

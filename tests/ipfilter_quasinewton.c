@@ -1,4 +1,5 @@
-static char help[] = "Without a Hessian: a limited-memory approximation, against the same problem with its Hessian.\n\n";
+static char help[] =
+  "Without a Hessian: a limited-memory approximation, against the same problem with its Hessian.\n\n";
 
 #include "ipfilter_problem.h"
 
@@ -147,7 +148,8 @@ static PetscErrorCode DestroyQuartic(Quartic *p)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Solve(Quartic *p, PetscBool hessian, PetscBool rows, PetscBool bounds, Vec x, PetscReal *f, TaoConvergedReason *reason)
+static PetscErrorCode Solve(Quartic *p, PetscBool hessian, PetscBool rows, PetscBool bounds, Vec x, PetscReal *f,
+  TaoConvergedReason *reason)
 {
   Tao tao;
   Mat H;
@@ -187,8 +189,10 @@ static PetscErrorCode Test(Quartic *p, PetscBool rows, PetscBool bounds)
   PetscCall(VecDuplicate(p->q.b, &reference));
   PetscCall(Solve(p, PETSC_FALSE, rows, bounds, x, &f, &reason));
   PetscCall(Solve(p, PETSC_TRUE, rows, bounds, reference, &best, &exact));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: %s, with the Hessian %s\n", rows ? "rows" : "no rows", bounds ? "bounds" : "no bounds", TaoConvergedReasons[reason], TaoConvergedReasons[exact]));
-  PetscCall(ProblemVerdict("  objective against that with the Hessian, relative", PetscAbsReal(f - best) / PetscAbsReal(best), 1e-7));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: %s, with the Hessian %s\n", rows ? "rows" : "no rows",
+    bounds ? "bounds" : "no bounds", TaoConvergedReasons[reason], TaoConvergedReasons[exact]));
+  PetscCall(ProblemVerdict("  objective against that with the Hessian, relative",
+    PetscAbsReal(f - best) / PetscAbsReal(best), 1e-7));
   PetscCall(VecNorm(reference, NORM_INFINITY, &size));
   PetscCall(VecAXPY(x, -1.0, reference));
   PetscCall(VecNorm(x, NORM_INFINITY, &error));

@@ -1,4 +1,5 @@
-static char help[] = "Every end of TAOIPFILTER has its reason: infeasible, unbounded, NaN, limits, failed linear solver.\n\n";
+static char help[] =
+  "Every end of TAOIPFILTER has its reason: infeasible, unbounded, NaN, limits, failed linear solver.\n\n";
 
 #include "ipfilter_problem.h"
 #include "ipfilter_separable.h"
@@ -15,10 +16,11 @@ typedef enum {
   NCASES
 } Case;
 
-static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start", "NaN away from the start", "NaN in the Hessian", "NaN in the gradient", "overshooting Newton steps"};
+static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start",
+  "NaN away from the start", "NaN in the Hessian", "NaN in the gradient", "overshooting Newton steps"};
 
-/* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x <= 0;
-   overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
+/* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x
+   <= 0; overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
 static void Term(const void *ctx, PetscInt i, PetscReal x, PetscReal *f, PetscReal *g, PetscReal *h)
 {
   const Case c = *(const Case *)ctx;

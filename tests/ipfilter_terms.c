@@ -1,4 +1,6 @@
-static char help[] = "Norm terms beside the objective: Coulomb's law, Tresca's, a cap on both, and sticking, on a net over a cap, each law checked row by row; group lasso\n\
+static char help[] =
+  "Norm terms beside the objective: Coulomb's law, Tresca's, a cap on both, and sticking, on a net over a cap,\n\
+each law checked row by row; group lasso\n\
 against its closed form; the same answer on any number of ranks, and wrong sizes.\n\n";
 
 #include "ipfilter_problem.h"
@@ -16,16 +18,20 @@ static PetscErrorCode AssembleNet(PetscInt n, PetscReal pull, Net *net)
   PetscInt start, end;
 
   PetscFunctionBeginUser;
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 3 * n * n, 3 * n * n, 7, NULL, 7, NULL, &net->q.H));
+  PetscCall(
+    MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 3 * n * n, 3 * n * n, 7, NULL, 7, NULL, &net->q.H));
   PetscCall(MatCreateVecs(net->q.H, &net->q.b, NULL));
   PetscCall(MatGetOwnershipRange(net->q.H, &start, &end));
   for (PetscInt r = start; r < end; r++) {
-    const PetscInt p = r / 3, c = r % 3, i = p % n, j = p / n, near[4] = {i > 0 ? r - 3 : -1, i < n - 1 ? r + 3 : -1, j > 0 ? r - 3 * n : -1, j < n - 1 ? r + 3 * n : -1};
+    const PetscInt p = r / 3, c = r % 3, i = p % n, j = p / n,
+                   near[4] = {i > 0 ? r - 3 : -1, i < n - 1 ? r + 3 : -1, j > 0 ? r - 3 * n : -1,
+                     j < n - 1 ? r + 3 * n : -1};
 
     PetscCall(MatSetValue(net->q.H, r, r, 4.0, INSERT_VALUES));
     for (PetscInt k = 0; k < 4; k++) PetscCall(MatSetValue(net->q.H, r, near[k], -0.9, INSERT_VALUES));
     for (PetscInt k = 1; k < 3; k++) PetscCall(MatSetValue(net->q.H, r, 3 * p + (c + k) % 3, 0.1, INSERT_VALUES));
-    PetscCall(VecSetValue(net->q.b, r, c == 0 ? -1.0 : pull * (c == 1 ? 1.0 : 0.3 * (i - j) / (PetscReal)n), INSERT_VALUES));
+    PetscCall(
+      VecSetValue(net->q.b, r, c == 0 ? -1.0 : pull * (c == 1 ? 1.0 : 0.3 * (i - j) / (PetscReal)n), INSERT_VALUES));
   }
   PetscCall(MatAssemblyBegin(net->q.H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(net->q.H, MAT_FINAL_ASSEMBLY));
@@ -52,15 +58,18 @@ static PetscErrorCode AssembleCap(PetscInt n, PetscReal limit, PetscReal coeffic
   PetscCall(MatGetOwnershipRange(net->q.H, &start, &end));
   PetscCall(VecGetLocalSize(net->q.b, &nlocal));
   for (PetscInt r = start; r < end; r++) count += OverCap(n, r, &height);
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &net->q.J));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, 2 * count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &net->T));
+  PetscCall(
+    MatCreateAIJ(PETSC_COMM_WORLD, count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &net->q.J));
+  PetscCall(
+    MatCreateAIJ(PETSC_COMM_WORLD, 2 * count, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 1, NULL, &net->T));
   PetscCall(MatCreateVecs(net->q.J, NULL, &net->q.g));
   PetscCall(MatCreateVecs(net->T, NULL, &net->t));
   PetscCall(MatGetOwnershipRange(net->q.J, &first, NULL));
   for (PetscInt r = start; r < end; r++) {
     if (!OverCap(n, r, &height)) continue;
     PetscCall(MatSetValue(net->q.J, first, r, 1.0, INSERT_VALUES));
-    for (PetscInt a = 0; a < 2; a++) PetscCall(MatSetValue(net->T, 2 * first + a, PetscMin(r + 1 + a, 3 * n * n - 1), 1.0, INSERT_VALUES));
+    for (PetscInt a = 0; a < 2; a++)
+      PetscCall(MatSetValue(net->T, 2 * first + a, PetscMin(r + 1 + a, 3 * n * n - 1), 1.0, INSERT_VALUES));
     PetscCall(VecSetValue(net->q.g, first++, height, INSERT_VALUES));
   }
   PetscCall(MatAssemblyBegin(net->q.J, MAT_FINAL_ASSEMBLY));
@@ -111,18 +120,24 @@ static PetscErrorCode CheckLaws(Net *net, Vec x, Vec y, Vec tau, PetscReal error
   for (PetscInt i = 0; i < n; i++) {
     PetscScalar     limit, coefficient;
     PetscInt        row;
-    const PetscReal f = PetscRealPart(a[0][i]), slip = hypot(PetscRealPart(a[2][2 * i]), PetscRealPart(a[2][2 * i + 1])), size = hypot(PetscRealPart(a[1][2 * i]), PetscRealPart(a[1][2 * i + 1]));
-    PetscReal       bound;
+    const PetscReal f    = PetscRealPart(a[0][i]),
+                    slip = hypot(PetscRealPart(a[2][2 * i]), PetscRealPart(a[2][2 * i + 1])),
+                    size = hypot(PetscRealPart(a[1][2 * i]), PetscRealPart(a[1][2 * i + 1]));
+    PetscReal bound;
 
     PetscCall(VecGetOwnershipRange(y, &row, NULL));
     row += i;
     PetscCall(VecGetValues(net->limit, 1, &row, &limit));
     PetscCall(VecGetValues(net->coefficient, 1, &row, &coefficient));
-    bound     = f > 0.0 ? PetscMin(PetscRealPart(limit), PetscRealPart(coefficient) >= PETSC_INFINITY ? PETSC_INFINITY : PetscRealPart(coefficient) * f) : 0.0;
-    errors[0] = PetscMax(errors[0], PetscMax(PetscMax(-PetscRealPart(a[3][i]), -f), PetscAbsReal(f * PetscRealPart(a[3][i]))));
+    bound = f > 0.0 ? PetscMin(PetscRealPart(limit),
+                        PetscRealPart(coefficient) >= PETSC_INFINITY ? PETSC_INFINITY : PetscRealPart(coefficient) * f)
+                    : 0.0;
+    errors[0] =
+      PetscMax(errors[0], PetscMax(PetscMax(-PetscRealPart(a[3][i]), -f), PetscAbsReal(f * PetscRealPart(a[3][i]))));
     errors[1] = PetscMax(errors[1], size - bound);
     if (slip > tiny) {
-      for (PetscInt k = 0; k < 2; k++) errors[2] = PetscMax(errors[2], PetscAbsScalar(a[1][2 * i + k] + bound * a[2][2 * i + k] / slip));
+      for (PetscInt k = 0; k < 2; k++)
+        errors[2] = PetscMax(errors[2], PetscAbsScalar(a[1][2 * i + k] + bound * a[2][2 * i + k] / slip));
     }
     counts[0] += f > tiny;
     counts[1] += f > tiny && slip <= tiny;
@@ -161,7 +176,9 @@ static PetscErrorCode Check(Net *net, Tao tao, Vec x)
   PetscCall(VecNorm(r, NORM_2, &norm));
   PetscCall(VecDestroy(&r));
   PetscCall(CheckLaws(net, x, y, tau, errors, counts));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, closed %" PetscInt_FMT ", sticking %" PetscInt_FMT ", slipping %" PetscInt_FMT "\n", reason > 0 ? "converged" : "not converged", counts[0], counts[1], counts[2]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "%s, closed %" PetscInt_FMT ", sticking %" PetscInt_FMT ", slipping %" PetscInt_FMT "\n",
+    reason > 0 ? "converged" : "not converged", counts[0], counts[1], counts[2]));
   PetscCall(ProblemVerdict("  balance", norm, 1e-7));
   PetscCall(ProblemVerdict("  constraints", errors[0], 1e-8));
   PetscCall(ProblemVerdict("  |tau| beyond the weight", errors[1], 1e-8));
@@ -204,7 +221,8 @@ static PetscErrorCode TestLaw(const char what[], PetscInt n, PetscReal pull, Pet
   PetscFunctionReturn(0);
 }
 
-/* min 1/2 |x - b|^2 + beta sum |x_g|, x_g = b_g max(0, 1 - beta / |b_g|); at_rest: of x - b, so that the gradient without the terms is zero at the start */
+/* min 1/2 |x - b|^2 + beta sum |x_g|, x_g = b_g max(0, 1 - beta / |b_g|); at_rest: of x - b, so that the gradient
+   without the terms is zero at the start */
 static PetscErrorCode TestGroupLasso(const char what[], PetscInt groups, PetscReal beta, PetscBool at_rest)
 {
   Net         net = {.T = NULL};
@@ -219,16 +237,19 @@ static PetscErrorCode TestGroupLasso(const char what[], PetscInt groups, PetscRe
   PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, groups, &net.limit));
   PetscCall(VecSet(net.limit, beta));
   PetscCall(VecGetOwnershipRange(net.limit, &start, &end));
-  PetscCall(MatCreateConstantDiagonal(PETSC_COMM_WORLD, 2 * (end - start), 2 * (end - start), PETSC_DETERMINE, PETSC_DETERMINE, 1.0, &net.q.H));
+  PetscCall(MatCreateConstantDiagonal(PETSC_COMM_WORLD, 2 * (end - start), 2 * (end - start), PETSC_DETERMINE,
+    PETSC_DETERMINE, 1.0, &net.q.H));
   PetscCall(MatConvert(net.q.H, MATAIJ, MAT_INPLACE_MATRIX, &net.q.H));
   PetscCall(MatDuplicate(net.q.H, MAT_COPY_VALUES, &net.T));
   PetscCall(MatCreateVecs(net.q.H, &net.q.b, &net.t));
   PetscCall(VecZeroEntries(at_rest ? net.q.b : net.t));
   b = at_rest ? net.t : net.q.b;
-  for (PetscInt r = 2 * start; r < 2 * end; r++) PetscCall(VecSetValue(b, r, sin(1.7 * r) + 0.5 * cos(0.3 * r), INSERT_VALUES));
+  for (PetscInt r = 2 * start; r < 2 * end; r++)
+    PetscCall(VecSetValue(b, r, sin(1.7 * r) + 0.5 * cos(0.3 * r), INSERT_VALUES));
   PetscCall(VecAssemblyBegin(b));
   PetscCall(VecAssemblyEnd(b));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, rank ? 0 : 1, 2 * (end - start), 1, PETSC_DETERMINE, 1, NULL, 1, NULL, &net.q.J));
+  PetscCall(
+    MatCreateAIJ(PETSC_COMM_WORLD, rank ? 0 : 1, 2 * (end - start), 1, PETSC_DETERMINE, 1, NULL, 1, NULL, &net.q.J));
   if (!rank) PetscCall(MatSetValue(net.q.J, 0, 0, 1.0, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(net.q.J, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(net.q.J, MAT_FINAL_ASSEMBLY));

@@ -1,4 +1,6 @@
-static char help[] = "Two elastic blocks, a vector Laplacian each, tied where they meet: every displacement of one block's face is the mean of four of the other's.\n\
+static char help[] =
+  "Two elastic blocks, a vector Laplacian each, tied where they meet: every displacement of one block's face is\n\
+the mean of four of the other's.\n\
   -nx N -nz N       points of a block across and along; 0: the test on small grids\n\n";
 
 #include <petscdmda.h>
@@ -7,15 +9,17 @@ static char help[] = "Two elastic blocks, a vector Laplacian each, tied where th
 
 /* The blocks are the lower and the upper half of a grid whose middle bond is missing; both far ends are held */
 typedef struct {
-  DM               grid;
-  PetscInt         nx, nz;          /* points across, and along both blocks */
-  PetscReal        stiffer, soften; /* stiffness of the upper block, and what its face is pushed away with by springs of less than none */
-  PetscInt         times;           /* each tie */
-  PetscReal        contradiction;   /* gap between the first of a tie and the others */
-  QuadraticProgram q;               /* J: the ties */
+  DM        grid;
+  PetscInt  nx, nz; /* points across, and along both blocks */
+  PetscReal stiffer,
+    soften; /* stiffness of the upper block, and what its face is pushed away with by springs of less than none */
+  PetscInt         times;         /* each tie */
+  PetscReal        contradiction; /* gap between the first of a tie and the others */
+  QuadraticProgram q;             /* J: the ties */
 } Blocks;
 
-/* The bond between the layers k and k + 1, or from the layer before the first and after the last to the held ends; 0: none */
+/* The bond between the layers k and k + 1, or from the layer before the first and after the last to the held ends; 0:
+   none */
 static PetscReal Bond(const Blocks *b, PetscInt k)
 {
   if (k + 1 == b->nz / 2) return 0.0;
@@ -23,13 +27,15 @@ static PetscReal Bond(const Blocks *b, PetscInt k)
 }
 
 /* Global number of a point's displacement */
-static PetscInt Number(const DMDALocalInfo *info, const PetscInt global[], PetscInt i, PetscInt j, PetscInt k, PetscInt component)
+static PetscInt Number(const DMDALocalInfo *info, const PetscInt global[], PetscInt i, PetscInt j, PetscInt k,
+  PetscInt component)
 {
   return 3 * global[((k - info->gzs) * info->gym + j - info->gys) * info->gxm + i - info->gxs] + component;
 }
 
 /* The bonds of one point to its neighbours of a larger or a smaller number, in every component */
-static PetscErrorCode AssemblePoint(const Blocks *b, const DMDALocalInfo *info, const PetscInt global[], PetscInt i, PetscInt j, PetscInt k)
+static PetscErrorCode AssemblePoint(const Blocks *b, const DMDALocalInfo *info, const PetscInt global[], PetscInt i,
+  PetscInt j, PetscInt k)
 {
   const PetscInt  di[6] = {-1, 1, 0, 0, 0, 0}, dj[6] = {0, 0, -1, 1, 0, 0}, dk[6] = {0, 0, 0, 0, -1, 1};
   const PetscReal own = 2 * k < b->nz ? 1.0 : b->stiffer;
@@ -45,7 +51,8 @@ static PetscErrorCode AssemblePoint(const Blocks *b, const DMDALocalInfo *info, 
 
       if (ni < 0 || nj < 0 || ni >= info->mx || nj >= info->my) continue;
       sum += bond;
-      if (nk >= 0 && nk < info->mz && bond > 0.0) PetscCall(MatSetValue(b->q.H, row, Number(info, global, ni, nj, nk, c), -bond, INSERT_VALUES));
+      if (nk >= 0 && nk < info->mz && bond > 0.0)
+        PetscCall(MatSetValue(b->q.H, row, Number(info, global, ni, nj, nk, c), -bond, INSERT_VALUES));
     }
     PetscCall(MatSetValue(b->q.H, row, row, sum - (2 * k == b->nz ? b->soften : 0.0), INSERT_VALUES));
     PetscCall(VecSetValue(b->q.b, row, 1e-2 * (c + 1) * (1.0 + (PetscReal)i / info->mx), INSERT_VALUES));
@@ -91,7 +98,8 @@ static PetscErrorCode AssembleTies(Blocks *b)
   PetscCall(DMDAGetLocalInfo(b->grid, &info));
   points = info.zs <= layer && layer < info.zs + info.zm ? info.xm * info.ym : 0;
   PetscCall(VecGetLocalSize(b->q.b, &n));
-  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, 3 * points * b->times, n, PETSC_DETERMINE, PETSC_DETERMINE, 5, NULL, 5, NULL, &b->q.J));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, 3 * points * b->times, n, PETSC_DETERMINE, PETSC_DETERMINE, 5, NULL, 5, NULL,
+    &b->q.J));
   PetscCall(MatCreateVecs(b->q.J, NULL, &b->q.g));
   PetscCall(MatGetOwnershipRange(b->q.J, &row, NULL));
   PetscCall(DMGetLocalToGlobalMapping(b->grid, &map));
@@ -103,7 +111,10 @@ static PetscErrorCode AssembleTies(Blocks *b)
       const PetscInt c = l / b->times;
 
       PetscCall(MatSetValue(b->q.J, row, Number(&info, global, i, j, layer, c), 1.0, ADD_VALUES));
-      for (PetscInt d = 0; d < 4; d++) PetscCall(MatSetValue(b->q.J, row, Number(&info, global, PetscMin(i + d % 2, info.mx - 1), PetscMin(j + d / 2, info.my - 1), layer - 1, c), -0.25, ADD_VALUES));
+      for (PetscInt d = 0; d < 4; d++)
+        PetscCall(MatSetValue(b->q.J, row,
+          Number(&info, global, PetscMin(i + d % 2, info.mx - 1), PetscMin(j + d / 2, info.my - 1), layer - 1, c),
+          -0.25, ADD_VALUES));
       PetscCall(VecSetValue(b->q.g, row, 1e-2 * (c == 2) + (l % b->times ? b->contradiction : 0.0), INSERT_VALUES));
     }
   }
@@ -121,7 +132,8 @@ static PetscErrorCode CreateBlocks(PetscInt nx, PetscInt nz, Blocks *b)
   PetscFunctionBeginUser;
   b->nx = nx;
   b->nz = nz;
-  PetscCall(DMDACreate3d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX, nx, nx, nz, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 3, 1, NULL, NULL, NULL, &b->grid));
+  PetscCall(DMDACreate3d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX, nx,
+    nx, nz, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 3, 1, NULL, NULL, NULL, &b->grid));
   PetscCall(DMSetUp(b->grid));
   PetscCall(AssembleBlocks(b));
   PetscCall(AssembleTies(b));
@@ -229,14 +241,18 @@ static PetscErrorCode ReportMethod(Tao tao)
   PetscCall(TaoGetKSP(tao, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCAMGFGetCounts(pc, &counts));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s, %s, %s\n", counts.filter_applies ? "filtered" : "not filtered", count.direct ? "MUMPS on the whole matrix" : "no factorization of the whole matrix", shifted ? "a SHIFTED Hessian" : "no shift"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s, %s, %s\n", counts.filter_applies ? "filtered" : "not filtered",
+    count.direct ? "MUMPS on the whole matrix" : "no factorization of the whole matrix",
+    shifted ? "a SHIFTED Hessian" : "no shift"));
   PetscFunctionReturn(0);
 }
 
-/* Small blocks against LU; the ties are to cost no more than as many applications of the AMG again, of which there are 9 */
+/* Small blocks against LU; the ties are to cost no more than as many applications of the AMG again, of which there
+   are 9 */
 static PetscErrorCode TestBlocks(const char name[], PetscReal stiffer, PetscReal soften, PetscInt times)
 {
-  Blocks    b = {.stiffer = stiffer, .soften = soften, .times = 1}, repeated = {.stiffer = stiffer, .soften = soften, .times = times};
+  Blocks b        = {.stiffer = stiffer, .soften = soften, .times = 1},
+         repeated = {.stiffer = stiffer, .soften = soften, .times = times};
   Vec       x, exact;
   Tao       tao;
   PetscInt  tied, free;
@@ -296,7 +312,8 @@ static PetscErrorCode TestContradiction(void)
   PetscCall(SolveBlocks(&b, PETSC_TRUE, x, &tao, &applications));
   PetscCall(TaoGetConvergedReason(tao, &reason));
   PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "ties that contradict each other: %s, \"%.30s...\"\n", TaoConvergedReasons[reason], sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "ties that contradict each other: %s, \"%.30s...\"\n",
+    TaoConvergedReasons[reason], sentence));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(DestroyBlocks(&b));
@@ -330,7 +347,10 @@ static PetscErrorCode Measure(PetscInt nx, PetscInt nz, PetscReal stiffer)
     PetscCall(TaoIPFilterGetFallbacks(tao, &count));
     PetscCall(TaoGetSolutionStatus(tao, &its, NULL, NULL, NULL, NULL, NULL));
     PetscCall(Opening(&b, x, &opening));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%" PetscInt_FMT " unknowns, %" PetscInt_FMT " ties: %" PetscInt_FMT " steps, %" PetscInt_FMT " AMG applications, %.2f s of CPU, ties open by %g, MUMPS %" PetscInt_FMT "; %s\n", n, tied ? m : 0, its, applications, seconds, (double)opening, count.direct, sentence));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "%" PetscInt_FMT " unknowns, %" PetscInt_FMT " ties: %" PetscInt_FMT " steps, %" PetscInt_FMT
+      " AMG applications, %.2f s of CPU, ties open by %g, MUMPS %" PetscInt_FMT "; %s\n",
+      n, tied ? m : 0, its, applications, seconds, (double)opening, count.direct, sentence));
     PetscCall(TaoDestroy(&tao));
   }
   PetscCall(VecDestroy(&x));

@@ -1,4 +1,5 @@
-static char help[] = "Constitutive laws: stress and tangent against differences, small and rigid motions, bad parameters.\n\n";
+static char help[] =
+  "Constitutive laws: stress and tangent against differences, small and rigid motions, bad parameters.\n\n";
 
 #include <material.h>
 
@@ -54,7 +55,8 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, const MaterialMod
 }
 
 /* W = W_iso + kappa/2 theta^2, and theta's derivatives against differences */
-static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const MaterialModuli *m, const MaterialModuli *isochoric)
+static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const MaterialModuli *m,
+  const MaterialModuli *isochoric)
 {
   const PetscReal h = 1e-5, kappa = m->bulk;
   PetscReal       errors[3] = {0, 0, 0};
@@ -67,7 +69,8 @@ static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const Material
     theta = law->dilatation(H, C);
     PetscCall(PetscArrayzero(A, 81));
     law->curvature(kappa, H, A);
-    errors[0] = PetscMax(errors[0], PetscAbsReal(law->energy(m, H) - law->energy(isochoric, H) - 0.5 * kappa * theta * theta));
+    errors[0] =
+      PetscMax(errors[0], PetscAbsReal(law->energy(m, H) - law->energy(isochoric, H) - 0.5 * kappa * theta * theta));
     for (PetscInt j = 0; j < 9; ++j) {
       const PetscReal keep = H[j];
       PetscReal       forward, backward, Cf[9], Cb[9];
@@ -78,7 +81,8 @@ static PetscErrorCode CheckDilatationPart(const MaterialLaw *law, const Material
       backward  = law->dilatation(H, Cb);
       H[j]      = keep;
       errors[1] = PetscMax(errors[1], PetscAbsReal((forward - backward) / (2 * h) - C[j]));
-      for (PetscInt i = 0; i < 9; ++i) errors[2] = PetscMax(errors[2], PetscAbsReal(kappa * (Cf[i] - Cb[i]) / (2 * h) - A[9 * i + j]));
+      for (PetscInt i = 0; i < 9; ++i)
+        errors[2] = PetscMax(errors[2], PetscAbsReal(kappa * (Cf[i] - Cb[i]) / (2 * h) - A[9 * i + j]));
     }
   }
   PetscCall(Report("energy less its isochoric and volumetric parts", errors[0], 1e-14));
@@ -105,11 +109,13 @@ static PetscErrorCode CheckSmallStrains(const MaterialLaw *law, const MaterialMo
   }
   W = hooke->energy(m, H);
   PetscCall(Report("stress of strains of 1e-10 against Hooke's, relative", difference / scale, 1e-8));
-  PetscCall(Report("energy of strains of 1e-10 against Hooke's, relative", PetscAbsReal(law->energy(m, H) - W) / W, 1e-8));
+  PetscCall(
+    Report("energy of strains of 1e-10 against Hooke's, relative", PetscAbsReal(law->energy(m, H) - W) / W, 1e-8));
   PetscFunctionReturn(0);
 }
 
-/* At rest a law is without energy and stress, and its tangent is Hooke's; uniaxial strain e stresses it by (lambda + 2 mu) e and lambda e */
+/* At rest a law is without energy and stress, and its tangent is Hooke's; uniaxial strain e stresses it by (lambda +
+   2 mu) e and lambda e */
 static PetscErrorCode CheckRest(const MaterialLaw *law, const MaterialModuli *m)
 {
   const PetscReal small = 1e-7, H[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, strain[9] = {small, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -134,7 +140,8 @@ static PetscErrorCode CheckRest(const MaterialLaw *law, const MaterialModuli *m)
   PetscCall(Report("stress at rest", stress, 1e-14));
   PetscCall(Report("tangent at rest less Hooke's", difference, 1e-13));
   PetscCall(Report("axial stress of a small strain", PetscAbsReal(sigma[0] / small - (m->lambda + 2 * m->mu)), 1e-5));
-  PetscCall(Report("lateral stress of a small strain", PetscMax(PetscAbsReal(sigma[1] / small - m->lambda), PetscAbsReal(sigma[2] / small - m->lambda)), 1e-5));
+  PetscCall(Report("lateral stress of a small strain",
+    PetscMax(PetscAbsReal(sigma[1] / small - m->lambda), PetscAbsReal(sigma[2] / small - m->lambda)), 1e-5));
   PetscFunctionReturn(0);
 }
 
@@ -155,7 +162,8 @@ static PetscErrorCode CheckRotation(const MaterialLaw *law, const MaterialModuli
   law->cauchy(m, H, sigma);
   law->cauchy(m, RH, turned);
   PetscCall(Report("energy changed by a rotation", PetscAbsReal(law->energy(m, H) - law->energy(m, RH)), 1e-14));
-  PetscCall(Report("turned normal stress", PetscAbsReal(turned[0] - (c * c * sigma[0] + s * s * sigma[1] - 2 * s * c * sigma[3])), 1e-13));
+  PetscCall(Report("turned normal stress",
+    PetscAbsReal(turned[0] - (c * c * sigma[0] + s * s * sigma[1] - 2 * s * c * sigma[3])), 1e-13));
   PetscCall(Report("turned shear stress", PetscAbsReal(turned[5] - (c * sigma[5] - s * sigma[4])), 1e-13));
   PetscFunctionReturn(0);
 }
@@ -171,27 +179,33 @@ static PetscReal PressureSaintVenant(PetscReal kappa, PetscReal a)
   return 1.5 * kappa * (a * a - 1) / a;
 }
 
-static PetscErrorCode CheckDilation(const MaterialLaw *law, const MaterialModuli *m, PetscReal (*pressure)(PetscReal, PetscReal))
+static PetscErrorCode CheckDilation(const MaterialLaw *law, const MaterialModuli *m,
+  PetscReal (*pressure)(PetscReal, PetscReal))
 {
-  const PetscReal a = 1.3, kappa = m->bulk, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1}, inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
-  PetscReal       sigma[6], P[9], A[81], error                                                        = 0;
-  PetscBool       refused;
+  const PetscReal a = 1.3, kappa = m->bulk, H[9] = {a - 1, 0, 0, 0, a - 1, 0, 0, 0, a - 1},
+                  inside[9] = {-1.1, 0, 0, 0, 0, 0, 0, 0, 0};
+  PetscReal sigma[6], P[9], A[81], error = 0;
+  PetscBool refused;
 
   PetscFunctionBeginUser;
   law->cauchy(m, H, sigma);
   for (PetscInt k = 0; k < 6; ++k) error = PetscMax(error, PetscAbsReal(sigma[k] - (k < 3 ? pressure(kappa, a) : 0)));
   PetscCall(Report("pressure of a dilation", error, 1e-13));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", law->energy(m, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n",
+    law->energy(m, inside) > 1e300 ? "unbounded energy" : "BOUNDED ENERGY"));
   refused = (PetscBool)(!law->stress(m, inside, P) && !law->tangent(m, inside, A) && !law->cauchy(m, inside, sigma));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n", refused ? "no stress, no tangent" : "STRESS OR TANGENT"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  turned inside out: %s\n",
+    refused ? "no stress, no tangent" : "STRESS OR TANGENT"));
   PetscFunctionReturn(0);
 }
 
-/* A pull along one of the axes strains it by 1/E and the others by Poisson's ratios; a shear in a plane of two by 1/(2 G) */
+/* A pull along one of the axes strains it by 1/E and the others by Poisson's ratios; a shear in a plane of two by
+   1/(2 G) */
 static PetscErrorCode CheckOrthotropic(const Material *material, const PetscReal axes[3][3])
 {
   const PetscReal   *E = material->youngs, *nu = material->poissons;
-  const PetscReal    S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]}, {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
+  const PetscReal    S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]},
+       {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
   const MaterialLaw *law;
   MaterialModuli     m;
   PetscReal          pull = 0, shear = 0;
@@ -243,7 +257,8 @@ static PetscErrorCode CheckParameters(PetscReal young, PetscReal poisson)
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   ierr = MaterialGetLame(&material, &lambda, &mu);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "E %g, nu %g: %s\n", (double)young, (double)poisson, ierr ? "refused" : "accepted"));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "E %g, nu %g: %s\n", (double)young, (double)poisson, ierr ? "refused" : "accepted"));
   if (!ierr) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  lambda %g, mu %g\n", (double)lambda, (double)mu));
   PetscFunctionReturn(0);
 }
@@ -254,8 +269,16 @@ static const Material materials[] = {
   {.type = MATERIAL_NEOHOOKEAN, .young = 2.6, .poisson = 0.3},
   {.type = MATERIAL_SAINT_VENANT, .young = 2.6, .poisson = 0.3},
   {.type = MATERIAL_MOONEY_RIVLIN, .c10 = 0.3, .c01 = 0.2, .bulk = 13. / 6},
-  {.type = MATERIAL_ORTHOTROPIC, .youngs = {2.6, 2.6, 2.6}, .poissons = {0.3, 0.3, 0.3}, .shears = {1, 1, 1}, .axes = {{1, 2, 2}, {-2, 0.5, 3}}},
-  {.type = MATERIAL_ORTHOTROPIC, .youngs = {12, 1.1, 0.7}, .poissons = {0.35, 0.4, 0.3}, .shears = {0.8, 0.1, 0.6}, .axes = {{1, 2, 2}, {2, 1, -2}}},
+  {.type      = MATERIAL_ORTHOTROPIC,
+    .youngs   = {2.6, 2.6, 2.6},
+    .poissons = {0.3, 0.3, 0.3},
+    .shears   = {1, 1, 1},
+    .axes     = {{1, 2, 2}, {-2, 0.5, 3}}},
+  {.type      = MATERIAL_ORTHOTROPIC,
+    .youngs   = {12, 1.1, 0.7},
+    .poissons = {0.35, 0.4, 0.3},
+    .shears   = {0.8, 0.1, 0.6},
+    .axes     = {{1, 2, 2}, {2, 1, -2}}},
 };
 static const PetscReal turned[3][3] = {{1. / 3, 2. / 3, 2. / 3}, {2. / 3, 1. / 3, -2. / 3}, {-2. / 3, 2. / 3, -1. / 3}};
 
@@ -270,7 +293,8 @@ int main(int argc, char **argv)
 
     PetscCall(MaterialGetModuli(material, &m, &isochoric));
     PetscCall(MaterialGetLaw(material, &law));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[material->type], law->constant ? ", constant tangent" : ""));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", MaterialTypes[material->type],
+      law->constant ? ", constant tangent" : ""));
     PetscCall(CheckDerivatives(law, &m));
     PetscCall(CheckDilatationPart(law, &m, &isochoric));
     if (t == 5) break;
@@ -279,14 +303,20 @@ int main(int argc, char **argv)
     PetscCall(CheckSmallStrains(law, &m));
     if (!law->constant) {
       PetscCall(CheckRotation(law, &m));
-      PetscCall(CheckDilation(law, &m, material->type == MATERIAL_SAINT_VENANT ? PressureSaintVenant : PressureNeoHookean));
+      PetscCall(
+        CheckDilation(law, &m, material->type == MATERIAL_SAINT_VENANT ? PressureSaintVenant : PressureNeoHookean));
     }
   }
   PetscCall(CheckOrthotropic(&materials[5], turned));
-  PetscCall(CheckRefused("c01 below 0", &(Material){.type = MATERIAL_MOONEY_RIVLIN, .c10 = 1, .c01 = -0.1, .bulk = 10}));
+  PetscCall(
+    CheckRefused("c01 below 0", &(Material){.type = MATERIAL_MOONEY_RIVLIN, .c10 = 1, .c01 = -0.1, .bulk = 10}));
   PetscCall(CheckRefused("no bulk modulus", &(Material){.type = MATERIAL_MOONEY_RIVLIN, .c10 = 1, .c01 = 0.1}));
-  PetscCall(CheckRefused("Poisson's ratio above (E1/E2)^(1/2)", &(Material){.type = MATERIAL_ORTHOTROPIC, .youngs = {1, 4, 1}, .poissons = {0.51, 0, 0}, .shears = {1, 1, 1}}));
-  PetscCall(CheckRefused("axes along one line", &(Material){.type = MATERIAL_ORTHOTROPIC, .youngs = {1, 1, 1}, .shears = {1, 1, 1}, .axes = {{1, 2, 0}, {-2, -4, 0}}}));
+  PetscCall(CheckRefused("Poisson's ratio above (E1/E2)^(1/2)",
+    &(Material){.type = MATERIAL_ORTHOTROPIC, .youngs = {1, 4, 1}, .poissons = {0.51, 0, 0}, .shears = {1, 1, 1}}));
+  PetscCall(CheckRefused("axes along one line", &(Material){.type = MATERIAL_ORTHOTROPIC,
+                                                  .youngs         = {1, 1, 1},
+                                                  .shears         = {1, 1, 1},
+                                                  .axes           = {{1, 2, 0}, {-2, -4, 0}}}));
   PetscCall(CheckParameters(2.6, 0.3));
   PetscCall(CheckParameters(1, 0));
   PetscCall(CheckParameters(1, 0.499));

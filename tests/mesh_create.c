@@ -1,4 +1,5 @@
-static char help[] = "Mesh of two boxes: sizes, faces, outward facets, labels of shared vertices, balance of the partition.\n\n";
+static char help[] =
+  "Mesh of two boxes: sizes, faces, outward facets, labels of shared vertices, balance of the partition.\n\n";
 
 #include "elasticity_problem.h"
 #include <petscsf.h>
@@ -35,12 +36,14 @@ static PetscErrorCode CheckFacets(DM dm, const char face[], PetscInt axis, Petsc
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 1, MPIU_INT64, MPI_SUM, PETSC_COMM_WORLD));
   other = PetscAbsReal(area[(axis + 1) % 3]) + PetscAbsReal(area[(axis + 2) % 3]);
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  area %g outward%s", (double)(sign * area[axis]), other > 1e-12 ? ", NOT flat" : ""));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  area %g outward%s", (double)(sign * area[axis]),
+    other > 1e-12 ? ", NOT flat" : ""));
   PetscFunctionReturn(0);
 }
 
 /* The face's vertices are exactly the local ones that lie on it, also where no facet of it is on this rank */
-static PetscErrorCode CheckVertices(DM dm, const char face[], const SceneBody *body, PetscInt axis, PetscReal plane, PetscInt *wrong)
+static PetscErrorCode CheckVertices(DM dm, const char face[], const SceneBody *body, PetscInt axis, PetscReal plane,
+  PetscInt *wrong)
 {
   IS       vertices;
   PetscInt vstart, vend;
@@ -55,7 +58,8 @@ static PetscErrorCode CheckVertices(DM dm, const char face[], const SceneBody *b
     PetscBool on = PETSC_TRUE;
 
     PetscCall(MeshGetVertexCoordinates(dm, 1, &v, p));
-    for (PetscInt d = 0; d < 3; ++d) on = (on && p[0][d] > body->lower[d] - 1e-10 && p[0][d] < body->upper[d] + 1e-10) ? PETSC_TRUE : PETSC_FALSE;
+    for (PetscInt d = 0; d < 3; ++d)
+      on = (on && p[0][d] > body->lower[d] - 1e-10 && p[0][d] < body->upper[d] + 1e-10) ? PETSC_TRUE : PETSC_FALSE;
     on = (on && PetscAbsReal(p[0][axis] - plane) < 1e-10) ? PETSC_TRUE : PETSC_FALSE;
     PetscCall(ISLocate(vertices, v, &place));
     if (on != (place >= 0)) ++*wrong;
@@ -81,7 +85,10 @@ static PetscErrorCode CheckFaces(DM dm, const SceneBody *body)
     PetscCall(MeshGetFaceDofs(dm, face, 1, &rows));
     PetscCall(ISGetSize(rows, &ndofs));
     PetscCall(ISDestroy(&rows));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  facets %" PetscInt64_FMT "  rows of one component %" PetscInt_FMT "  vertices wrongly on or off it %" PetscInt_FMT "\n", nfacets, ndofs, wrong));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "  facets %" PetscInt64_FMT "  rows of one component %" PetscInt_FMT
+      "  vertices wrongly on or off it %" PetscInt_FMT "\n",
+      nfacets, ndofs, wrong));
   }
   PetscFunctionReturn(0);
 }
@@ -100,20 +107,23 @@ static PetscErrorCode CheckCells(DM dm, PetscInt nbodies)
     PetscReal p[8][3], e[3][3], det;
 
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &body));
-    PetscCheck(body >= 0 && body < nbodies, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Cell %" PetscInt_FMT " has body %" PetscInt_FMT, c, body);
+    PetscCheck(body >= 0 && body < nbodies, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "Cell %" PetscInt_FMT " has body %" PetscInt_FMT, c, body);
     ++counts[body];
     PetscCall(MeshGetCellVertices(dm, c, v));
     PetscCall(MeshGetVertexCoordinates(dm, 8, v, p));
     for (PetscInt k = 0; k < 3; ++k) {
       for (PetscInt d = 0; d < 3; ++d) e[k][d] = p[1 << k][d] - p[0][d];
     }
-    det = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    det = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     volume += det;
     smallest = PetscMin(smallest, det);
     for (PetscInt d = 0; d < 3; ++d) {
       const PetscReal opposite = p[0][d] + e[0][d] + e[1][d] + e[2][d];
 
-      PetscCheck(PetscAbsReal(p[7][d] - opposite) < 1e-10, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Cell %" PetscInt_FMT " is not in tensor order", c);
+      PetscCheck(PetscAbsReal(p[7][d] - opposite) < 1e-10, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+        "Cell %" PetscInt_FMT " is not in tensor order", c);
     }
   }
   fewest = most = end - start;
@@ -123,8 +133,11 @@ static PetscErrorCode CheckCells(DM dm, PetscInt nbodies)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "cells %" PetscInt_FMT " + %" PetscInt_FMT ", volume %g, %s\n", counts[0], counts[1], (double)volume, smallest > 0 ? "all of positive volume" : "SOME TURNED INSIDE OUT"));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "partition: %s\n", fewest > 0 && most < 1.1 * (counts[0] + counts[1]) / size ? "no rank has 10% more cells than its share" : "OUT OF BALANCE"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "cells %" PetscInt_FMT " + %" PetscInt_FMT ", volume %g, %s\n", counts[0],
+    counts[1], (double)volume, smallest > 0 ? "all of positive volume" : "SOME TURNED INSIDE OUT"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "partition: %s\n",
+    fewest > 0 && most < 1.1 * (counts[0] + counts[1]) / size ? "no rank has 10% more cells than its share"
+                                                              : "OUT OF BALANCE"));
   PetscFunctionReturn(0);
 }
 
@@ -149,7 +162,8 @@ static PetscErrorCode CheckInterface(DM dm, const SceneBody bodies[], PetscInt r
     PetscCall(PetscSFGetGraph(sf, NULL, &shared[m], NULL, NULL));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, shared, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "interface: %s\n", size == 1 || shared[0] < shared[1] ? "smaller than that of slices" : "NOT smaller than that of slices"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "interface: %s\n",
+    size == 1 || shared[0] < shared[1] ? "smaller than that of slices" : "NOT smaller than that of slices"));
   PetscCall(DMDestroy(&simple));
   PetscFunctionReturn(0);
 }

@@ -45,7 +45,8 @@ static PetscErrorCode BadBodies(void)
 static PetscErrorCode BadQueries(void)
 {
   SceneBody  bodies[2];
-  Material   materials[2] = {{.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3}, {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.5}};
+  Material   materials[2] = {{.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3},
+      {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.5}};
   DM         dm;
   IS         is;
   Elasticity e;
@@ -85,11 +86,13 @@ typedef struct {
 
 static PetscErrorCode BadShapes(void)
 {
-  static char    shell[] = "shell", tube[] = "tube", prism[] = "prism", egg[] = "egg", ball[] = "ball", box[] = "box", file[] = "file";
+  static char shell[] = "shell", tube[] = "tube", prism[] = "prism", egg[] = "egg", ball[] = "ball", box[] = "box",
+              file[]   = "file";
   const BadShape bad[] = {
     {"box graded by -1", {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, -1, 1}}},
     {"box graded by NaN", {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, (PetscReal)NAN, 1}}},
-    {"too many even cells", {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, 4, 1}, .even = {1, 3, 1}}},
+    {"too many even cells",
+      {.name = box, .upper = {1, 1, 1}, .cells = {1, 2, 1}, .grading = {1, 4, 1}, .even = {1, 3, 1}}},
     {"radii swapped", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {2, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"inner radius 0", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {0, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"angle 0", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {90, 90}, .extent = {0, 1}})},
@@ -97,30 +100,45 @@ static PetscErrorCode BadShapes(void)
     {"extent backwards", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {1, 0}})},
     {"-3 cells around", TUBE(.cells = {1, -3, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
     {"too few cells around", TUBE(.cells = {1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 180}, .extent = {0, 1}})},
-    {"tube graded by -1", TUBE(.cells = {1, 2, 1}, .grading = {-1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
-    {"huge tube", TUBE(.cells = {1000000, 1000000, 1000000}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
-    {"depth along the axis", PRISM(.cells = {2, 2, 1}, .layers = 1, .ellipse = {.axis = 2, .depth = 5, .half = -1, .semi_axes = {1, 1}, .extent = {0, 1}})},
-    {"half along the depth", PRISM(.cells = {2, 2, 1}, .layers = 1, .ellipse = {.axis = 2, .depth = 0, .half = 3, .semi_axes = {1, 1}, .extent = {0, 1}})},
-    {"semi-axis 0", PRISM(.cells = {2, 2, 1}, .layers = 1, .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 0}, .extent = {0, 1}})},
-    {"no layers", PRISM(.cells = {2, 2, 1}, .layers = 0, .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 1}, .extent = {0, 1}})},
-    {"no ring", PRISM(.cells = {2, 2, 0}, .layers = 1, .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 1}, .extent = {0, 1}})},
+    {"tube graded by -1",
+      TUBE(.cells = {1, 2, 1}, .grading = {-1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
+    {"huge tube",
+      TUBE(.cells = {1000000, 1000000, 1000000}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
+    {"depth along the axis", PRISM(.cells = {2, 2, 1}, .layers = 1,
+                               .ellipse = {.axis = 2, .depth = 5, .half = -1, .semi_axes = {1, 1}, .extent = {0, 1}})},
+    {"half along the depth", PRISM(.cells = {2, 2, 1}, .layers = 1,
+                               .ellipse = {.axis = 2, .depth = 0, .half = 3, .semi_axes = {1, 1}, .extent = {0, 1}})},
+    {"semi-axis 0", PRISM(.cells = {2, 2, 1}, .layers = 1,
+                      .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 0}, .extent = {0, 1}})},
+    {"no layers", PRISM(.cells = {2, 2, 1}, .layers = 0,
+                    .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 1}, .extent = {0, 1}})},
+    {"no ring", PRISM(.cells = {2, 2, 0}, .layers = 1,
+                  .ellipse = {.axis = 2, .depth = 0, .half = 4, .semi_axes = {1, 1}, .extent = {0, 1}})},
     {"spheres swapped", SHELL(.octant = {.inner = {.radius = 2}, .outer = {.radius = 1}})},
     {"spheres that cross", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 1.1, .center = {-0.5, 0, 0}}})},
-    {"cap within the inner sphere", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2}, .cap = {.radius = 0.5}})},
+    {"cap within the inner sphere",
+      SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2}, .cap = {.radius = 0.5}})},
     {"corner outside", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2, .center = {3, 0, 0}}})},
     {"radius 0", SHELL(.octant = {.inner = {.radius = 0}, .outer = {.radius = 1}})},
     {"sign 2", SHELL(.octant = {.signs = {1, 2, 1}, .inner = {.radius = 1}, .outer = {.radius = 2}})},
     {"layers graded by 1e9", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2}, .layer_grading = 1e9})},
-    {"semi-axes that cross", {.name = egg, .shape = SHAPE_SPHEROID_SHELL, .cells = {2, 2, 2}, .layers = 1, .octant = {.inner_axes = {1, 1, 1}, .outer_axes = {2, 0.9, 2}}}},
-    {"ball of radius -1", {.name = ball, .shape = SHAPE_BALL, .cells = {2, 2, 2}, .layers = 1, .octant = {.outer = {.radius = -1}}}},
-    {"ball without a core", {.name = ball, .shape = SHAPE_BALL, .cells = {2, 0, 2}, .layers = 1, .octant = {.outer = {.radius = 1}}}},
+    {"semi-axes that cross", {.name    = egg,
+                               .shape  = SHAPE_SPHEROID_SHELL,
+                               .cells  = {2, 2, 2},
+                               .layers = 1,
+                               .octant = {.inner_axes = {1, 1, 1}, .outer_axes = {2, 0.9, 2}}}},
+    {"ball of radius -1",
+      {.name = ball, .shape = SHAPE_BALL, .cells = {2, 2, 2}, .layers = 1, .octant = {.outer = {.radius = -1}}}},
+    {"ball without a core",
+      {.name = ball, .shape = SHAPE_BALL, .cells = {2, 0, 2}, .layers = 1, .octant = {.outer = {.radius = 1}}}},
     {"no mesh file", {.name = file, .shape = SHAPE_GMSH}},
     {"unknown shape", {.name = file, .shape = (BodyShape)77}},
   };
   DM dm;
 
   PetscFunctionBeginUser;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(bad); ++i) EXPECT(bad[i].name, MeshCreate(PETSC_COMM_WORLD, 1, &bad[i].body, 0, &dm));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(bad); ++i)
+    EXPECT(bad[i].name, MeshCreate(PETSC_COMM_WORLD, 1, &bad[i].body, 0, &dm));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
-static char help[] = "Gmsh files: a sound one, and every way in which one is not; one sentence each, the same on every rank, and no hang.\n\n";
+static char help[] = "Gmsh files: a sound one, and every way in which one is not; one sentence each, the same on every "
+                     "rank, and no hang.\n\n";
 
 #include <mesh.h>
 #include "attempt.h"
@@ -13,39 +14,54 @@ static const char sound[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
                             "1 3 2 2 1 1 4 8 5\n2 3 2 3 2 9 10 12 11\n"
                             "3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7\n$EndElements\n";
 
-static const char tets[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                           "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                           "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 1 2 3 4\n$EndElements\n";
+static const char tets[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+  "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 1 2 3 4\n$EndElements\n";
 
-static const char inside_out[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                                 "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                                 "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 2 1 3 4\n$EndElements\n";
+static const char inside_out[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+  "$Elements\n2\n1 2 2 2 1 1 2 3\n2 4 2 1 1 2 1 3 4\n$EndElements\n";
 
 /* The same, curved: the edge from 2 to 3 bulges */
-static const char tets10[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                             "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .6 .6 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n"
-                             "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
+static const char tets10[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .6 .6 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 "
+  ".5\n$EndNodes\n"
+  "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
 
 /* Sound at its nodes, inside out between them, where it is integrated */
-static const char inside_out10[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                                   "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .147 .316 -.144\n6 .67 .869 .09\n7 .153 .706 -.301\n8 .398 -.185 .194\n9 .02 .143 .425\n10 .728 .267 .442\n$EndNodes\n"
-                                   "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
+static const char inside_out10[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .147 .316 -.144\n6 .67 .869 .09\n7 .153 .706 -.301\n8 .398 -.185 "
+  ".194\n9 .02 .143 .425\n10 .728 .267 .442\n$EndNodes\n"
+  "$Elements\n2\n1 9 2 2 1 1 2 3 5 6 7\n2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
 
 /* A tetrahedron on a cube, of one volume */
-static const char both[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                           "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n$EndNodes\n"
-                           "$Elements\n3\n1 3 2 2 1 1 4 8 5\n2 5 2 1 1 1 2 3 4 5 6 7 8\n3 4 2 1 1 5 6 7 9\n$EndElements\n";
+static const char both[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .5 2\n$EndNodes\n"
+  "$Elements\n3\n1 3 2 2 1 1 4 8 5\n2 5 2 1 1 1 2 3 4 5 6 7 8\n3 4 2 1 1 5 6 7 9\n$EndElements\n";
 
-static const char hex20[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                            "$Nodes\n20\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n$EndNodes\n"
-                            "$Elements\n2\n2 16 2 2 1 1 4 8 5 10 16 18 11\n1 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n";
+static const char hex20[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n20\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 "
+  "2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n$EndNodes\n"
+  "$Elements\n2\n2 16 2 2 1 1 4 8 5 10 16 18 11\n1 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 "
+  "20\n$EndElements\n";
 
-static const char hex27[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                            "$Nodes\n27\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n21 1 1 0\n22 1 0 1\n23 0 1 1\n24 2 1 1\n25 1 2 1\n26 1 1 2\n27 1 1 1\n$EndNodes\n"
-                            "$Elements\n2\n2 10 2 2 1 1 4 8 5 10 16 18 11 23\n1 12 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27\n$EndElements\n";
+static const char hex27[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n27\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 0 0 2\n6 2 0 2\n7 2 2 2\n8 0 2 2\n9 1 0 0\n10 0 1 0\n11 0 0 1\n12 "
+  "2 1 0\n13 2 0 1\n14 1 2 0\n15 2 2 1\n16 0 2 1\n17 1 0 2\n18 0 1 2\n19 2 1 2\n20 1 2 2\n21 1 1 0\n22 1 0 1\n23 0 1 "
+  "1\n24 2 1 1\n25 1 2 1\n26 1 1 2\n27 1 1 1\n$EndNodes\n"
+  "$Elements\n2\n2 10 2 2 1 1 4 8 5 10 16 18 11 23\n1 12 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 "
+  "22 23 24 25 26 27\n$EndElements\n";
 
-static const char flat[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
-                           "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 2 1 1 2 3 4\n$EndElements\n";
+static const char flat[] =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"bar\"\n2 2 \"left\"\n$EndPhysicalNames\n"
+  "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 2 1 1 2 3 4\n$EndElements\n";
 
 typedef struct {
   const char *name;
@@ -76,7 +92,8 @@ static const Mistake mistakes[] = {
   {"inverted tetrahedron", sound, inside_out, HELD},
   {"10-node tetrahedron, inside out between its nodes", sound, inside_out10, HELD},
   {"a tetrahedron among hexahedra", sound, both, HELD},
-  {"a prism among hexahedra", "2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7", "2 3 2 3 2 2 9 11 6\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 6 2 1 1 2 9 3 6 11 7", HELD},
+  {"a prism among hexahedra", "2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7",
+    "2 3 2 3 2 2 9 11 6\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 6 2 1 1 2 9 3 6 11 7", HELD},
   {"20-node hexahedra", sound, hex20, HELD},
   {"27-node hexahedra", sound, hex27, HELD},
   {"no volumes at all", sound, flat, HELD},
@@ -87,14 +104,19 @@ static const Mistake mistakes[] = {
   {"node twice in an element", "11 12 7\n", "11 12 11\n", HELD},
   {"element given twice", "$Elements\n4\n", "$Elements\n5\n5 5 2 1 1 2 9 10 3 6 11 12 7\n", HELD},
   {"two nodes at one place", "12\n1 0 0 0\n", "13\n13 1 1 1\n1 0 0 0\n", HELD},
-  {"two nodes at one place, used", "12 2 1 1\n$EndNodes\n$Elements\n4\n1 3 2 2 1 1 4 8 5\n2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 12 7",
-   "13 1 1 1\n$EndNodes\n$Elements\n3\n1 3 2 2 1 1 4 8 5\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 13 7", HELD},
+  {"two nodes at one place, used",
+    "12 2 1 1\n$EndNodes\n$Elements\n4\n1 3 2 2 1 1 4 8 5\n2 3 2 3 2 9 10 12 11\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 "
+    "2 9 10 3 6 11 12 7",
+    "13 1 1 1\n$EndNodes\n$Elements\n3\n1 3 2 2 1 1 4 8 5\n3 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 2 9 10 3 6 11 13 7",
+    HELD},
   {"part of an unknown face", "bar", "bar", "faces:\n  - part: {of: bar.top}\n" HELD},
   {"part of an unknown body", "bar", "bar", "faces:\n  - part: {of: rod.left}\n" HELD},
   {"empty part", "bar", "bar", "faces:\n  - part: {of: bar.left, lower: [-inf, 2, -inf]}\n" HELD},
   {"part with a taken name", "bar", "bar", "faces:\n  - right: {of: bar.left}\n" HELD},
   {"bound that is no number", "bar", "bar", "faces:\n  - part: {of: bar.left, lower: [-inf, low, -inf]}\n" HELD},
-  {"part that holds the body", "bar", "bar", "faces:\n  - part: {of: bar.left, upper: [0, 1, inf]}\ndisplacements:\n  - wall: {face: bar.part, value: [0, 0, 0]}\n"},
+  {"part that holds the body", "bar", "bar",
+    "faces:\n  - part: {of: bar.left, upper: [0, 1, inf]}\ndisplacements:\n  - wall: {face: bar.part, value: [0, 0, "
+    "0]}\n"},
   {"not held", "bar", "bar", "displacements:\n  - wall: {face: bar.left, value: [0, free, free]}\n"},
 };
 

@@ -1,4 +1,5 @@
-static char help[] = "Nodes of order 2 on curved bodies: volumes of fourth order, the same number of nodes on any number of ranks.\n\n";
+static char help[] =
+  "Nodes of order 2 on curved bodies: volumes of fourth order, the same number of nodes on any number of ranks.\n\n";
 
 #include "elasticity_problem.h"
 #include "elasticity_point.h"
@@ -59,7 +60,8 @@ int main(int argc, char **argv)
     PetscCall(DMDestroy(&dm));
   }
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const PetscReal first = PetscAbsReal(volume[1][b] - volume[0][b]), second = PetscAbsReal(volume[2][b] - volume[1][b]);
+    const PetscReal first  = PetscAbsReal(volume[1][b] - volume[0][b]),
+                    second = PetscAbsReal(volume[2][b] - volume[1][b]);
 
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: ", scene->bodies[b].name));
     if (first < 1e-12 * volume[2][b]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume exact\n"));

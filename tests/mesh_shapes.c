@@ -1,4 +1,5 @@
-static char help[] = "Every built-in shape: sizes, faces, parts of faces; vertices on the true surfaces and volumes under refinement, with and without facets kept.\n\n";
+static char help[] = "Every built-in shape: sizes, faces, parts of faces; vertices on the true surfaces and volumes "
+                     "under refinement, with and without facets kept.\n\n";
 
 #include <mesh.h>
 #include "elasticity_problem.h"
@@ -198,7 +199,10 @@ static PetscErrorCode Volumes(DM dm, PetscInt nbodies, PetscReal volume[])
           for (PetscInt d = 0; d < 3; ++d) e[k][d] += derivative * PetscRealPart(x[offset + d]);
         }
       }
-      volume[body] += (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) / 8;
+      volume[body] +=
+        (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+        8;
     }
   }
   PetscCall(VecRestoreArrayRead(coordinates, &x));
@@ -214,14 +218,17 @@ static PetscReal Cap(PetscReal radius, PetscReal h)
 
 static PetscErrorCode CheckVolumes(Scene scene, PetscInt levels)
 {
-  const PetscReal exact[] = {6, PETSC_PI / 4 * (9 - 2.6 * 2.6) * 5.2, 270. / 360 * PETSC_PI * 3, PETSC_PI / 4 * 0.7 * 2.5, PETSC_PI / 4, PETSC_PI / 2, PETSC_PI / 6 * (1 - 0.512),
-                             /* the sphere of 0.8 up to the crease, the cap beyond, less the inner sphere */
-                             PETSC_PI / 4 * (0.64 * 0.5125 - 0.5125 * 0.5125 * 0.5125 / 3) + Cap(0.85, 0.2625) - Cap(0.7, 0.625), PETSC_PI / 6 * (0.8 * 0.8 * 1.2 - 0.6 * 0.7 * 0.8), PETSC_PI / 6 * 8};
+  const PetscReal exact[] = {6, PETSC_PI / 4 * (9 - 2.6 * 2.6) * 5.2, 270. / 360 * PETSC_PI * 3,
+    PETSC_PI / 4 * 0.7 * 2.5, PETSC_PI / 4, PETSC_PI / 2, PETSC_PI / 6 * (1 - 0.512),
+    /* the sphere of 0.8 up to the crease, the cap beyond, less the inner sphere */
+    PETSC_PI / 4 * (0.64 * 0.5125 - 0.5125 * 0.5125 * 0.5125 / 3) + Cap(0.85, 0.2625) - Cap(0.7, 0.625),
+    PETSC_PI / 6 * (0.8 * 0.8 * 1.2 - 0.6 * 0.7 * 0.8), PETSC_PI / 6 * 8};
   PetscReal       volume[2][PETSC_STATIC_ARRAY_LENGTH(exact)], first[PETSC_STATIC_ARRAY_LENGTH(exact)];
   const PetscInt  n = scene->nbodies;
 
   PetscFunctionBeginUser;
-  PetscCheck(n == (PetscInt)PETSC_STATIC_ARRAY_LENGTH(exact), PETSC_COMM_WORLD, PETSC_ERR_PLIB, "The scene has %" PetscInt_FMT " bodies", n);
+  PetscCheck(n == (PetscInt)PETSC_STATIC_ARRAY_LENGTH(exact), PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+    "The scene has %" PetscInt_FMT " bodies", n);
   for (PetscInt curved = 1; curved >= 0; --curved) {
     for (PetscInt b = 0; b < n; ++b) scene->bodies[b].curved = curved ? PETSC_TRUE : PETSC_FALSE;
     for (PetscInt l = curved ? levels - 1 : levels; l <= levels; ++l) {
@@ -240,13 +247,19 @@ static PetscErrorCode CheckVolumes(Scene scene, PetscInt levels)
       PetscCall(DMDestroy(&dm));
     }
     for (PetscInt b = 0; b < n; ++b) {
-      const PetscReal error = PetscAbsReal(volume[1][b] - exact[b]), ratio = PetscAbsReal(volume[0][b] - exact[b]) / error;
+      const PetscReal error = PetscAbsReal(volume[1][b] - exact[b]),
+                      ratio = PetscAbsReal(volume[0][b] - exact[b]) / error;
 
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: ", scene->bodies[b].name));
-      if (!curved) PetscCall(ProblemReport("facets kept, volume changes", PetscAbsReal(volume[1][b] - first[b]) / first[b], 1e-12));
+      if (!curved)
+        PetscCall(
+          ProblemReport("facets kept, volume changes", PetscAbsReal(volume[1][b] - first[b]) / first[b], 1e-12));
       else if (error < 1e-12 * exact[b]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume exact\n"));
-      else if (ratio > 3.6 && ratio < 4.6 && error < 0.02 * exact[b]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume of second order\n"));
-      else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume %g instead of %g, error falls by %g\n", (double)volume[1][b], (double)exact[b], (double)ratio));
+      else if (ratio > 3.6 && ratio < 4.6 && error < 0.02 * exact[b])
+        PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume of second order\n"));
+      else
+        PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume %g instead of %g, error falls by %g\n", (double)volume[1][b],
+          (double)exact[b], (double)ratio));
     }
   }
   PetscFunctionReturn(0);
@@ -283,7 +296,8 @@ static PetscErrorCode CheckSizes(Scene scene, PetscInt refine)
       PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &nfacets, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
       PetscCall(MeshGetFaceDofs(dm, name, 0, &rows));
       PetscCall(ISGetSize(rows, &nrows));
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: facets %" PetscInt_FMT ", vertices %" PetscInt_FMT "\n", name, nfacets, nrows));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: facets %" PetscInt_FMT ", vertices %" PetscInt_FMT "\n", name,
+        nfacets, nrows));
       PetscCall(ISDestroy(&facets));
       PetscCall(ISDestroy(&rows));
     }
@@ -340,12 +354,9 @@ int main(int argc, char **argv)
       args: -scene ${AMGF_DIR}/tests/mesh_beam_sphere.yaml -levels 1
       output_file: output/mesh_shapes_beam_sphere_2.out
 
-   # two touching bodies from one Gmsh file beside a box: no common nodes, and no surface of the file on a body it does not bound
-   test:
-      suffix: gmsh
-      nsize: {{1 2 3}}
-      args: -scene ${AMGF_DIR}/tests/mesh_gmsh.yaml -levels 1
-      output_file: output/mesh_shapes_gmsh.out
+   # two touching bodies from one Gmsh file beside a box: no common nodes, and no surface of the file on a body it does
+not bound test: suffix: gmsh nsize: {{1 2 3}} args: -scene ${AMGF_DIR}/tests/mesh_gmsh.yaml -levels 1 output_file:
+output/mesh_shapes_gmsh.out
 
    test:
       suffix: ironing

@@ -71,7 +71,8 @@ static PetscErrorCode SetStress(DM dm, PetscReal stress[])
   PetscFunctionReturn(0);
 }
 
-/* Points of the first pair at the owned vertices of the upper body's lower face; at those with y = 0 also one of the second pair */
+/* Points of the first pair at the owned vertices of the upper body's lower face; at those with y = 0 also one of the
+   second pair */
 static PetscErrorCode SetContact(DM dm, StepState *state, ContactPoint points[])
 {
   IS              is;
@@ -93,7 +94,13 @@ static PetscErrorCode SetContact(DM dm, StepState *state, ContactPoint points[])
     for (PetscInt repeat = 0; repeat < (x[1] == 0 ? 2 : 1); ++repeat) {
       const PetscReal area = 1.0 + (PetscReal)repeat;
 
-      points[state->npoints++] = (ContactPoint){.pair = repeat, .vertex = vertices[i], .pressure = area * (1 + x[0]), .area = area, .gap = repeat - x[0], .force = {x[0], 2, area}, .closed = (PetscBool)(repeat && x[0] > 1)};
+      points[state->npoints++] = (ContactPoint){.pair = repeat,
+        .vertex                                       = vertices[i],
+        .pressure                                     = area * (1 + x[0]),
+        .area                                         = area,
+        .gap                                          = repeat - x[0],
+        .force                                        = {x[0], 2, area},
+        .closed                                       = (PetscBool)(repeat && x[0] > 1)};
     }
   }
   PetscCall(ISRestoreIndices(is, &vertices));

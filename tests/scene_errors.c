@@ -10,17 +10,18 @@ typedef struct {
   const char *by;
 } Mistake;
 
-static const char sound[] = "problem: press\n"
-                            "bodies:\n"
-                            "  - slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2], young: 1, poisson: 0.3}\n"
-                            "  - block: {lower: [1, 1, 1], upper: [2, 2, 2], cells: [2, 2, 2], young: 10, poisson: 0.0}\n"
-                            "displacements:\n"
-                            "  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n"
-                            "  - top: {face: block.zmax, value: [0, 0, -1/10]}\n"
-                            "contact:\n"
-                            "  - pair: {mortar: slab.zmax, nonmortar: block.zmin}\n"
-                            "load: {steps: 2}\n"
-                            "refine: 0\n";
+static const char sound[] =
+  "problem: press\n"
+  "bodies:\n"
+  "  - slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2], young: 1, poisson: 0.3}\n"
+  "  - block: {lower: [1, 1, 1], upper: [2, 2, 2], cells: [2, 2, 2], young: 10, poisson: 0.0}\n"
+  "displacements:\n"
+  "  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n"
+  "  - top: {face: block.zmax, value: [0, 0, -1/10]}\n"
+  "contact:\n"
+  "  - pair: {mortar: slab.zmax, nonmortar: block.zmin}\n"
+  "load: {steps: 2}\n"
+  "refine: 0\n";
 
 static const Mistake mistakes[] = {
   {"sound", "press", "press"},
@@ -87,9 +88,15 @@ static const Mistake mistakes[] = {
   {"pair given twice", "load:", "  - again: {mortar: block.zmin, nonmortar: slab.zmax}\nload:"},
   {"component prescribed twice", "contact:", "  - more: {face: slab.zmin, value: [free, free, 1]}\ncontact:"},
   {"wrong word for free", "[0, 0, -1/10]", "[loose, 0, 0]"},
-  {"body held by nothing", "  - top: {face: block.zmax, value: [0, 0, -1/10]}\ncontact:\n  - pair: {mortar: slab.zmax, nonmortar: block.zmin}\n", ""},
+  {"body held by nothing",
+    "  - top: {face: block.zmax, value: [0, 0, -1/10]}\ncontact:\n  - pair: {mortar: slab.zmax, nonmortar: "
+    "block.zmin}\n",
+    ""},
   {"body held by contact alone", "  - top: {face: block.zmax, value: [0, 0, -1/10]}\n", ""},
-  {"no displacement at all", "displacements:\n  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n  - top: {face: block.zmax, value: [0, 0, -1/10]}\n", ""},
+  {"no displacement at all",
+    "displacements:\n  - bottom: {face: slab.zmin, value: [0, 0, 0]}\n  - top: {face: block.zmax, value: [0, 0, "
+    "-1/10]}\n",
+    ""},
   {"normal motion held by contact", "value: [0, 0, -1/10]", "value: [0, 0, free]"},
   {"unknown element", "slab: {", "slab: {element: hybrid, "},
   {"incompatible modes at finite strain", "slab: {", "slab: {material: neohookean, element: incompatible, "},
@@ -128,7 +135,9 @@ static const Mistake mistakes[] = {
   {"symmetry of no axis", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: w}]"},
   {"symmetry of no normal", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: [0, 0, 0]}]"},
   {"symmetry of a normal in a plane", "refine: 0", "symmetry: [left: {face: slab.xmin, normal: [1, 2]}]"},
-  {"symmetry of a plane along no axis", "bodies:\n", "symmetry: [arc.amax]\nbodies:\n  - arc: {shape: tube_arc, axis: x, radii: [1, 2], angles: [0, 80], extent: [0, 1], cells: [1, 2, 1], young: 1, poisson: 0}\n"},
+  {"symmetry of a plane along no axis", "bodies:\n",
+    "symmetry: [arc.amax]\nbodies:\n  - arc: {shape: tube_arc, axis: x, radii: [1, 2], angles: [0, 80], extent: [0, "
+    "1], cells: [1, 2, 1], young: 1, poisson: 0}\n"},
   {"symmetry of a plane held already", "refine: 0", "symmetry: [slab.zmin]"},
   {"symmetry of a displacement's name", "refine: 0", "symmetry: [top: {face: slab.xmin, normal: x}]"},
   {"traction on no face", "refine: 0", "tractions: [wind: {value: [1, 0, 0], face: slab.top}]"},
@@ -138,12 +147,17 @@ static const Mistake mistakes[] = {
   {"springs that push", "refine: 0", "springs: [soil: {face: slab.zmin, value: [0, 0, -1]}]"},
   {"springs of no stiffness", "refine: 0", "springs: [soil: {face: slab.zmin, value: [0, 0, 0]}]"},
   {"weak springs of a number", "refine: 0", "weak_springs: 2"},
-  {"rigid body that nothing moves", "bodies:\n", "bodies:\n  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1]}\n"},
-  {"rigid body of which a face is displaced", "displacements:\n", "  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1]}\ndisplacements:\n  - push: {face: tool.zmin, value: [0, 0, 0]}\n"},
-  {"rigid body with a stiffness", "bodies:\n", "bodies:\n  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1], young: 1}\n"},
+  {"rigid body that nothing moves", "bodies:\n",
+    "bodies:\n  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1]}\n"},
+  {"rigid body of which a face is displaced", "displacements:\n",
+    "  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1]}\ndisplacements:\n  - push: "
+    "{face: tool.zmin, value: [0, 0, 0]}\n"},
+  {"rigid body with a stiffness", "bodies:\n",
+    "bodies:\n  - tool: {material: rigid, lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1], young: 1}\n"},
   {"elastic body moved as a whole", "contact:", "  - more: {body: slab, value: [0, 0, 1]}\ncontact:"},
   {"displacement at a point of no body", "face: slab.zmin, value", "point: [0, 0, 0], value"},
-  {"displacement at a point and an edge", "face: slab.zmin, value", "body: slab, point: [0, 0, 0], to: [1, 0, 0], value"},
+  {"displacement at a point and an edge", "face: slab.zmin, value",
+    "body: slab, point: [0, 0, 0], to: [1, 0, 0], value"},
   {"displacement along half an edge", "face: slab.zmin, value", "body: slab, from: [0, 0, 0], value"},
   {"displacement at a place of two numbers", "face: slab.zmin, value", "body: slab, point: [0, 0], value"},
   {"displacement where no vertex is", "face: slab.zmin, value", "body: slab, point: [0.1, 0.2, 0.3], value"},
@@ -152,9 +166,13 @@ static const Mistake mistakes[] = {
   {"rotation about nothing", "value: [0, 0, -1/10]", "value: [0, 0, -1/10], rotation: [0, 0, 5]"},
   {"center of no rotation", "value: [0, 0, -1/10]", "value: [0, 0, -1/10], center: [0, 0, 5]"},
   {"rotation of one number", "value: [0, 0, -1/10]", "value: [0, 0, -1/10], rotation: 5, center: [0, 0, 0]"},
-  {"rotation with a free component", "value: [0, 0, -1/10]", "value: [0, 0, free], rotation: [0, 0, 5], center: [0, 0, 0]"},
-  {"rotation of a face displaced already", "contact:", "  - turn: {face: slab.zmin, value: [0, 0, 0], rotation: [0, 0, 5], center: [0, 0, 0]}\ncontact:"},
-  {"rotations about two centers", "value: [0, 0, 0]}", "value: [0, 0, 0], rotation: [0, 0, 5], center: [0, 0, 0]}\n  - turn: {face: slab.zmin, value: [0, 0, 0], rotation: [0, 0, 5], center: [0, 1, 0]}"},
+  {"rotation with a free component", "value: [0, 0, -1/10]",
+    "value: [0, 0, free], rotation: [0, 0, 5], center: [0, 0, 0]"},
+  {"rotation of a face displaced already",
+    "contact:", "  - turn: {face: slab.zmin, value: [0, 0, 0], rotation: [0, 0, 5], center: [0, 0, 0]}\ncontact:"},
+  {"rotations about two centers", "value: [0, 0, 0]}",
+    "value: [0, 0, 0], rotation: [0, 0, 5], center: [0, 0, 0]}\n  - turn: {face: slab.zmin, value: [0, 0, 0], "
+    "rotation: [0, 0, 5], center: [0, 1, 0]}"},
   {"tie without a side", "refine: 0", "ties: [glue: {mortar: slab.zmax}]"},
   {"tie to no body", "refine: 0", "ties: [glue: {mortar: slab.zmax, nonmortar: block}]"},
   {"misspelt key of a tie", "refine: 0", "ties: [glue: {mortar: slab.zmax, nonmortar: block.zmin, distnace: 1}]"},
@@ -166,7 +184,8 @@ static const Mistake mistakes[] = {
   {"probe of no body", "refine: 0", "probes: [tip: {point: [0, 0, 0], body: table}]"},
   {"misspelt key of a probe", "refine: 0", "probes: [tip: {pont: [0, 0, 0]}]"},
   {"solver without options", "refine: 0", "solver: fast"},
-  {"two keys in an item", "- bottom: {face: slab.zmin, value: [0, 0, 0]}", "- bottom: {face: slab.zmin}\n    value: [0, 0, 0]"},
+  {"two keys in an item", "- bottom: {face: slab.zmin, value: [0, 0, 0]}",
+    "- bottom: {face: slab.zmin}\n    value: [0, 0, 0]"},
   {"free along y", "value: [0, 0, -1/10]", "value: [0, free, -1/10]"},
 };
 

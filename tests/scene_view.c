@@ -45,7 +45,8 @@ static PetscErrorCode CompareBodies(Scene a, Scene b)
     PetscCall(PetscStrcmp(x->name, y->name, &same));
     same = same && x->shape == y->shape && x->material.type == y->material.type;
     same = same && x->material.young == y->material.young && x->material.poisson == y->material.poisson;
-    for (PetscInt d = 0; d < 3; ++d) same = same && x->lower[d] == y->lower[d] && x->upper[d] == y->upper[d] && x->cells[d] == y->cells[d];
+    for (PetscInt d = 0; d < 3; ++d)
+      same = same && x->lower[d] == y->lower[d] && x->upper[d] == y->upper[d] && x->cells[d] == y->cells[d];
     PetscCheck(same, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Body \"%s\" changed", x->name);
   }
   PetscFunctionReturn(0);
@@ -61,7 +62,8 @@ static PetscErrorCode CompareBoundary(Scene a, Scene b)
 
     PetscCall(PetscStrcmp(x->name, y->name, &same));
     PetscCall(PetscStrcmp(x->face, y->face, &face));
-    for (PetscInt d = 0; d < 3; ++d) same = same && x->fixed[d] == y->fixed[d] && (!x->fixed[d] || x->value[d] == y->value[d]);
+    for (PetscInt d = 0; d < 3; ++d)
+      same = same && x->fixed[d] == y->fixed[d] && (!x->fixed[d] || x->value[d] == y->value[d]);
     PetscCheck(same && face, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Displacement \"%s\" changed", x->name);
   }
   for (PetscInt i = 0; i < a->npairs; ++i) {
@@ -78,9 +80,13 @@ static PetscErrorCode CompareScenes(Scene a, Scene b)
 
   PetscFunctionBeginUser;
   PetscCall(PetscStrcmp(a->name, b->name, &same));
-  PetscCheck(same && a->refine == b->refine && a->nsteps == b->nsteps, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Problem, refine or load steps changed");
-  PetscCheck(a->nbodies == b->nbodies && a->ndisplacements == b->ndisplacements && a->npairs == b->npairs, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "A list changed its length");
-  for (PetscInt i = 0; i < a->nsteps; ++i) PetscCheck(a->ramps[0].factor[i] == b->ramps[0].factor[i], PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Load factor %" PetscInt_FMT " changed", i);
+  PetscCheck(same && a->refine == b->refine && a->nsteps == b->nsteps, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+    "Problem, refine or load steps changed");
+  PetscCheck(a->nbodies == b->nbodies && a->ndisplacements == b->ndisplacements && a->npairs == b->npairs,
+    PETSC_COMM_WORLD, PETSC_ERR_PLIB, "A list changed its length");
+  for (PetscInt i = 0; i < a->nsteps; ++i)
+    PetscCheck(a->ramps[0].factor[i] == b->ramps[0].factor[i], PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+      "Load factor %" PetscInt_FMT " changed", i);
   PetscCall(CompareBodies(a, b));
   PetscCall(CompareBoundary(a, b));
   PetscFunctionReturn(0);

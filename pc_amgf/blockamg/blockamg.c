@@ -58,7 +58,7 @@ PetscErrorCode PCCreate_BlockAMG(PC pc)
 
   PetscFunctionBegin;
   PetscCheck(PetscDefined(HAVE_HYPRE), PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
-             "PCBLOCKAMG needs a PETSc with hypre, which sets up its hierarchy");
+    "PCBLOCKAMG needs a PETSc with hypre, which sets up its hierarchy");
   PetscCall(PetscNew(&amg));
   pc->data                = amg;
   pc->ops->setup          = PCSetUp_BlockAMG;

@@ -99,7 +99,7 @@ PETSC_INTERN PetscErrorCode BlockOrderGroups_Private(const BlockRows *, int posi
 PETSC_INTERN PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[]);
 /* halo.c */
 PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghosts, const PetscInt ghosts[],
-                                                    const BlockLevel *, BlockHalo *);
+  const BlockLevel *, BlockHalo *);
 PETSC_INTERN PetscErrorCode BlockHaloFetch_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloDestroy_Private(BlockHalo *);
@@ -122,7 +122,7 @@ PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode BlockDenseDestroy_Private(BlockDense *);
 /* hierarchy.c */
 PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, Mat coarse[], Mat interpolations[],
-                                                         BlockHierarchy **);
+  BlockHierarchy **);
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* cycle.c */

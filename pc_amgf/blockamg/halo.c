@@ -10,7 +10,7 @@
 - level  - with the places of its unknowns
 */
 PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],
-                                       const BlockLevel *level, BlockHalo *halo)
+  const BlockLevel *level, BlockHalo *halo)
 {
   PetscMPIInt        size;
   PetscSF            numbers;

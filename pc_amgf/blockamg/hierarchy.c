@@ -64,7 +64,7 @@ static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat
 - interpolations - to each level from the one below, the coarsest first; NULL afterwards
 */
 PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[], Mat interpolations[],
-                                            BlockHierarchy **created)
+  BlockHierarchy **created)
 {
   BlockHierarchy *h;
   PetscBool       dense;

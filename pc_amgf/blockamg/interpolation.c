@@ -15,8 +15,7 @@ PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRo
 
   PetscFunctionBegin;
   PetscCheck(ndiag + noff <= 2147483647, PETSC_COMM_SELF, PETSC_ERR_SUP,
-             "PCBLOCKAMG: an interpolation has too many entries on one rank, %" PetscInt_FMT ": use more ranks",
-             ndiag + noff);
+    "PCBLOCKAMG: an interpolation has too many entries on one rank, %" PetscInt_FMT ": use more ranks", ndiag + noff);
   PetscCall(PetscCalloc1(4 * level->nb + 1, &P->ptr));
   PetscCall(PetscMalloc1(ndiag + noff, &P->col));
   PetscCall(PetscMalloc1(ndiag + noff, &P->val));

@@ -45,7 +45,7 @@ static void LevelSort(int n, int a[])
 
 /* The columns of block row i of L, sorted; slot[] gets their blocks */
 static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
-                                      LevelBlocks *blocks, int slot[])
+  LevelBlocks *blocks, int slot[])
 {
   const int first = blocks->n, size = level->B * level->B;
   PetscInt  most = 0;
@@ -77,7 +77,7 @@ static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *
 
 /* Their entries, and those of the diagonal block */
 static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
-                            double inverse_scale, const int slot[], float val[], PetscScalar D[16])
+  double inverse_scale, const int slot[], float val[], PetscScalar D[16])
 {
   const int B = level->B;
 
@@ -226,8 +226,8 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
 
   PetscFunctionBegin;
   PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
-             "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks",
-             largest / 8, rows->n);
+    "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks", largest / 8,
+    rows->n);
   level->n = (int)rows->n;
   level->B = bs % 3 == 0 ? 3 : 4;
   PetscCall(PetscMalloc1(level->n, &level->position));

@@ -16,7 +16,7 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
    mark[] has the unknown's columns
 */
 static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[],
-                                PetscInt best[3])
+  PetscInt best[3])
 {
   PetscInt count[3] = {0, 0, 0};
 

@@ -2,20 +2,20 @@
 #include "blockamgimpl.h"
 
 static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja,
-                                        const PetscScalar **a)
+  const PetscScalar **a)
 {
   PetscBool done;
 
   PetscFunctionBegin;
   PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, n, ia, ja, &done));
   PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed rows",
-             ((PetscObject)A)->type_name);
+    ((PetscObject)A)->type_name);
   PetscCall(MatSeqAIJGetArrayRead(A, a));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja,
-                                            const PetscScalar **a)
+  const PetscScalar **a)
 {
   PetscBool done;
 

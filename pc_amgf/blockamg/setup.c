@@ -93,17 +93,15 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &M, &N));
   PetscCheck(M == N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_SIZ,
-             "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M,
-             N);
+    "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   amg->why[0] = '\0';
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFindBadRow(pc->pmat, &row));
   if (row >= 0) {
     PetscCall(PetscSNPrintf(why, sizeof(why),
-                            "the diagonal entry of row %" PetscInt_FMT
-                            " is zero or not finite, so the operator is not positive definite",
-                            row));
+      "the diagonal entry of row %" PetscInt_FMT " is zero or not finite, so the operator is not positive definite",
+      row));
     PetscCall(SetUpFail(pc, PC_FACTOR_NUMERIC_ZEROPIVOT, why));
     PetscFunctionReturn(0);
   }
@@ -120,7 +118,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   if (finite) PetscFunctionReturn(0);
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFail(pc, PC_FACTOR_OTHER,
-                      "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which "
-                      "single precision does not hold"));
+    "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which "
+    "single precision does not hold"));
   PetscFunctionReturn(0);
 }

@@ -8,11 +8,11 @@ static PetscErrorCode ViewLevel(const BlockHierarchy *h, int i, PetscViewer view
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  level %d: unknowns=%.0f, entries a row=%.1f, ", i, l->unknowns,
-                                   l->entries / PetscMax(l->unknowns, 1.0)));
+    l->entries / PetscMax(l->unknowns, 1.0)));
   if (dense) PetscCall(PetscViewerASCIIPrintf(viewer, "dense inverse\n"));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "blocks of %d x %d, of which entries fill %.2f\n", l->B, l->B,
-                                     l->entries / PetscMax(l->blocks, 1.0)));
+      l->entries / PetscMax(l->blocks, 1.0)));
   PetscFunctionReturn(0);
 }
 
@@ -27,8 +27,8 @@ PetscErrorCode PCView_BlockAMG(PC pc, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
   if (!ascii) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(
-    viewer, "  V(1,1)-cycle in single precision, symmetric Gauss-Seidel, on the hierarchy of hypre's BoomerAMG\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  V(1,1)-cycle in single precision, symmetric Gauss-Seidel, on the hierarchy of hypre's BoomerAMG\n"));
   if (!h) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s\n", amg->why[0] ? amg->why : "not yet set up"));
     PetscFunctionReturn(0);
@@ -42,6 +42,6 @@ PetscErrorCode PCView_BlockAMG(PC pc, PetscViewer viewer)
     PetscCall(ViewLevel(h, i, viewer));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "  levels=%d, memory=%.1f MB, %.0f bytes an unknown\n", n, bytes / 1e6,
-                                   bytes / PetscMax(unknowns, 1.0)));
+    bytes / PetscMax(unknowns, 1.0)));
   PetscFunctionReturn(0);
 }

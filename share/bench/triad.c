@@ -1,8 +1,10 @@
 /*
-   STREAM's triad, a = b + s c, in three working sets: within a core's reach and far beyond every cache. Prints a line a size: bytes of the
-   three arrays, and the best of its repetitions [byte/s], 24 bytes an entry as STREAM counts them.
+   STREAM's triad, a = b + s c, in three working sets: within a core's reach and far beyond every cache. Prints a line
+   a size: bytes of the three arrays, and the best of its repetitions [byte/s], 24 bytes an entry as STREAM counts
+   them.
 
-   J. D. McCalpin, Memory bandwidth and machine balance in current high performance computers, IEEE TCCA Newsletter, 1995
+   J. D. McCalpin, Memory bandwidth and machine balance in current high performance computers, IEEE TCCA Newsletter,
+   1995
 */
 #define _POSIX_C_SOURCE 200112L
 #include <stdio.h>

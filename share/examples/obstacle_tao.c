@@ -1,5 +1,6 @@
 /*
-   A membrane that a load presses down onto a flat floor: TAO with TAOIPFILTER, bounds on the unknowns, no factorization of the whole matrix.
+   A membrane that a load presses down onto a flat floor: TAO with TAOIPFILTER, bounds on the unknowns, no
+   factorization of the whole matrix.
 
       minimize 1/2 u'K u - f'u   subject to   u >= floor
 
@@ -36,7 +37,8 @@ static PetscErrorCode CreateMembrane(DM da, Membrane *membrane)
       for (PetscInt k = 0; k < 4; k++) {
         const MatStencil col = {.i = i + (k == 0) - (k == 1), .j = j + (k == 2) - (k == 3)};
 
-        if (col.i >= 0 && col.i < info.mx && col.j >= 0 && col.j < info.my) PetscCall(MatSetValuesStencil(membrane->K, 1, &row, 1, &col, &(PetscScalar){-1.0}, INSERT_VALUES));
+        if (col.i >= 0 && col.i < info.mx && col.j >= 0 && col.j < info.my)
+          PetscCall(MatSetValuesStencil(membrane->K, 1, &row, 1, &col, &(PetscScalar){-1.0}, INSERT_VALUES));
       }
     }
   }
@@ -85,7 +87,8 @@ int main(int argc, char **argv)
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, 31, 31, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &da));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, 31, 31, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, &da));
   PetscCall(DMSetFromOptions(da));
   PetscCall(DMSetUp(da));
   PetscCall(CreateMembrane(da, &membrane));
@@ -104,8 +107,10 @@ int main(int argc, char **argv)
   PetscCall(TaoGetConvergedReason(tao, &reason));
   PetscCall(VecMin(u, NULL, &smallest));
   PetscCall(VecMax(u, NULL, &largest));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nbelow the floor by at most 1e-8: %s\n", PetscBools[reason > 0], PetscBools[smallest >= FLOOR - 1e-8]));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "the middle lies on it: %s\na corner does not: %s\n", PetscBools[smallest <= FLOOR + 1e-6], PetscBools[largest > 0.5 * FLOOR]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nbelow the floor by at most 1e-8: %s\n",
+    PetscBools[reason > 0], PetscBools[smallest >= FLOOR - 1e-8]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "the middle lies on it: %s\na corner does not: %s\n",
+    PetscBools[smallest <= FLOOR + 1e-6], PetscBools[largest > 0.5 * FLOOR]));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&u));
   PetscCall(VecDestroy(&lower));

@@ -16,7 +16,8 @@ int main(int argc, char **argv)
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(PetscAMGFInitializePackage());
-  PetscCheck(argc > 1, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "no scene given; usage: press_library SCENE.yaml [options]");
+  PetscCheck(argc > 1, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "no scene given; usage: press_library SCENE.yaml [options]");
   PetscCall(SceneLoad(PETSC_COMM_WORLD, argv[1], &scene));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &simulation));
   PetscCall(SimulationSetFromOptions(simulation));
@@ -30,7 +31,8 @@ int main(int argc, char **argv)
       if (state.points[i].pair == 0) force += state.points[i].pressure * state.points[i].area;
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &force, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "load step %" PetscInt_FMT ": converged %s, pair 1 presses: %s\n", step + 1, PetscBools[state.report->converged], PetscBools[force > 0.0]));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "load step %" PetscInt_FMT ": converged %s, pair 1 presses: %s\n", step + 1,
+      PetscBools[state.report->converged], PetscBools[force > 0.0]));
   }
   PetscCall(SimulationDestroy(&simulation));
   PetscCall(SceneDestroy(&scene));

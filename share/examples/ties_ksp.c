@@ -1,7 +1,9 @@
 /*
-   A membrane whose lower edge is tied to its upper one by a penalty of 1e8: KSP with PCAMGF in a program that includes nothing of ours.
+   A membrane whose lower edge is tied to its upper one by a penalty of 1e8: KSP with PCAMGF in a program that
+   includes nothing of ours.
 
-   The rows of the ties are all that a multigrid method cannot handle. Their unknowns, composed on the matrix under "amgf_filter", are solved exactly.
+   The rows of the ties are all that a multigrid method cannot handle. Their unknowns, composed on the matrix under
+   "amgf_filter", are solved exactly.
 
       ties_ksp -dll_append PREFIX/lib/libpetscamgf.so -pc_type amgf
 
@@ -124,7 +126,8 @@ int main(int argc, char **argv)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(CheckTies(x, &hold));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 25 iterations: %s\nties hold to 1e-6: %s\n", PetscBools[reason > 0], PetscBools[its <= 25], PetscBools[hold]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 25 iterations: %s\nties hold to 1e-6: %s\n",
+    PetscBools[reason > 0], PetscBools[its <= 25], PetscBools[hold]));
   PetscCall(KSPDestroy(&ksp));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&b));

@@ -1,5 +1,6 @@
 /*
-   A membrane pressed against a wall by a penalty of 1e6 wherever it goes beyond: SNES, whose Jacobian has stiff rows that come and go.
+   A membrane pressed against a wall by a penalty of 1e6 wherever it goes beyond: SNES, whose Jacobian has stiff rows
+   that come and go.
 
    Each Jacobian composes its own filter; PCAMGF takes up what it finds there.
 
@@ -73,7 +74,8 @@ static PetscErrorCode FormJacobian(SNES snes, Vec u, Mat J, Mat P, void *ctx)
       for (PetscInt k = 0; k < 4; k++) {
         const MatStencil col = {.i = i + (k == 0) - (k == 1), .j = j + (k == 2) - (k == 3)};
 
-        if (col.i >= 0 && col.i < info.mx && col.j >= 0 && col.j < info.my) PetscCall(MatSetValuesStencil(P, 1, &row, 1, &col, &(PetscScalar){-1.0}, INSERT_VALUES));
+        if (col.i >= 0 && col.i < info.mx && col.j >= 0 && col.j < info.my)
+          PetscCall(MatSetValuesStencil(P, 1, &row, 1, &col, &(PetscScalar){-1.0}, INSERT_VALUES));
       }
     }
   }
@@ -101,9 +103,11 @@ int main(int argc, char **argv)
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, 48, 48, PETSC_DECIDE, PETSC_DECIDE, 1, 1, NULL, NULL, &da));
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, 48, 48, PETSC_DECIDE,
+    PETSC_DECIDE, 1, 1, NULL, NULL, &da));
   PetscCall(DMSetUp(da));
-  PetscCall(DMDASNESSetFunctionLocal(da, INSERT_VALUES, (PetscErrorCode(*)(DMDALocalInfo *, void *, void *, void *))FormFunction, NULL));
+  PetscCall(DMDASNESSetFunctionLocal(da, INSERT_VALUES,
+    (PetscErrorCode(*)(DMDALocalInfo *, void *, void *, void *))FormFunction, NULL));
   PetscCall(DMCreateMatrix(da, &J));
   PetscCall(DMCreateGlobalVector(da, &u));
   PetscCall(SNESCreate(PETSC_COMM_WORLD, &snes));
@@ -119,8 +123,10 @@ int main(int argc, char **argv)
   PetscCall(SNESGetIterationNumber(snes, &newton));
   PetscCall(SNESGetLinearSolveIterations(snes, &linear));
   PetscCall(VecMax(u, NULL, &largest));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 15 linear iterations a Newton step: %s\n", PetscBools[reason > 0], PetscBools[newton > 0 && linear <= 15 * newton]));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "beyond the wall by at most 1e-6: %s\n", PetscBools[largest > WALL && largest <= WALL + 1e-6]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 15 linear iterations a Newton step: %s\n",
+    PetscBools[reason > 0], PetscBools[newton > 0 && linear <= 15 * newton]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "beyond the wall by at most 1e-6: %s\n",
+    PetscBools[largest > WALL && largest <= WALL + 1e-6]));
   PetscCall(SNESDestroy(&snes));
   PetscCall(MatDestroy(&J));
   PetscCall(VecDestroy(&u));

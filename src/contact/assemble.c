@@ -18,7 +18,8 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[], const PetscReal value[], const PetscReal normal[3])
+PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[],
+  const PetscReal value[], const PetscReal normal[3])
 {
   PetscFunctionBegin;
   if (as->n + n > as->size) {
@@ -37,7 +38,8 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
 }
 
 /* A facet of a smooth pair: what its vertices and the normals there add to four rows */
-PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4], const PetscInt bend[4], const ContactSlopes *slopes)
+PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
+  const PetscInt bend[4], const ContactSlopes *slopes)
 {
   PetscFunctionBegin;
   for (PetscInt a = 0; a < 4; ++a) {
@@ -114,10 +116,12 @@ static PetscErrorCode CouplingDestroy(Coupling *coupling)
 }
 
 /* Component c of the row's vectors is value[c], or value[0] for all, times factor[c] */
-static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass, CouplingRow *r)
+static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
+  CouplingRow *r)
 {
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatGetRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  for (PetscInt c = 0; c < coupling->dim; ++c)
+    PetscCall(MatGetRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
   for (PetscInt c = coupling->dim; c < 3; ++c) r->value[c] = r->value[0];
   for (PetscInt c = 0; c < 3; ++c) r->factor[c] = (coupling->dim == 1 ? normal[c] : 1.0) / mass;
   PetscFunctionReturn(0);
@@ -126,7 +130,8 @@ static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, con
 static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row, CouplingRow *r)
 {
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatRestoreRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  for (PetscInt c = 0; c < coupling->dim; ++c)
+    PetscCall(MatRestoreRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
   PetscFunctionReturn(0);
 }
 
@@ -163,7 +168,8 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
 }
 
 /* One row of J; entries that are zero but for rounding are left out */
-static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
+  PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
   PetscReal   largest = 0.0;
   CouplingRow r       = {0};
@@ -216,8 +222,8 @@ static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEnt
 }
 
 /*
-  From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does not close its gap. Where
-  the mean is zero, as under pressure, both are the same.
+  From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does
+  not close its gap. Where the mean is zero, as under pressure, both are the same.
 */
 static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
 {
@@ -245,7 +251,8 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscFunctionReturn(0);
 }
 
-/* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with those that bend; the rows of other pairs are empty */
+/* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with
+   those that bend; the rows of other pairs are empty */
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
   PetscInt n;
@@ -265,7 +272,8 @@ static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *ri
 }
 
 /* One row of J of a smooth pair; entries that are zero but for rounding are left out */
-static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[],
+  PetscScalar entry[])
 {
   PetscInt           ncols;
   const PetscInt    *cols;
@@ -298,8 +306,10 @@ static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, Pet
   PetscFunctionReturn(0);
 }
 
-/* J of the kept rows: counts the entries of each row first, then puts them in. slopes: taken for smooth pairs unless NULL */
-static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept, const PetscInt kept[], Mat *J)
+/* J of the kept rows: counts the entries of each row first, then puts them in. slopes: taken for smooth pairs unless
+   NULL */
+static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
+  const PetscInt kept[], Mat *J)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
@@ -328,8 +338,11 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
       PetscInt       n;
 
       while (i >= rows->first[pair + 1]) ++pair;
-      if (slopes && contact->pairs[pair].mortar.patched) PetscCall(SlopesGetRow(slopes, rstart + i, PetscRealPart(mass[i]), &n, column, entry));
-      else PetscCall(CouplingExpandRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &n, column, entry));
+      if (slopes && contact->pairs[pair].mortar.patched)
+        PetscCall(SlopesGetRow(slopes, rstart + i, PetscRealPart(mass[i]), &n, column, entry));
+      else
+        PetscCall(
+          CouplingExpandRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &n, column, entry));
       if (pass) PetscCall(MatSetValues(*J, 1, &row, n, column, entry, INSERT_VALUES));
       else {
         diagonal[k] = 0;
@@ -346,7 +359,8 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
 }
 
 /* Gap and mass of the kept rows, and where they stand */
-static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[], ContactLinearization lin)
+static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[],
+  ContactLinearization lin)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass, *gap;
@@ -379,7 +393,8 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
 }
 
 /* J and what goes with it where pairs are smooth */
-static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling, const PetscInt kept[], ContactLinearization lin)
+static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
+  const PetscInt kept[], ContactLinearization lin)
 {
   Mat rigid, bending;
 
@@ -394,8 +409,8 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
 }
 
 /*
-  Forces on the surfaces' vertices become those on the nodes of order 2, and areas are shared as those of the facets are. The gap of a pair that
-  follows its nodes has its derivative by these.
+  Forces on the surfaces' vertices become those on the nodes of order 2, and areas are shared as those of the facets
+  are. The gap of a pair that follows its nodes has its derivative by these.
 */
 static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
 {

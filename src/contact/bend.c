@@ -1,10 +1,11 @@
-/* Normals of the smooth surface at the facets' corners: means of the corners about a node, mended where the surface ends */
+/* Normals of the smooth surface at the facets' corners: means of the corners about a node, mended where the surface
+   ends */
 #include "contactimpl.h"
 
 /*
-  Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres and on cylinders,
-  whatever the lengths (N. Max, Weights for computing vertex normals from facet normals, J. Graphics Tools 4 (1999)), scaled to
-  length 1; returns the length before
+  Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres
+  and on cylinders, whatever the lengths (N. Max, Weights for computing vertex normals from facet normals, J. Graphics
+  Tools 4 (1999)), scaled to length 1; returns the length before
 */
 PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
@@ -30,7 +31,8 @@ void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n
   (void)ContactRingFanNormal(ring, first, last, n);
 }
 
-/* The one facet at a corner of the surface: along both its edges the surface is an arc, the normals at whose ends mirror each other */
+/* The one facet at a corner of the surface: along both its edges the surface is an arc, the normals at whose ends
+   mirror each other */
 static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscReal d[2][3], m[3], G[3], rhs[2], det;
@@ -44,10 +46,12 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
   G[2] = ContactDot(d[0], d[1]);
   det  = G[0] * G[1] - G[2] * G[2];
   if (!(det > CONTACT_FLAT_CORNER * G[0] * G[1])) return;
-  for (PetscInt c = 0; c < 3; ++c) n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
+  for (PetscInt c = 0; c < 3; ++c)
+    n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
 }
 
-/* A vertex on the border: the mean is right along it; across it the surface is an arc along the edges that lead inward, by least squares */
+/* A vertex on the border: the mean is right along it; across it the surface is an arc along the edges that lead
+   inward, by least squares */
 static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal after[3], before[3], d[3], m[3], along[3], across[3], sum = 0.0, squares = 0.0;
@@ -74,7 +78,8 @@ void ContactRingMend(const ContactRing *ring, PetscInt first, PetscInt last, Pet
   else MendBorder(ring, first, last, n);
 }
 
-/* Unit normal at a corner, of the facets about its node as far as no sharp edge is between them; zero where they cancel */
+/* Unit normal at a corner, of the facets about its node as far as no sharp edge is between them; zero where they
+   cancel */
 void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt        first, last;

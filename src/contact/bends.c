@@ -1,4 +1,5 @@
-/* The normals of all smooth surfaces as functions of the displacement: their global numbers, and the matrix of their derivatives */
+/* The normals of all smooth surfaces as functions of the displacement: their global numbers, and the matrix of their
+   derivatives */
 #include "contactimpl.h"
 
 /* The two surfaces of a pair and the rings about them */
@@ -37,7 +38,8 @@ static PetscErrorCode BendsNumber(Contact contact, PetscInt *first)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Fills in the blocks of all normals, or only counts them; end[i]: where those of normal i of this rank end */
+/* Collective. Fills in the blocks of all normals, or only counts them; end[i]: where those of normal i of this rank
+   end */
 static PetscErrorCode BendsFill(Contact contact, PetscInt end[])
 {
   ContactNormalSlopes *blocks = &contact->bends.blocks;

@@ -1,4 +1,5 @@
-/* What bend.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives of the normal's components */
+/* What bend.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives of the
+   normal's components */
 #include "contactimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
@@ -43,7 +44,8 @@ static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *s
 }
 
 /* factor A: by the node at a corner; an image moves against its node, and with the planes that it is seen in */
-static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9], ContactNormalSlopes *slopes)
+static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
 {
   const PetscInt node  = ring->node[corner];
   ContactImage   image = {node, {-1, -1, -1}};
@@ -60,14 +62,16 @@ static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, 
 }
 
 /* A: by the edge from a corner to the next, or to the one before */
-static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9], ContactNormalSlopes *slopes)
+static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
 {
   AddNode(ring, after ? ContactCornerAfter(ring, corner) : ContactCornerBefore(ring, corner), 1.0, A, slopes);
   AddNode(ring, corner, -1.0, A, slopes);
 }
 
 /* A: by the unit normal that ContactRingFanNormal() has */
-static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9], ContactNormalSlopes *slopes)
+static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
 {
   PetscReal n[3], S[9];
   PetscReal length = ContactRingFanNormal(ring, first, last, n);
@@ -99,7 +103,8 @@ static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[
 }
 
 /* A: by the mended normal before it is scaled. The mean plus d_0 b_0 + d_1 b_1, D the dual vectors of the edges d */
-static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9], ContactNormalSlopes *slopes)
+static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
+  ContactNormalSlopes *slopes)
 {
   PetscReal d[2][3], m[2][3], D[2][3] = {{0}}, G[3], b[2] = {0}, mean[9], B[9], AD[2][3], det;
 
@@ -136,12 +141,14 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
   }
 }
 
-/* What MendBorder() sums along the edges that lead inward, c_k = across.d_k, r_k = -(n + m_k).d_k: the bend b = sum r_k c_k / sum c_k^2 */
+/* What MendBorder() sums along the edges that lead inward, c_k = across.d_k, r_k = -(n + m_k).d_k: the bend b = sum
+   r_k c_k / sum c_k^2 */
 typedef struct {
   PetscReal along[3], across[3], length, bend, squares;
 } BorderBend;
 
-static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3], BorderBend *border)
+static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
+  BorderBend *border)
 {
   PetscReal after[3], before[3], d[3], m[3], sum = 0.0;
 
@@ -161,7 +168,8 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
 }
 
 /* A: by the mended normal before it is scaled: the mean plus the bend times the direction across the border */
-static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3], const PetscReal A[9], ContactNormalSlopes *slopes)
+static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
+  const PetscReal A[9], ContactNormalSlopes *slopes)
 {
   PetscReal  AX[3], mean[9], across[9], B[9];
   BorderBend border;

@@ -17,7 +17,8 @@ static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value
   PetscFunctionReturn(0);
 }
 
-/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which another one lies on it; negative: inside a triangle, or no edge at all */
+/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which
+   another one lies on it; negative: inside a triangle, or no edge at all */
 static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
@@ -26,11 +27,11 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 2; ++i) PetscCall(DMPlexGetPointDepth(dm, vertices[i], &depth[i]));
-  *edge = v == w || (depth[0] == 1 && depth[1] == 1) ? -1 : depth[0] > depth[1] ? v
-                                                                                : w;
+  *edge = v == w || (depth[0] == 1 && depth[1] == 1) ? -1 : depth[0] > depth[1] ? v : w;
   if (*edge < 0 || depth[0] || depth[1]) PetscFunctionReturn(0);
   PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
-  PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
+  PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
   *edge = edges[0];
   PetscCall(DMPlexRestoreJoin(dm, 2, vertices, &n, &edges));
   PetscFunctionReturn(0);
@@ -40,7 +41,8 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
 PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
 {
   PetscSF  sf;
-  PetscInt npoints, *count, *ends, *edge; /* facets at an edge, twice where it is cut in halves; 1 for a vertex on the border */
+  PetscInt npoints, *count, *ends,
+    *edge; /* facets at an edge, twice where it is cut in halves; 1 for a vertex on the border */
 
   PetscFunctionBegin;
   PetscCall(DMGetPointSF(dm, &sf));
@@ -50,7 +52,8 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscCall(PetscCalloc1(s->nfacets, &s->border));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     PetscCall(BorderFindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
-    if (edge[i] >= 0) count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
+    if (edge[i] >= 0)
+      count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
   }
   PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
@@ -84,7 +87,8 @@ static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscI
     PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
 
     PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
-    for (PetscInt a = 0; a < nnodes; ++a) marks[nodes[a]] = op == MPI_BOR ? marks[nodes[a]] | value : PetscMax(marks[nodes[a]], value);
+    for (PetscInt a = 0; a < nnodes; ++a)
+      marks[nodes[a]] = op == MPI_BOR ? marks[nodes[a]] | value : PetscMax(marks[nodes[a]], value);
   }
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
@@ -115,22 +119,26 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscFunctionReturn(0);
 }
 
-/* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all */
+/* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all
+ */
 static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
 {
   const SceneDisplacement *d     = &displacements[k];
   PetscInt                 first = 0;
 
   if (d->value[axis] == 0.0) return CONTACT_AT_REST;
-  while (first < k && !(displacements[first].fixed[axis] && displacements[first].value[axis] == d->value[axis] && displacements[first].ramp == d->ramp)) ++first;
+  while (first < k && !(displacements[first].fixed[axis] && displacements[first].value[axis] == d->value[axis] &&
+                        displacements[first].ramp == d->ramp))
+    ++first;
   return first;
 }
 
 /*
-   Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a displacement,
-   CONTACT_AT_REST or CONTACT_FREE
+   Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a
+   displacement, CONTACT_AT_REST or CONTACT_FREE
 */
-PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis, const ContactSurface *s, PetscInt motion[])
+PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis,
+  const ContactSurface *s, PetscInt motion[])
 {
   PetscSF  sf;
   PetscInt npoints, *marks;
@@ -150,8 +158,10 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
   PetscFunctionReturn(0);
 }
 
-/* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which vertex a of facet i is; 0: none */
-PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[], const ContactSurface *s, PetscInt plane[])
+/* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which
+   vertex a of facet i is; 0: none */
+PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[],
+  const ContactSurface *s, PetscInt plane[])
 {
   PetscSF  sf;
   PetscInt npoints, *marks;
@@ -161,7 +171,8 @@ PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplaceme
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
   PetscCall(PetscCalloc1(npoints, &marks));
   for (PetscInt k = 0; k < n; ++k) {
-    if (displacements[k].inclined && !displacements[k].moves) PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
+    if (displacements[k].inclined && !displacements[k].moves)
+      PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) plane[i] = marks[s->vertex[i]];

@@ -61,8 +61,8 @@ PetscErrorCode ContactBoundaryDestroy(ContactBoundary *b)
 }
 
 /*
-  Collective. Mean thickness of every body: twice its volume (3 V = int x.n) by the area of its boundary, the thickness of a thin
-  plate or shell, and less than any width of a compact body.
+  Collective. Mean thickness of every body: twice its volume (3 V = int x.n) by the area of its boundary, the
+  thickness of a thin plate or shell, and less than any width of a compact body.
 */
 PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thickness[])
 {
@@ -111,11 +111,13 @@ PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
   PetscFunctionReturn(0);
 }
 
-/* Solid angle that the triangle p, q, r is seen under from the origin, positive from behind (Van Oosterom and Strackee 1983) */
+/* Solid angle that the triangle p, q, r is seen under from the origin, positive from behind (Van Oosterom and
+   Strackee 1983) */
 static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
 {
-  const PetscReal triple = p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-  PetscReal       pp = 0.0, qq = 0.0, rr = 0.0, pq = 0.0, qr = 0.0, rp = 0.0;
+  const PetscReal triple =
+    p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+  PetscReal pp = 0.0, qq = 0.0, rr = 0.0, pq = 0.0, qr = 0.0, rp = 0.0;
 
   for (PetscInt c = 0; c < 3; ++c) {
     pp += p[c] * p[c];

@@ -6,7 +6,8 @@ PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 {
   PetscReal area = 0.0;
 
-  for (PetscInt i = 1; i + 1 < n; ++i) area += 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
+  for (PetscInt i = 1; i + 1 < n; ++i)
+    area += 0.5 * ((p[i][0] - p[0][0]) * (p[i + 1][1] - p[0][1]) - (p[i + 1][0] - p[0][0]) * (p[i][1] - p[0][1]));
   return area;
 }
 
@@ -30,10 +31,11 @@ static void ClipPutVertex(const PetscReal y[2], PetscInt before, PetscInt after,
   Vertices on an edge count as inside and a cut is made only between vertices strictly on either side, so no division is
   by zero; coinciding edges or vertices give repeated vertices, which enclose no area.
 
-  edge: of each vertex the edges before and after it, along whose lines it lies: i from vertex i of the subject to the next,
-  nsubject + i from vertex i of clip.
+  edge: of each vertex the edges before and after it, along whose lines it lies: i from vertex i of the subject to the
+  next, nsubject + i from vertex i of clip.
 */
-PetscInt ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2])
+PetscInt ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2],
+  PetscReal out[][2], PetscInt edge[][2])
 {
   PetscReal in[CONTACT_MAX_POLYGON][2];
   PetscInt  n = nsubject, along[CONTACT_MAX_POLYGON][2];

@@ -16,7 +16,8 @@ static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], 
   return ContactDot(r, r);
 }
 
-/* Nine points in the facet: the one nearest is where Newton's method starts, for far from a warped facet there are several minima */
+/* Nine points in the facet: the one nearest is where Newton's method starts, for far from a warped facet there are
+   several minima */
 static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal best = PETSC_MAX_REAL;
@@ -84,7 +85,8 @@ static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2],
 
   for (PetscInt k = 0; k < CLOSEST_MAX_HALVINGS; ++k) {
     PetscReal       r[3];
-    const PetscReal next[2] = {PetscClipInterval(xi[0] + scale * step[0], -1.0, 1.0), PetscClipInterval(xi[1] + scale * step[1], -1.0, 1.0)};
+    const PetscReal next[2] = {PetscClipInterval(xi[0] + scale * step[0], -1.0, 1.0),
+      PetscClipInterval(xi[1] + scale * step[1], -1.0, 1.0)};
     const PetscReal fnext   = ClosestEvaluate(o, next, r);
 
     if (fnext < *f) {
@@ -131,7 +133,8 @@ PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], Petsc
     o.c[3][d] = 0.25 * (q[0] - q[1] + q[2] - q[3]);
   }
   best = ClosestDescend(&o, xi);
-  for (PetscInt e = 0; e < 4; ++e) { /* the edges are straight: exact, and without them the descent could end in a corner */
+  for (PetscInt e = 0; e < 4;
+       ++e) { /* the edges are straight: exact, and without them the descent could end in a corner */
     const PetscReal end    = e % 2 ? 1.0 : -1.0;
     PetscReal       eta[2] = {e < 2 ? 0.0 : end, e < 2 ? end : 0.0};
     const PetscReal f      = ClosestAlongLine(&o, e / 2, eta);

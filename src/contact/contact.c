@@ -5,7 +5,8 @@
 #define SEARCH_FRACTION 0.25
 /* and never deeper in one another than this part of what both bodies are thick */
 #define THROUGH_FRACTION 0.9
-/* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and 7 points */
+/* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and
+   7 points */
 #define RULE_DEGREE 5
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
@@ -28,25 +29,31 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscCall(PetscStrcmp(pairs[p].mortar, pairs[p].nonmortar, &same));
     PetscCheck(!same, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names face \"%s\" twice", name, pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
-    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair \"%s\" asks for gap formulation %d, which there is not", name, (int)pairs[p].gap);
-    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
+    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
+      "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
+    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Contact pair \"%s\" asks for gap formulation %d, which there is not", name, (int)pairs[p].gap);
+    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
     PetscCall(DMHasLabel(dm, pairs[p].nonmortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names nonmortar face \"%s\", but the mesh has no such face", name, pairs[p].nonmortar);
+    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
+      "Contact pair \"%s\" names nonmortar face \"%s\", but the mesh has no such face", name, pairs[p].nonmortar);
     for (PetscInt q = 0; q < p; ++q) {
       PetscBool mortar, nonmortar;
 
       PetscCall(PetscStrcmp(pairs[p].mortar, pairs[q].mortar, &mortar));
       PetscCall(PetscStrcmp(pairs[p].nonmortar, pairs[q].nonmortar, &nonmortar));
-      PetscCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG, "Contact pairs \"%s\" and \"%s\" are the same: mortar \"%s\", nonmortar \"%s\"", ContactPairName(&pairs[q]), name, pairs[p].mortar, pairs[p].nonmortar);
+      PetscCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG,
+        "Contact pairs \"%s\" and \"%s\" are the same: mortar \"%s\", nonmortar \"%s\"", ContactPairName(&pairs[q]),
+        name, pairs[p].mortar, pairs[p].nonmortar);
     }
   }
   PetscFunctionReturn(0);
 }
 
 /*
-  Depth to which facets of two bodies pair. A body's own faces, or those of thin bodies, would see one another through the
-  bodies: touching plates at the depth of both together, so not much less than that may be asked for.
+  Depth to which facets of two bodies pair. A body's own faces, or those of thin bodies, would see one another through
+  the bodies: touching plates at the depth of both together, so not much less than that may be asked for.
 */
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
@@ -56,16 +63,21 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh; what else its gap needs */
+/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh; what else its
+   gap needs */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
 
-    pair->distance = pair->given > 0.0 ? pair->given : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
-    pair->depth    = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
-    if (pair->gap == GAP_NODE && !pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
+    pair->distance =
+      pair->given > 0.0
+        ? pair->given
+        : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
+    pair->depth = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
+    if (pair->gap == GAP_NODE && !pair->mortar.bordered)
+      PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
   }
   PetscFunctionReturn(0);
 }
@@ -101,8 +113,8 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   Level: beginner
 
   Notes:
-  A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error, and so
-  is a negative search distance.
+  A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error,
+and so is a negative search distance.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -160,16 +172,17 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 
   Options Database Keys:
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
-. -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand for, whatever the pair says
-. -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make more than these degrees stay sharp
-. -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the normals of the facets
-. -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every triangle of an overlap
-. -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area
-. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner body, or the
-                                       pair's own distance up to 0.9 of what both bodies are thick
-. -contact_normal_cosine <-0.174>    - facets pair when the cosine between their normals is at most this
-. -contact_overlap_drop <1e-8>       - overlaps below this part of the smaller facet's area are left out
-. -contact_row_drop <1e-5>           - rows whose 1-norm is below this part of the largest row's are left out
+. -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand
+for, whatever the pair says . -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make
+more than these degrees stay sharp . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged
+normals of the vertices or the normals of the facets . -contact_quadrature <5>            - degree of polynomials, 1 to
+8, that the mortar integrals are exact for on every triangle of an overlap . -contact_search_distance <length>  - facets
+farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area .
+-contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
+body, or the pair's own distance up to 0.9 of what both bodies are thick . -contact_normal_cosine <-0.174>    - facets
+pair when the cosine between their normals is at most this . -contact_overlap_drop <1e-8>       - overlaps below this
+part of the smaller facet's area are left out . -contact_row_drop <1e-5>           - rows whose 1-norm is below this
+part of the largest row's are left out
 - -contact_view                      - prints the contact after every linearization
 
   Level: beginner
@@ -186,26 +199,51 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
-  PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes, (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
-  PetscCall(PetscOptionsBool("-contact_smooth", "Whether the gap of every pair is that of smooth surfaces", "ContactSetFromOptions", smooth, &smooth, &set_smooth));
-  PetscCall(PetscOptionsReal("-contact_feature_angle", "Edges sharper than this stay sharp, in degrees", "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
-  PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
-  PetscCall(PetscOptionsInt("-contact_quadrature", "Degree of polynomials that mortar integrals are exact for on every triangle of an overlap", "ContactSetFromOptions", degree, &degree, NULL));
-  PetscCall(PetscOptionsReal("-contact_search_distance", "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)", "ContactSetFromOptions", distance, &distance, &set_distance));
-  PetscCall(PetscOptionsReal("-contact_search_depth", "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)", "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
-  PetscCall(PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this", "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
-  PetscCall(PetscOptionsReal("-contact_overlap_drop", "Overlaps below this part of the smaller facet's area are left out", "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
-  PetscCall(PetscOptionsReal("-contact_row_drop", "Rows whose 1-norm is below this part of the largest are left out", "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
-  PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every linearization", "ContactView", NULL, NULL, NULL));
+  PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes,
+    (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
+  PetscCall(PetscOptionsBool("-contact_smooth", "Whether the gap of every pair is that of smooth surfaces",
+    "ContactSetFromOptions", smooth, &smooth, &set_smooth));
+  PetscCall(PetscOptionsReal("-contact_feature_angle", "Edges sharper than this stay sharp, in degrees",
+    "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
+  PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions",
+    ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
+  PetscCall(PetscOptionsInt("-contact_quadrature",
+    "Degree of polynomials that mortar integrals are exact for on every triangle of an overlap",
+    "ContactSetFromOptions", degree, &degree, NULL));
+  PetscCall(PetscOptionsReal("-contact_search_distance",
+    "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)",
+    "ContactSetFromOptions", distance, &distance, &set_distance));
+  PetscCall(PetscOptionsReal("-contact_search_depth",
+    "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)",
+    "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
+  PetscCall(
+    PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this",
+      "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
+  PetscCall(
+    PetscOptionsReal("-contact_overlap_drop", "Overlaps below this part of the smaller facet's area are left out",
+      "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
+  PetscCall(PetscOptionsReal("-contact_row_drop", "Rows whose 1-norm is below this part of the largest are left out",
+    "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
+  PetscCall(
+    PetscOptionsViewer("-contact_view", "View the contact after every linearization", "ContactView", NULL, NULL, NULL));
   PetscOptionsEnd();
-  PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_distance must not be negative, but is %g", (double)distance);
-  PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
-  PetscCheck(contact->feature_angle >= 0.0 && contact->feature_angle < 90.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_feature_angle must be in [0, 90) degrees, but is %g", (double)contact->feature_angle);
-  PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
-  PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
-  PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
-  PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP, "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its vertex");
+  PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_search_distance must not be negative, but is %g", (double)distance);
+  PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
+  PetscCheck(contact->feature_angle >= 0.0 && contact->feature_angle < 90.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_feature_angle must be in [0, 90) degrees, but is %g", (double)contact->feature_angle);
+  PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
+  PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
+  PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
+  PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
+  PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
+    "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
+    "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_distance) contact->pairs[p].given = distance;
@@ -218,7 +256,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 }
 
 /*@C
-  ContactSetDisplacements - Tells a contact which faces are held, so that smooth surfaces go on beyond the planes they end on
+  ContactSetDisplacements - Tells a contact which faces are held, so that smooth surfaces go on beyond the planes they
+end on
 
   Logically Collective
 
@@ -230,8 +269,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   Level: intermediate
 
   Note:
-  Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth surface goes on as in a
-  mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+  Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth
+surface goes on as in a mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
 
 .seealso: `ContactCreate()`, `ContactLinearize()`
 @*/
@@ -301,7 +340,8 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
 }
 
 /*@
-  ContactSetReach - Lets facets pair that are farther apart, or deeper in one another, than usual: where a load step moves them far
+  ContactSetReach - Lets facets pair that are farther apart, or deeper in one another, than usual: where a load step
+moves them far
 
   Logically Collective
 
@@ -349,18 +389,23 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
   if (!ascii) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact: %" PetscInt_FMT " pairs, %" PetscInt_FMT " rows\n", contact->npairs, contact->nrows));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact: %" PetscInt_FMT " pairs, %" PetscInt_FMT " rows\n",
+    contact->npairs, contact->nrows));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     const ContactPairData *pair = &contact->pairs[p];
     PetscInt               nfacing;
 
     PetscCallMPI(MPI_Allreduce(&pair->nfacing, &nfacing, 1, MPIU_INT, MPI_SUM, contact->comm));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "pair %s: mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", pair->name, pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
-                                     nfacing, pair->gap == GAP_MORTAR ? "overlapping facets" : "vertices over a facet"));
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "pair %s: mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", pair->name,
+      pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
+      nfacing, pair->gap == GAP_MORTAR ? "overlapping facets" : "vertices over a facet"));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows below %g of the largest are left out\n", (double)contact->cosine, (double)contact->overlap_drop,
-                                   (double)contact->row_drop));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows "
+    "below %g of the largest are left out\n",
+    (double)contact->cosine, (double)contact->overlap_drop, (double)contact->row_drop));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

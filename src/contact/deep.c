@@ -1,4 +1,5 @@
-/* Bodies that overlap at the start deeper than contact looks would pass for bodies that are not in contact: that is an error */
+/* Bodies that overlap at the start deeper than contact looks would pass for bodies that are not in contact: that is
+   an error */
 #include "contactimpl.h"
 
 /* A row only a deeper search has: its nonmortar vertex and the point of the mortar face it would belong to */
@@ -18,7 +19,8 @@ static PetscBool DeepBoxHolds(const PetscReal box[6], const PetscReal x[3])
 /* The length of the diagonal of all boxes if those of any pair's bodies overlap in more than a face, else 0 */
 static PetscReal DeepFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
 {
-  PetscReal low[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, high[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, diagonal = 0.0;
+  PetscReal low[3]  = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
+            high[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, diagonal = 0.0;
   PetscBool any = PETSC_FALSE;
 
   for (PetscInt k = 0; k < nbodies; ++k) {
@@ -34,14 +36,18 @@ static PetscReal DeepFarthestApart(Contact contact, PetscInt nbodies, const Pets
     const PetscReal *a = &box[6 * i], *b = &box[6 * j];
     PetscBool        overlap = (PetscBool)(i != j);
 
-    for (PetscInt c = 0; c < 3; ++c) overlap = (PetscBool)(overlap && PetscMin(a[3 + c], b[3 + c]) - PetscMax(a[c], b[c]) > PETSC_SQRT_MACHINE_EPSILON * diagonal);
+    for (PetscInt c = 0; c < 3; ++c)
+      overlap = (PetscBool)(overlap && PetscMin(a[3 + c], b[3 + c]) - PetscMax(a[c], b[c]) >
+                                         PETSC_SQRT_MACHINE_EPSILON * diagonal);
     any = (PetscBool)(any || overlap);
   }
   return any ? diagonal : 0.0;
 }
 
-/* The rows of `wide` that `usual` has not, deeper than their pair looks, where a body's box holds the other's point; free `deep` */
-static PetscErrorCode DeepFindRows(Contact contact, const PetscReal box[], ContactLinearization usual, ContactLinearization wide, PetscInt *n, DeepRow **deep)
+/* The rows of `wide` that `usual` has not, deeper than their pair looks, where a body's box holds the other's point;
+   free `deep` */
+static PetscErrorCode DeepFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
+  ContactLinearization wide, PetscInt *n, DeepRow **deep)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *g;
@@ -66,7 +72,8 @@ static PetscErrorCode DeepFindRows(Contact contact, const PetscReal box[], Conta
       row.x[c] = rows->x[3 * i + c];
       row.y[c] = row.x[c] + gap * rows->normal[3 * i + c];
     }
-    if (DeepBoxHolds(&box[6 * pair->mortar.body], row.x) || DeepBoxHolds(&box[6 * pair->nonmortar.body], row.y)) (*deep)[(*n)++] = row;
+    if (DeepBoxHolds(&box[6 * pair->mortar.body], row.x) || DeepBoxHolds(&box[6 * pair->nonmortar.body], row.y))
+      (*deep)[(*n)++] = row;
   }
   PetscCall(VecRestoreArrayRead(wide->g, &g));
   PetscFunctionReturn(0);
@@ -94,7 +101,8 @@ static PetscErrorCode DeepGatherRows(MPI_Comm comm, PetscInt *n, DeepRow **deep)
 }
 
 /* The deepest row where one body's point is inside the other body, not only behind its face; of depth 0: none */
-static PetscErrorCode DeepPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n, const DeepRow deep[], DeepRow *deepest)
+static PetscErrorCode DeepPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
+  const DeepRow deep[], DeepRow *deepest)
 {
   PetscReal *angle;
 
@@ -108,14 +116,16 @@ static PetscErrorCode DeepPickDeepest(Contact contact, const ContactBoundary *bo
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 2 * n, MPIU_REAL, MPIU_SUM, contact->comm));
   for (PetscInt k = 0; k < n; ++k) {
-    if (PetscMax(angle[2 * k], angle[2 * k + 1]) > 0.9 * 4.0 * PETSC_PI && deep[k].depth > deepest->depth) *deepest = deep[k];
+    if (PetscMax(angle[2 * k], angle[2 * k + 1]) > 0.9 * 4.0 * PETSC_PI && deep[k].depth > deepest->depth)
+      *deepest = deep[k];
   }
   PetscCall(PetscFree(angle));
   PetscFunctionReturn(0);
 }
 
 /* The deepest row that a search over this distance finds and `usual` does not have */
-static PetscErrorCode DeepSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[], PetscReal distance, ContactLinearization usual, DeepRow *deepest)
+static PetscErrorCode DeepSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
+  PetscReal distance, ContactLinearization usual, DeepRow *deepest)
 {
   ContactLinearization wide;
   DeepRow             *deep;
@@ -149,8 +159,9 @@ static PetscErrorCode DeepSearch(Contact contact, const ContactBoundary *boundar
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and what widens
-  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do not.
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
+what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
+they do not.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/
@@ -170,7 +181,11 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(PetscFree(box));
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];
-  PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. "
-             "That is deeper than the contact search looks, %g: move them apart, or search deeper with -contact_search_depth %.2g", pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth, 1.1 * (double)deepest.depth);
+  PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. "
+    "That is deeper than the contact search looks, %g: move them apart, or search deeper with -contact_search_depth "
+    "%.2g",
+    pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,
+    1.1 * (double)deepest.depth);
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,8 @@
 #include "contactimpl.h"
 
 /* value: of three columns for each of n blocks */
-PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[], const PetscReal value[])
+PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],
+  const PetscReal value[])
 {
   PetscFunctionBegin;
   if (entries->n + 3 * n > entries->size) {

@@ -11,7 +11,8 @@ typedef struct {
 } Outgoing;
 
 /* Counts the facets for each rank, or packs them once out->x is there */
-static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[], Outgoing *out)
+static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[],
+  Outgoing *out)
 {
   PetscFunctionBegin;
   out->n      = 0;
@@ -103,10 +104,12 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
-  PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n, &out.patch, 4 * npatch * out.n, &out.bend));
+  PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
+    &out.patch, 4 * npatch * out.n, &out.bend));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n, &in->patch, 4 * npatch * in->n, &in->bend));
+  PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
+    &in->patch, 4 * npatch * in->n, &in->bend));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));

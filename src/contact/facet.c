@@ -35,7 +35,8 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
-/* by_x: derivatives by the vertices of moment times the facet's turn, the one that its normal and its first diagonal make; the facet has an area */
+/* by_x: derivatives by the vertices of moment times the facet's turn, the one that its normal and its first diagonal
+   make; the facet has an area */
 void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
 {
   PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;
@@ -98,16 +99,19 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
 /* Of a triangle, whose second parameter is 1 at its last vertex */
 static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {
-  const PetscReal e[2] = {q[1][0] - q[0][0], q[1][1] - q[0][1]}, f[2] = {q[2][0] - q[0][0], q[2][1] - q[0][1]}, r[2] = {y[0] - q[0][0], y[1] - q[0][1]};
-  const PetscReal det = e[0] * f[1] - e[1] * f[0], second = det != 0.0 ? (r[0] * f[1] - r[1] * f[0]) / det : 0.0, third = det != 0.0 ? (e[0] * r[1] - e[1] * r[0]) / det : 0.0;
+  const PetscReal e[2] = {q[1][0] - q[0][0], q[1][1] - q[0][1]}, f[2] = {q[2][0] - q[0][0], q[2][1] - q[0][1]},
+                  r[2] = {y[0] - q[0][0], y[1] - q[0][1]};
+  const PetscReal det = e[0] * f[1] - e[1] * f[0], second = det != 0.0 ? (r[0] * f[1] - r[1] * f[0]) / det : 0.0,
+                  third = det != 0.0 ? (e[0] * r[1] - e[1] * r[0]) / det : 0.0;
 
   xi[0] = third < 1.0 ? PetscClipInterval(2.0 * second / (1.0 - third) - 1.0, -1.0, 1.0) : 0.0;
   xi[1] = PetscClipInterval(2.0 * third - 1.0, -1.0, 1.0);
 }
 
 /*
-  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram, or of a triangle. The points asked for
-  lie in the quadrilateral up to rounding: the result is kept in [-1, 1]^2, also where a degenerate map cannot be inverted.
+  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram, or of a
+  triangle. The points asked for lie in the quadrilateral up to rounding: the result is kept in [-1, 1]^2, also where
+  a degenerate map cannot be inverted.
 */
 void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {

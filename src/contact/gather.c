@@ -1,7 +1,8 @@
 /* Makes a ring: facets from their ranks, the numbers of their nodes, who is next to whom, and the normals there are */
 #include "contactimpl.h"
 
-/* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length, says how far that is */
+/* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
+   says how far that is */
 static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal box[6], PetscReal *length)
 {
   PetscReal largest = 0.0;
@@ -42,7 +43,8 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
     PetscCall(PetscArraycmp(&facets->node[4 * f], s->node, 4, &same));
     *own = f;
   }
-  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A rank's own facets of face \"%s\" are not about themselves", s->name);
+  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A rank's own facets of face \"%s\" are not about themselves",
+    s->name);
   PetscFunctionReturn(0);
 }
 
@@ -56,13 +58,15 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->global));
   PetscCall(PetscArraycpy(ring->global, facets->node, 4 * ring->nfacets));
   PetscCall(PetscSortRemoveDupsInt(&ring->nnodes, ring->global));
-  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->node[i]));
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
+    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->node[i]));
   ring->nreal = ring->nnodes;
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->reference));
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->x));
   PetscCall(PetscCalloc1(ring->nnodes, &ring->held));
   for (PetscInt i = 0; i < 12 * ring->nfacets; ++i) ring->reference[3 * ring->node[i / 3] + i % 3] = facets->x[i];
-  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) ring->held[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
+    ring->held[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
   PetscCall(PetscArraycpy(ring->x, ring->reference, 3 * ring->nnodes));
   PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, ring->global, PETSC_COPY_VALUES, &rows));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, 3 * ring->nnodes, &ring->u));
@@ -140,7 +144,9 @@ static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
       continue;
     }
     if (ContactRingFan(ring, corner, &first, &last)) {
-      for (PetscInt k = ring->twin[ContactCornerBefore(ring, corner)]; k != corner; k = ring->twin[ContactCornerBefore(ring, k)]) first = PetscMin(first, k);
+      for (PetscInt k = ring->twin[ContactCornerBefore(ring, corner)]; k != corner;
+           k          = ring->twin[ContactCornerBefore(ring, k)])
+        first = PetscMin(first, k);
     }
     if (number[first] < 0) {
       ring->at[ring->nnormals] = corner;

@@ -143,7 +143,7 @@ static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place,
    nevertheless. There are none where the whole nonmortar face is held.
 */
 static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
-                                   Vec held, Vec frictionless)
+  Vec held, Vec frictionless)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *motion, free = 0;
@@ -189,7 +189,7 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
    without such a motion. planes: of its vertices, as ContactSurfaceFindPlanes() has them; faces: along each axis
 */
 static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
-                                   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
+  const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
 {
   const SceneDisplacement *plane  = &contact->displacements[k];
   PetscInt                 found  = 0;

@@ -1,10 +1,11 @@
 /*
-  Where a face ends on a plane that its body is held on, the smooth surface goes on as in a mirror: the facets of a ring near such a plane are
-  seen in it, so that normals on the border are means like all others.
+  Where a face ends on a plane that its body is held on, the smooth surface goes on as in a mirror: the facets of a
+  ring near such a plane are seen in it, so that normals on the border are means like all others.
 */
 #include "contactimpl.h"
 
-/* On the undeformed border the normal, extrapolated from the facets, is in the plane but for this part of what the facet's is out of it */
+/* On the undeformed border the normal, extrapolated from the facets, is in the plane but for this part of what the
+   facet's is out of it */
 #define MIRROR_OBLIQUE 0.2
 /* and but for rounding in files of meshes */
 #define MIRROR_ROUNDING 1e-6
@@ -44,7 +45,8 @@ static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, 
 }
 
 /* The planes of this rank's own facets; space for three of each edge */
-static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n, MirrorPlane planes[])
+static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n,
+  MirrorPlane planes[])
 {
   PetscFunctionBegin;
   *n = 0;
@@ -54,15 +56,19 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
 
     if (ring->twin[i] >= 0 || ContactCornerIsNone(ring, i)) continue;
     for (PetscInt axis = 0; axis < 3; ++axis) {
-      if (!MirrorHolds(ring, v, axis) || !MirrorHolds(ring, w, axis) || PetscAbsReal(y[axis] - x[axis]) > tolerance) continue;
-      MirrorAddPlane((MirrorPlane){(PetscReal)axis, x[axis], MirrorIsOblique(ring, i, axis) || MirrorIsOblique(ring, next, axis) ? 1.0 : 0.0}, tolerance, n, planes);
+      if (!MirrorHolds(ring, v, axis) || !MirrorHolds(ring, w, axis) || PetscAbsReal(y[axis] - x[axis]) > tolerance)
+        continue;
+      MirrorAddPlane((MirrorPlane){(PetscReal)axis, x[axis],
+                       MirrorIsOblique(ring, i, axis) || MirrorIsOblique(ring, next, axis) ? 1.0 : 0.0},
+        tolerance, n, planes);
     }
   }
   PetscFunctionReturn(0);
 }
 
 /* Collective. All planes of the surface, on every rank the same; free planes */
-static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n, MirrorPlane **planes)
+static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance,
+  PetscInt *n, MirrorPlane **planes)
 {
   PetscMPIInt  size, mine, *count, *start;
   MirrorPlane *own, *all;
@@ -86,15 +92,18 @@ static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, P
   PetscFunctionReturn(0);
 }
 
-/* on[v]: node v is on the plane and held there; near[v]: or two facets from such a node at most. any: one of them is on it */
-static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance, PetscBool on[], PetscBool near[], PetscInt *any)
+/* on[v]: node v is on the plane and held there; near[v]: or two facets from such a node at most. any: one of them is
+   on it */
+static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance,
+  PetscBool on[], PetscBool near[], PetscInt *any)
 {
   const PetscInt axis = (PetscInt)plane->axis;
 
   PetscFunctionBegin;
   *any = -1;
   for (PetscInt v = 0; v < ring->nnodes; ++v) {
-    on[v] = near[v] = (PetscBool)(MirrorHolds(ring, v, axis) && PetscAbsReal(ring->x[3 * v + axis] - plane->place) <= tolerance);
+    on[v] = near[v] =
+      (PetscBool)(MirrorHolds(ring, v, axis) && PetscAbsReal(ring->x[3 * v + axis] - plane->place) <= tolerance);
     if (on[v] && v < ring->nreal) *any = v;
   }
   for (PetscInt layer = 0; layer < 2; ++layer) {
@@ -167,7 +176,8 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the images of a ring's facets in all planes that the surface ends on at right angles; nothing knows of their edges yet. length: of a facet */
+/* Collective. Adds the images of a ring's facets in all planes that the surface ends on at right angles; nothing
+   knows of their edges yet. length: of a facet */
 PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
 {
   const PetscReal tolerance = MIRROR_ROUNDING * length;

@@ -2,7 +2,8 @@
 #include "contactimpl.h"
 
 /* All sums over the points of the overlap; coordinates of both facets interpolated there */
-void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12], const PetscReal normals[12], ContactIntegrals *m)
+void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],
+  const PetscReal normals[12], ContactIntegrals *m)
 {
   *m = (ContactIntegrals){0};
   for (PetscInt q = 0; q < o->n; ++q) {
@@ -37,7 +38,8 @@ typedef struct {
 } MortarFacet;
 
 /* Adds a mortar facet of a smooth pair */
-static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap, const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
+static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
+  const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
   const PetscReal *x = &mortar->x[12 * k];
   PetscReal        cover[4];
@@ -53,7 +55,8 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
 }
 
 /* Adds what a mortar facet overlaps */
-static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth, const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
+static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth,
+  const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
 {
   ContactIntegrals m;
 
@@ -70,16 +73,22 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
 }
 
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
-static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule, const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
+static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule,
+  const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear,
+  const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
   const PetscBool smooth = pair->nonmortar.patched;
-  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f], .normal = normal, .row = &pair->row[4 * f], .node = &pair->nonmortar.node[4 * f]};
+  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
+         .normal               = normal,
+         .row                  = &pair->row[4 * f],
+         .node                 = &pair->nonmortar.node[4 * f]};
   ContactOverlap  overlap;
 
   PetscFunctionBegin;
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
   for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap)) PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
+    if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap))
+      PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
   }
   if (facet.noverlaps) {
     PetscScalar gap[4], cover[4];
@@ -89,7 +98,8 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
       cover[a] = facet.cover[a];
       PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
     }
-    if (smooth) PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
+    if (smooth)
+      PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
     PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
     PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
   }
@@ -115,10 +125,12 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar, ContactAssembly *assembly)
+static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar,
+  ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
-  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop, pair->distance + pair->bulge, pair->depth + pair->bulge};
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop,
+    pair->distance + pair->bulge, pair->depth + pair->bulge};
   ContactNear                near;
 
   PetscFunctionBegin;
@@ -132,8 +144,10 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
 
     if (!n) continue;
     PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
-    for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a) (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
-    PetscCall(MortarAddFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly, &pair->nfacing));
+    for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
+      (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
+    PetscCall(MortarAddFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly,
+      &pair->nfacing));
   }
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactNearDestroy(&near));

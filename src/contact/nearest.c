@@ -11,7 +11,8 @@ static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3]
 }
 
 /* Keeps the facet if it faces the vertex and is nearer than the nearest so far */
-static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
+static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3],
+  const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
 {
   PetscReal n[3], xi[2], y[3], d;
 
@@ -26,7 +27,8 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
 }
 
 /* Of the facets within reach whose normal makes at most this cosine with the vertex's, the nearest to x */
-void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach, const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
+void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach,
+  const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
 {
   PetscInt  stack[CONTACT_TREE_DEPTH], depth = 0;
   PetscReal distance = reach;
@@ -39,7 +41,8 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
 
     if (NearestBoxDistance(node->box, x) > distance * distance) continue;
     if (node->second) { /* the nearer child is looked at first */
-      const PetscBool swap = (PetscBool)(NearestBoxDistance(t->node[node->second].box, x) < NearestBoxDistance(t->node[self + 1].box, x));
+      const PetscBool swap =
+        (PetscBool)(NearestBoxDistance(t->node[node->second].box, x) < NearestBoxDistance(t->node[self + 1].box, x));
 
       stack[depth++] = swap ? self + 1 : node->second;
       stack[depth++] = swap ? node->second : self + 1;
@@ -48,7 +51,8 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
     for (PetscInt i = node->first; i < node->last; ++i) {
       const PetscInt f = t->order[i];
 
-      if (NearestBoxDistance(&t->box[6 * f], x) <= distance * distance) NearestTryFacet(facets, f, cosine, x, normal, nearest, &distance);
+      if (NearestBoxDistance(&t->box[6 * f], x) <= distance * distance)
+        NearestTryFacet(facets, f, cosine, x, normal, nearest, &distance);
     }
   }
 }

@@ -10,13 +10,15 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
   static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* at (xi, eta) = (-1 or 1, -1 or 1) */
   const PetscInt        i = xi[0] >= 1.0, j = xi[1] >= 1.0;
 
-  if (PetscAbsReal(xi[0]) >= 1.0 && PetscAbsReal(xi[1]) >= 1.0) return (PetscBool)((border >> (4 + vertex[i][j]) & 1) != 0);
+  if (PetscAbsReal(xi[0]) >= 1.0 && PetscAbsReal(xi[1]) >= 1.0)
+    return (PetscBool)((border >> (4 + vertex[i][j]) & 1) != 0);
   if (PetscAbsReal(xi[0]) >= 1.0) return (PetscBool)((border >> (i ? 1 : 3) & 1) != 0);
   if (PetscAbsReal(xi[1]) >= 1.0) return (PetscBool)((border >> (j ? 2 : 0) & 1) != 0);
   return PETSC_FALSE;
 }
 
-/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not along the facet's normal there */
+/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not along the
+   facet's normal there */
 static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
 {
   const PetscReal *facet = &mortar->x[12 * nearest->facet];
@@ -62,7 +64,8 @@ typedef struct {
 } NodeGap;
 
 /* The closest point moves on its facet so as to stay the closest one, along the edge or to the corner that it is at */
-static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3], const PetscReal by_xi[2], NodeGap *gap)
+static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3],
+  const PetscReal by_xi[2], NodeGap *gap)
 {
   PetscReal t[2][3], phi[4], dphi[4][2], r[3], H[3], twist[3], mu[2], det;
   PetscBool moves[2];
@@ -95,8 +98,10 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   }
 }
 
-/* How far the vertex x, of normal n, is over the plane that touches the smooth surface beside its closest point, along the normal of that */
-static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
+/* How far the vertex x, of normal n, is over the plane that touches the smooth surface beside its closest point,
+   along the normal of that */
+static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
+  const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
   ContactPatch patch, by;
   PetscReal    r[3], m[3], phi[4], dphi[4][2], by_xi[2], by_normal[3], turn[3], length;
@@ -130,7 +135,8 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
 }
 
 /* Times the mass that the assembly divides by */
-static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar, PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
+static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar,
+  PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] *= mass;
@@ -156,7 +162,8 @@ static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3
 }
 
 /* The gap, and the coupling N2_B(xi) - 1 of the facets; both times the mass that the assembly divides by */
-static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass, const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
+static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass,
+  const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
 {
   const PetscScalar weighted = mass * gap->gap;
   PetscSection      global;
@@ -166,7 +173,8 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   PetscFunctionBegin;
   ContactShape(nearest->xi, value);
   for (PetscInt b = 0; b < 4; ++b) value[b] *= mass;
-  PetscCall(ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value, &contact->rows.normal[3 * i]));
+  PetscCall(
+    ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value, &contact->rows.normal[3 * i]));
   PetscCall(DMGetGlobalSection(contact->dm, &global));
   PetscCall(PetscSectionGetOffset(global, contact->rows.vertex[i], &offset));
   offset /= 3;
@@ -177,7 +185,8 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const ContactCandidates *mortar, ContactAssembly *assembly)
+static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const ContactCandidates *mortar,
+  ContactAssembly *assembly)
 {
   ContactPairData   *pair  = &contact->pairs[p];
   const ContactRows *rows  = &contact->rows;
@@ -198,7 +207,8 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
 
     ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
-    if (pair->mortar.patched) NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
+    if (pair->mortar.patched)
+      NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
     else gap.gap = NodeFacetGap(&nearest, x, n);
     if (gap.gap > pair->distance || gap.gap < -pair->depth) continue;
     PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, &gap, assembly));

@@ -12,10 +12,12 @@ static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt v
 }
 
 /*
-  Convex parts of a quadrilateral, counterclockwise: itself, be it a triangle, or two triangles where a corner is reflex. Where its edges cross
-  (two reflex corners, if only by rounding) one of the triangles is clockwise: it is reversed, and counts negatively.
+  Convex parts of a quadrilateral, counterclockwise: itself, be it a triangle, or two triangles where a corner is
+  reflex. Where its edges cross (two reflex corners, if only by rounding) one of the triangles is clockwise: it is
+  reversed, and counts negatively.
 */
-static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2], PetscInt vertex[2][4], PetscReal sign[2])
+static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2],
+  PetscInt vertex[2][4], PetscReal sign[2])
 {
   const PetscBool triangle = (PetscBool)(p[2][0] == p[3][0] && p[2][1] == p[3][1]);
   PetscInt        reflex   = -1;
@@ -52,10 +54,11 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
 }
 
 /*
-  An edge that both facets have counts as the nonmortar one's: what lies on either side of it is then known from both of its sides, and
-  an edge between two mortar facets ends nothing. nmortar: edges of the mortar facet
+  An edge that both facets have counts as the nonmortar one's: what lies on either side of it is then known from both
+  of its sides, and an edge between two mortar facets ends nothing. nmortar: edges of the mortar facet
 */
-static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size, const PetscReal part[4][2], PetscInt edge[][2])
+static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
+  const PetscReal part[4][2], PetscInt edge[][2])
 {
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt next = (i + 1) % n;
@@ -63,13 +66,15 @@ static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt
     for (PetscInt e = 0; edge[i][1] < nmortar && e < size; ++e) {
       const PetscReal *a = part[e], *b = part[(e + 1) % size];
 
-      if (OverlapIsOnLine(a, b, polygon[i]) && OverlapIsOnLine(a, b, polygon[next])) edge[i][1] = edge[next][0] = nmortar + e;
+      if (OverlapIsOnLine(a, b, polygon[i]) && OverlapIsOnLine(a, b, polygon[next]))
+        edge[i][1] = edge[next][0] = nmortar + e;
     }
   }
 }
 
 /* Keeps the polygon's corners; vertex: of the nsize ones of the part of the nonmortar facet that it was clipped to */
-static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2], PetscInt size, const PetscInt vertex[], ContactOverlap *o)
+static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2],
+  PetscInt size, const PetscInt vertex[], ContactOverlap *o)
 {
   for (PetscInt i = 0; i < n; ++i) {
     ContactCorner *corner = &o->corner[o->ncorners++];
@@ -78,13 +83,15 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscInt e = edge[i][k];
 
-      for (PetscInt v = 0; v < 2; ++v) corner->line[k][v] = e < nmortar ? 4 + nmortar - 1 - (e + v) % nmortar : vertex[(e - nmortar + v) % size];
+      for (PetscInt v = 0; v < 2; ++v)
+        corner->line[k][v] = e < nmortar ? 4 + nmortar - 1 - (e + v) % nmortar : vertex[(e - nmortar + v) % size];
     }
   }
 }
 
 /* Adds the points of the fan of triangles about the polygon's first vertex, with this sign; first: of its corners */
-static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2], PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
+  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
@@ -129,7 +136,8 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
   Projects both facets to the plane of the nonmortar facet x1 (through its centre, along its mean normal), clips, and
   places the quadrature points. False where the facets do not face each other within the limits or hardly overlap.
 */
-PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
+PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
+  const ContactRule *rule, ContactOverlap *o)
 {
   const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
   PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
@@ -139,7 +147,8 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
   o->n = o->ncorners = o->ntriangles = 0;
   o->area                            = 0.0;
   if (!ContactFrameCreate(x1, &frame) || !ContactFacetNormal(x2, n2)) return PETSC_FALSE;
-  if (n2[0] * frame.axis[2][0] + n2[1] * frame.axis[2][1] + n2[2] * frame.axis[2][2] > limits->cosine) return PETSC_FALSE;
+  if (n2[0] * frame.axis[2][0] + n2[1] * frame.axis[2][1] + n2[2] * frame.axis[2][2] > limits->cosine)
+    return PETSC_FALSE;
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
   for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body: clockwise */

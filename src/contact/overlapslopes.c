@@ -1,11 +1,13 @@
 /*
-  The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), H the heights over the plane of the nonmortar facet, and its
-  derivatives by everything: places of the quadrature points, their weights, the plane, and the patches; and those of the cover int phi_A. In
-  that plane's own axes nothing changes with a rigid motion, so that the forces that these derivatives are balance to rounding, their moments too.
+  The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), H the heights over the plane of the nonmortar
+  facet, and its derivatives by everything: places of the quadrature points, their weights, the plane, and the
+  patches; and those of the cover int phi_A. In that plane's own axes nothing changes with a rigid motion, so that the
+  forces that these derivatives are balance to rounding, their moments too.
 */
 #include "contactimpl.h"
 
-/* Sine of the angle about which two lines come to have no point of intersection to speak of: what is off by rounding, or by the quadrature, would move it far */
+/* Sine of the angle about which two lines come to have no point of intersection to speak of: what is off by rounding,
+   or by the quadrature, would move it far */
 #define PARALLEL 5e-3
 
 typedef struct {
@@ -71,7 +73,8 @@ static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum
   }
 }
 
-/* Adds a point of this weight to row a's gap, returned; place: what the gap changes with the point's place in the plane, all else the same */
+/* Adds a point of this weight to row a's gap, returned; place: what the gap changes with the point's place in the
+   plane, all else the same */
 static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
@@ -95,7 +98,8 @@ static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weigh
 }
 
 /* The same of the cover */
-static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal weight, PlaneMotion *by, PetscReal place[2])
+static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal weight, PlaneMotion *by,
+  PetscReal place[2])
 {
   for (PetscInt d = 0; d < 2; ++d) {
     place[d] = weight * point->slope[a][d];
@@ -105,7 +109,8 @@ static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal we
 }
 
 /* What its corners share of the derivative by a point of a triangle */
-static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentric[3], const PetscReal place[2], PlaneMotion *by)
+static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentric[3], const PetscReal place[2],
+  PlaneMotion *by)
 {
   for (PetscInt v = 0; v < 3; ++v) {
     for (PetscInt d = 0; d < 2; ++d) by->corner[triangle->corner[v]][d] += barycentric[v] * place[d];
@@ -116,15 +121,17 @@ static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentri
 static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, PetscReal mean, PlaneMotion *by)
 {
   for (PetscInt v = 0; v < 3; ++v) {
-    const PetscReal *from = o->corner[triangle->corner[(v + 1) % 3]].y, *to = o->corner[triangle->corner[(v + 2) % 3]].y;
-    const PetscReal  turn[2] = {from[1] - to[1], to[0] - from[0]}; /* twice what the area changes with */
+    const PetscReal *from   = o->corner[triangle->corner[(v + 1) % 3]].y,
+                    *to     = o->corner[triangle->corner[(v + 2) % 3]].y;
+    const PetscReal turn[2] = {from[1] - to[1], to[0] - from[0]}; /* twice what the area changes with */
 
     for (PetscInt d = 0; d < 2; ++d) by->corner[triangle->corner[v]][d] += 0.5 * triangle->sign * mean * turn[d];
   }
 }
 
 /* The points of triangle t, and its area's derivative, which a triangle of no area has as well */
-static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair, PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
+static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair,
+  PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
 {
   const ContactTriangle *triangle = &o->triangle[t];
   PetscReal              mean[4] = {0}, mean_cover[4] = {0};
@@ -153,11 +160,13 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
 }
 
 /* Shares what a corner's motion with its line k adds to the gap between the two vertices that the line is through */
-static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2], PlaneMotion *by)
+static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2],
+  PlaneMotion *by)
 {
   const PetscInt   from = corner->line[k][0], to = corner->line[k][1];
   const PetscReal *x = pair->p[from / 4][from % 4], *y = pair->p[to / 4][to % 4], d[2] = {y[0] - x[0], y[1] - x[1]};
-  const PetscReal  size = d[0] * d[0] + d[1] * d[1], s = size > 0.0 ? ((corner->y[0] - x[0]) * d[0] + (corner->y[1] - x[1]) * d[1]) / size : 0.5;
+  const PetscReal  size = d[0] * d[0] + d[1] * d[1],
+                  s     = size > 0.0 ? ((corner->y[0] - x[0]) * d[0] + (corner->y[1] - x[1]) * d[1]) / size : 0.5;
 
   for (PetscInt c = 0; c < 2; ++c) {
     by->p[from / 4][from % 4][c] += (1.0 - s) * force[c];
@@ -165,7 +174,8 @@ static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscIn
   }
 }
 
-/* Hands the derivative by a corner on to the vertices that the lines which meet there are through; where they are hardly two, it stays where it is on the nonmortar facet's */
+/* Hands the derivative by a corner on to the vertices that the lines which meet there are through; where they are
+   hardly two, it stays where it is on the nonmortar facet's */
 static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const PetscReal force[2], PlaneMotion *by)
 {
   PetscReal normal[2][2], along[2][2], staying[2], sine, stays;
@@ -179,7 +189,9 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
     const PetscReal *x = pair->p[from / 4][from % 4], *y = pair->p[to / 4][to % 4];
     PetscReal        length;
 
-    if (corner->line[0][0] / 4 == corner->line[1][0] / 4 && (from == corner->line[1 - k][0] || from == corner->line[1 - k][1])) { /* a vertex of the facet that both are of */
+    if (corner->line[0][0] / 4 == corner->line[1][0] / 4 &&
+        (from == corner->line[1 - k][0] ||
+          from == corner->line[1 - k][1])) { /* a vertex of the facet that both are of */
       for (PetscInt c = 0; c < 2; ++c) by->p[from / 4][from % 4][c] += force[c];
       return;
     }
@@ -194,7 +206,9 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
   for (PetscInt c = 0; c < 2; ++c) staying[c] = stays * force[c];
   MoveLine(pair, corner, corner->line[0][0] < 4 ? 0 : 1, staying, by);
   for (PetscInt k = 0; sine != 0.0 && k < 2; ++k) {
-    const PetscReal part = (1.0 - stays) * (along[1 - k][0] * force[0] + along[1 - k][1] * force[1]) / (k ? -sine : sine), pushed[2] = {part * normal[k][0], part * normal[k][1]};
+    const PetscReal part =
+                      (1.0 - stays) * (along[1 - k][0] * force[0] + along[1 - k][1] * force[1]) / (k ? -sine : sine),
+                    pushed[2] = {part * normal[k][0], part * normal[k][1]};
 
     MoveLine(pair, corner, k, pushed, by);
   }
@@ -216,7 +230,8 @@ static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const Pet
 static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const PetscReal by_x[12], PetscReal moment[3])
 {
   for (PetscInt b = 0; b < 4; ++b) {
-    const PetscReal r[3] = {x[3 * b] - frame->origin[0], x[3 * b + 1] - frame->origin[1], x[3 * b + 2] - frame->origin[2]};
+    const PetscReal r[3] = {x[3 * b] - frame->origin[0], x[3 * b + 1] - frame->origin[1],
+      x[3 * b + 2] - frame->origin[2]};
     PetscReal       m[3];
 
     ContactCross(r, &by_x[3 * b], m);
@@ -225,10 +240,11 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
 }
 
 /*
-  Row a. The plane tilts with the nonmortar facet, and all that is seen from it turns back. Patches either bend as normals turn, or keep their
-  shape and turn with their facets, the nonmortar one then with the plane
+  Row a. The plane tilts with the nonmortar facet, and all that is seen from it turns back. Patches either bend as
+  normals turn, or keep their shape and turn with their facets, the nonmortar one then with the plane
 */
-static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by, ContactSlopes *nonmortar, ContactSlopes *mortar)
+static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   ContactSlopes *const to[2]     = {nonmortar, mortar};
   PetscReal            moment[3] = {0, 0, 0}, turn[2][3], back[3], tilt[12];
@@ -257,7 +273,8 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
 }
 
 /* Row a's cover */
-static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneMotion *by, ContactSlopes *nonmortar, ContactSlopes *mortar)
+static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneMotion *by,
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   ContactSlopes *const to[2]     = {nonmortar, mortar};
   PetscReal            moment[3] = {0, 0, 0}, by_x[12], tilt[12];
@@ -273,10 +290,12 @@ static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *cons
 }
 
 /*
-  The overlap of x1 and x2 as ContactOverlapFind() left it. gap[A] = int phi_A (H2 - H1), cover[A] = int phi_A; their derivatives are put
-  into mortar and added to nonmortar
+  The overlap of x1 and x2 as ContactOverlapFind() left it. gap[A] = int phi_A (H2 - H1), cover[A] = int phi_A; their
+  derivatives are put into mortar and added to nonmortar
 */
-void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12], const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4], ContactSlopes *nonmortar, ContactSlopes *mortar)
+void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
+  const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   const PetscReal *const x[2]  = {x1, x2};
   const ContactSlopes    none  = {.x = {{0}}};

@@ -1,13 +1,16 @@
-/* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by vertices and normals */
+/* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by
+   vertices and normals */
 #include "contactimpl.h"
 
 /* A patch that turns away from a direction by more than 60 degrees has no tangent plane to measure along it by */
 #define STEEPEST_SQUARED_COSINE 0.25
 
-/* Height of edge e at its parameter eta in [0, 1], where it counts blend, and its derivatives by eta, by blend and by the two slopes */
+/* Height of edge e at its parameter eta in [0, 1], where it counts blend, and its derivatives by eta, by blend and by
+   the two slopes */
 static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal by[4])
 {
-  const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta), tilt = a0 * (1.0 - eta) - a1 * eta;
+  const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta),
+                  tilt = a0 * (1.0 - eta) - a1 * eta;
 
   by[0] = blend * ((1.0 - 2.0 * eta) * tilt - bump * (a0 + a1));
   by[1] = bump * tilt;
@@ -16,17 +19,22 @@ static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, Pe
   return blend * bump * tilt;
 }
 
-/* From the derivatives by the offset and the normal that ContactPatchEvaluate() has at xi: those by xi and by the patch */
-void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3], const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
+/* From the derivatives by the offset and the normal that ContactPatchEvaluate() has at xi: those by xi and by the
+   patch */
+void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
+  const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
 {
-  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t}, blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
-  PetscReal       phi[4], dphi[4][2];
+  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},
+                  blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
+  PetscReal phi[4], dphi[4][2];
 
   ContactShape(xi, phi);
   ContactShapeSlopes(xi, dphi);
   by_xi[0] = by_xi[1] = 0.0;
   for (PetscInt e = 0; e < 4; ++e) {
-    const PetscReal direction = ContactDot(p->direction[e], by_offset), normal = ContactDot(&p->normal[3 * e], by_normal), forward = e < 2 ? 0.5 : -0.5, outward = e == 1 || e == 2 ? 0.5 : -0.5;
+    const PetscReal direction = ContactDot(p->direction[e], by_offset),
+                    normal = ContactDot(&p->normal[3 * e], by_normal), forward = e < 2 ? 0.5 : -0.5,
+                    outward = e == 1 || e == 2 ? 0.5 : -0.5;
     PetscReal       slopes[4];
     const PetscReal height = EdgeHeight(p, e, along[e], blend[e], slopes);
 
@@ -43,8 +51,10 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
   }
 }
 
-/* How far the patch is over its facet at xi along a unit direction, by the tangent plane at the patch's point; and the derivatives of that */
-PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3], PetscReal by_xi[2], ContactPatch *by)
+/* How far the patch is over its facet at xi along a unit direction, by the tangent plane at the patch's point; and
+   the derivatives of that */
+PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
+  PetscReal by_xi[2], ContactPatch *by)
 {
   PetscReal offset[3], normal[3], by_offset[3], by_normal[3], height, cosine;
 
@@ -68,15 +78,18 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
 }
 
 /* Of edge e: adds what its slopes and its direction change with its chord and with the normals at its ends */
-static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by, PetscReal by_chord[3], PetscReal by_normal[2][3])
+static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by,
+  PetscReal by_chord[3], PetscReal by_normal[2][3])
 {
-  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]}, *N = p->direction[e], length = PetscSqrtReal(2.0 + 2.0 * ContactDot(n[0], n[1]));
-  PetscReal        by_direction[3] = {by->direction[e][0], by->direction[e][1], by->direction[e][2]}, along;
+  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]}, *N = p->direction[e],
+                  length    = PetscSqrtReal(2.0 + 2.0 * ContactDot(n[0], n[1]));
+  PetscReal by_direction[3] = {by->direction[e][0], by->direction[e][1], by->direction[e][2]}, along;
 
   for (PetscInt i = 0; i < 2; ++i) {
     const PetscReal half = 1.0 + ContactDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
 
-    if (PetscAbsReal(-2.0 * ContactDot(d, n[i]) / half) > PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the steepest there is: a part of the chord */
+    if (PetscAbsReal(-2.0 * ContactDot(d, n[i]) / half) >
+        PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the steepest there is: a part of the chord */
       for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / ContactDot(d, d) * d[c];
       continue;
     }
@@ -92,8 +105,10 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   }
 }
 
-/* Adds to the derivatives by the facet's vertices x and by the unit normals there what those by the patch made of them amount to */
-void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12], PetscReal by_normal[12])
+/* Adds to the derivatives by the facet's vertices x and by the unit normals there what those by the patch made of
+   them amount to */
+void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
+  PetscReal by_normal[12])
 {
   for (PetscInt e = 0; e < 4; ++e) {
     const PetscInt  next     = (e + 1) % 4;

@@ -2,7 +2,8 @@
 #include "contactimpl.h"
 #include <petscdt.h>
 
-/* PETSc's rule of fewest points that is exact for polynomials of this degree: barycentric coordinates, weights that sum to 1 */
+/* PETSc's rule of fewest points that is exact for polynomials of this degree: barycentric coordinates, weights that
+   sum to 1 */
 PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *rule)
 {
   PetscQuadrature  quadrature;
@@ -12,7 +13,8 @@ PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *rule)
   PetscFunctionBegin;
   PetscCall(PetscDTSimplexQuadrature(2, degree, PETSCDTSIMPLEXQUAD_MINSYM, &quadrature));
   PetscCall(PetscQuadratureGetData(quadrature, NULL, NULL, &n, &x, &weight));
-  PetscCheck(n <= CONTACT_RULE_POINTS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "The rule of degree %" PetscInt_FMT " has %" PetscInt_FMT " points, more than %d", degree, n, CONTACT_RULE_POINTS);
+  PetscCheck(n <= CONTACT_RULE_POINTS, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "The rule of degree %" PetscInt_FMT " has %" PetscInt_FMT " points, more than %d", degree, n, CONTACT_RULE_POINTS);
   rule->degree = degree;
   rule->n      = n;
   for (PetscInt q = 0; q < n; ++q) {

@@ -1,8 +1,10 @@
 /*
-  The facets about those of this rank, two deep, on whatever ranks they are: what the normals of a smooth surface are taken from.
+  The facets about those of this rank, two deep, on whatever ranks they are: what the normals of a smooth surface are
+  taken from.
 
-  A corner is 4 f + a, for vertex a of facet f, of which a triangle has three; it stands for the edge from that vertex to the next as well. Neighbours across an
-  edge that is sharper, undeformed, than the feature angle are none: each side of it has normals of its own.
+  A corner is 4 f + a, for vertex a of facet f, of which a triangle has three; it stands for the edge from that vertex
+  to the next as well. Neighbours across an edge that is sharper, undeformed, than the feature angle are none: each
+  side of it has normals of its own.
 */
 #include "contactimpl.h"
 
@@ -32,7 +34,8 @@ PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
   return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));
 }
 
-/* First corner about a corner's node, clockwise, and the last, as far as no edge is sharp or on the border; true where all around is smooth */
+/* First corner about a corner's node, clockwise, and the last, as far as no edge is sharp or on the border; true
+   where all around is smooth */
 PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -77,7 +80,9 @@ PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
 /* Coordinates of the ends of the two edges of a facet that meet at a corner, from the corner's own */
 void ContactRingEdges(const ContactRing *ring, PetscInt corner, PetscReal after[3], PetscReal before[3])
 {
-  const PetscReal *x = &ring->x[3 * ring->node[corner]], *y = &ring->x[3 * ring->node[ContactCornerAfter(ring, corner)]], *z = &ring->x[3 * ring->node[ContactCornerBefore(ring, corner)]];
+  const PetscReal *x = &ring->x[3 * ring->node[corner]],
+                  *y = &ring->x[3 * ring->node[ContactCornerAfter(ring, corner)]],
+                  *z = &ring->x[3 * ring->node[ContactCornerBefore(ring, corner)]];
 
   for (PetscInt c = 0; c < 3; ++c) {
     after[c]  = y[c] - x[c];

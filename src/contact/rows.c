@@ -3,7 +3,8 @@
 #include "contactimpl.h"
 
 /* marked[v] = 1 for the vertices of this rank's facets, and for those it owns on facets of other ranks; 0 elsewhere */
-static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints, PetscInt marked[])
+static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints,
+  PetscInt marked[])
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(marked, npoints));
@@ -16,7 +17,8 @@ static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const Con
 }
 
 /* Appends the marked vertices that this rank owns to rows->vertex, which has space for size */
-static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const PetscInt marked[], ContactRows *rows, PetscInt *size)
+static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const PetscInt marked[], ContactRows *rows,
+  PetscInt *size)
 {
   PetscFunctionBegin;
   for (PetscInt v = 0; v < npoints; ++v) {
@@ -35,7 +37,8 @@ static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const Pe
 }
 
 /* Global rows of the facets' vertices from the local numbers of the owned ones */
-static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p, ContactPairData *pair, PetscInt npoints, PetscInt number[])
+static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p,
+  ContactPairData *pair, PetscInt npoints, PetscInt number[])
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(number, npoints));
@@ -99,7 +102,8 @@ PetscErrorCode ContactRowsCreate(Contact contact)
   }
   PetscCallMPI(MPI_Scan(&rows->nlocal, &rstart, 1, MPIU_INT, MPI_SUM, contact->comm));
   rstart -= rows->nlocal;
-  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(RowsShare(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
+  for (PetscInt p = 0; p < contact->npairs; ++p)
+    PetscCall(RowsShare(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
   PetscCall(PetscFree(number));
   PetscCall(PetscMalloc2(3 * rows->nlocal, &rows->normal, 3 * rows->nlocal, &rows->x));
   PetscCall(RowsCreateMass(contact));

@@ -2,8 +2,8 @@
 #include "contactimpl.h"
 
 /*
-  What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the normal:
-  a ball of that radius would hold more and more facets as the mesh is refined.
+  What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the
+  normal: a ball of that radius would hold more and more facets as the mesh is refined.
 */
 typedef struct {
   ContactFrame frame;
@@ -70,7 +70,8 @@ static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt fo
 }
 
 /* For each of this rank's nonmortar facets, the candidates that may lie along its normal within the search distances */
-PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscReal depth, const ContactCandidates *mortar, ContactNear *near)
+PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscReal depth,
+  const ContactCandidates *mortar, ContactNear *near)
 {
   ContactTree tree;
   Prism       prism;

@@ -1,6 +1,7 @@
 /*
-   Rows of hanging vertices: displacements of the nonmortar face are those of the other vertices, and so are its multipliers. What is added up for the row of
-   a vertex that hangs between others, phi_A its bilinear function, goes to theirs, in parts of 1/2 or 1/4, and the row stays empty.
+   Rows of hanging vertices: displacements of the nonmortar face are those of the other vertices, and so are its
+   multipliers. What is added up for the row of a vertex that hangs between others, phi_A its bilinear function, goes
+   to theirs, in parts of 1/2 or 1/4, and the row stays empty.
 */
 #include <mesh.h>
 #include "contactimpl.h"
@@ -87,7 +88,8 @@ static PetscErrorCode ShareFill(Mat means, Vec number, Vec gathered, Mat share)
     PetscCall(MatGetRow(means, i, &n, NULL, &weight));
     for (PetscInt j = 0; j < n; ++j) all = (PetscBool)(all && PetscRealPart(to[k + j]) > 0.0);
     if (row >= 0 && !(n && all)) PetscCall(MatSetValue(share, row, row, 1.0, INSERT_VALUES));
-    for (PetscInt j = 0; row >= 0 && all && j < n; ++j) PetscCall(MatSetValue(share, row, (PetscInt)PetscRealPart(to[k + j]) - 1, weight[j], INSERT_VALUES));
+    for (PetscInt j = 0; row >= 0 && all && j < n; ++j)
+      PetscCall(MatSetValue(share, row, (PetscInt)PetscRealPart(to[k + j]) - 1, weight[j], INSERT_VALUES));
     k += n;
     PetscCall(MatRestoreRow(means, i, &n, NULL, &weight));
   }
@@ -96,7 +98,8 @@ static PetscErrorCode ShareFill(Mat means, Vec number, Vec gathered, Mat share)
   PetscFunctionReturn(0);
 }
 
-/* Collective. rows->share: NULL where no vertex of the mesh hangs; rows->weight: the masses with those of hanging vertices given away */
+/* Collective. rows->share: NULL where no vertex of the mesh hangs; rows->weight: the masses with those of hanging
+   vertices given away */
 PetscErrorCode ContactShareCreate(Contact contact)
 {
   ContactRows *rows = &contact->rows;
@@ -108,7 +111,8 @@ PetscErrorCode ContactShareCreate(Contact contact)
   PetscCall(PetscObjectReference((PetscObject)rows->mass));
   rows->weight = rows->mass;
   if (!means) PetscFunctionReturn(0);
-  PetscCall(MatCreateAIJ(contact->comm, rows->nlocal, rows->nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 4, NULL, &rows->share));
+  PetscCall(MatCreateAIJ(contact->comm, rows->nlocal, rows->nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 4, NULL,
+    &rows->share));
   PetscCall(MatCreateVecs(means, &number, NULL));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     PetscCall(ShareNumberRows(contact, p, number));

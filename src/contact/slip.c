@@ -1,5 +1,6 @@
 /*
-   The slip of the rows of pairs that rub: how far the mortar side has gone along the nonmortar one, in the means that the mortar gap is taken in,
+   The slip of the rows of pairs that rub: how far the mortar side has gone along the nonmortar one, in the means that
+   the mortar gap is taken in,
 
      slip_A = (1/m_A) int phi_A (u2 - u1).t,   t = t1, t2 across the row's normal,
 
@@ -26,8 +27,8 @@ static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal
   return SlipTangentOf(n, v, t);
 }
 
-/* Two unit vectors across a unit normal and each other, of which the one across a plane through the vertex, of that unit normal, is zero; false where the plane is none that
-   the face ends on */
+/* Two unit vectors across a unit normal and each other, of which the one across a plane through the vertex, of that
+   unit normal, is zero; false where the plane is none that the face ends on */
 static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
 {
   if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
@@ -36,7 +37,8 @@ static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane
   return PETSC_TRUE;
 }
 
-/* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose tangents are zero */
+/* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose
+   tangents are zero */
 static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
 {
   PetscInt  axis = 0;
@@ -93,7 +95,8 @@ static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
 }
 
 /* Entries of the two rows of slip, made from one of the couplings; NULL: counted only */
-static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to, Mat slip, PetscReal *cover)
+static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to,
+  Mat slip, PetscReal *cover)
 {
   const PetscInt    *node;
   const PetscScalar *value;
@@ -134,7 +137,8 @@ static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const Pet
     offdiagonal[2 * k + 1] = offdiagonal[2 * k];
     PetscCall(MatRestoreRow(couplings, rstart + kept[k], &n, &node, NULL));
   }
-  PetscCall(MatCreateAIJ(contact->comm, 2 * lin->nlocal, 3 * (cend - cstart), PETSC_DETERMINE, PETSC_DETERMINE, 0, diagonal, 0, offdiagonal, &lin->slip));
+  PetscCall(MatCreateAIJ(contact->comm, 2 * lin->nlocal, 3 * (cend - cstart), PETSC_DETERMINE, PETSC_DETERMINE, 0,
+    diagonal, 0, offdiagonal, &lin->slip));
   PetscCall(PetscFree2(diagonal, offdiagonal));
   PetscFunctionReturn(0);
 }
@@ -155,7 +159,9 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt k = 0; k < lin->nlocal; ++k) {
     SlipRowTangents(contact, kept[k], &lin->tangent[6 * k]);
-    if (contact->pairs[lin->pair[k]].rubs) PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k, lin->slip, &lin->covered[k]));
+    if (contact->pairs[lin->pair[k]].rubs)
+      PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
+        lin->slip, &lin->covered[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));

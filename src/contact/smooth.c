@@ -1,10 +1,12 @@
-/* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at every displacement; pairs of planes of order 1 cost nothing */
+/* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at
+   every displacement; pairs of planes of order 1 cost nothing */
 #include "contactimpl.h"
 
 /* A surface stands off its facets by more than this part of an edge, or it is plane but for rounding in its file */
 #define CURVED 1e-6
 
-/* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a part of the edges */
+/* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a
+   part of the edges */
 static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
 {
   PetscReal *normal;
@@ -50,7 +52,9 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPIU_REAL, MPIU_MAX, contact->comm));
   pair->bulge = largest[0] + largest[1];
-  for (PetscInt k = 0; k < 2; ++k) surface[k]->patched = (PetscBool)(pair->mortar.cut || pair->nonmortar.cut || PetscMax(largest[2], largest[3]) > CURVED);
+  for (PetscInt k = 0; k < 2; ++k)
+    surface[k]->patched =
+      (PetscBool)(pair->mortar.cut || pair->nonmortar.cut || PetscMax(largest[2], largest[3]) > CURVED);
   PetscFunctionReturn(0);
 }
 
@@ -66,7 +70,8 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
-/* Collective. The smooth surfaces at a global displacement vector, of the surfaces already deformed; the first time, finds out which pairs have any */
+/* Collective. The smooth surfaces at a global displacement vector, of the surfaces already deformed; the first time,
+   finds out which pairs have any */
 PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
 {
   PetscReal bulge, curvature;

@@ -1,8 +1,10 @@
-/* The facets of a named face, those of order 2 cut into four: taken from the mesh once, deformed at every linearization */
+/* The facets of a named face, those of order 2 cut into four: taken from the mesh once, deformed at every
+   linearization */
 #include <mesh.h>
 #include "contactimpl.h"
 
-/* Number of a vertex, any node of the mesh, among those of all ranks; the mesh lays out 3 rows a node, owned ones as they are, others encoded */
+/* Number of a vertex, any node of the mesh, among those of all ranks; the mesh lays out 3 rows a node, owned ones as
+   they are, others encoded */
 static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
 {
   PetscInt offset;
@@ -14,7 +16,8 @@ static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, Pe
 }
 
 /* x = values of a local vector of 3 components a vertex at n vertices */
-static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[], PetscReal x[])
+static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[],
+  PetscReal x[])
 {
   const PetscScalar *a;
 
@@ -46,7 +49,8 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
-/* The facets of four nodes, or triangles, that n facets of the mesh are cut into: their nodes, local and global numbers */
+/* The facets of four nodes, or triangles, that n facets of the mesh are cut into: their nodes, local and global
+   numbers */
 static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], ContactSurface *s)
 {
   PetscSection global;
@@ -59,7 +63,8 @@ static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], Cont
     s->nfacets += npieces;
     s->cut = (PetscBool)(npieces > 1);
   }
-  PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference, 12 * s->nfacets, &s->x));
+  PetscCall(PetscMalloc4(4 * s->nfacets, &s->vertex, 4 * s->nfacets, &s->node, 12 * s->nfacets, &s->reference,
+    12 * s->nfacets, &s->x));
   PetscCall(DMGetGlobalSection(dm, &global));
   for (PetscInt i = 0, k = 0; i < n; ++i, k += npieces) {
     PetscCall(MeshGetFacetPieces(dm, facet[i], &npieces, pieces));
@@ -142,11 +147,12 @@ static void SurfaceNormalize(PetscInt n, PetscReal normal[])
 }
 
 /*
-  Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the sum of
-  the area vectors of the face's facets about a vertex, whatever ranks they are on, scaled to length 1. Zero where they
-  cancel: such a vertex has no normal, and its row is empty.
+  Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the
+  sum of the area vectors of the face's facets about a vertex, whatever ranks they are on, scaled to length 1. Zero
+  where they cancel: such a vertex has no normal, and its row is empty.
 */
-PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[])
+PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n,
+  const PetscInt vertex[], PetscReal vertexnormal[])
 {
   PetscSection section;
   PetscScalar *a;

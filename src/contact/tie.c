@@ -1,5 +1,6 @@
 /*
-   Ties: the displacement of a nonmortar vertex A is that of the mortar face in the mean, weighted by the dual function psi_A,
+   Ties: the displacement of a nonmortar vertex A is that of the mortar face in the mean, weighted by the dual
+   function psi_A,
      u_A = sum_C int psi_A N2_C / int psi_A  u_C,    int psi_A N1_B = delta_AB int N1_B,
    of undeformed faces. psi_A is a combination of the bilinear functions of each facet, over what of it is covered.
 */
@@ -30,7 +31,8 @@ static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, P
   PetscFunctionReturn(0);
 }
 
-/* a = diag(w) mass^-1 of n vertices, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is covered by next to nothing */
+/* a = diag(w) mass^-1 of n vertices, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is
+   covered by next to nothing */
 static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
   PetscReal m[4][8];
@@ -86,7 +88,8 @@ static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
 }
 
 /* One nonmortar facet against the candidates near it */
-static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits, const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
+static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits,
+  const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
 {
   const PetscReal  zero[12] = {0.0}, *x = &nonmortar->x[12 * f];
   const PetscInt  *node = &nonmortar->node[4 * f], n = ContactFacetIsTriangle(x) ? 3 : 4;
@@ -126,13 +129,14 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, const ContactSurface *nonmortar, PetscReal distance, TieSums *sums)
+static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, const ContactSurface *nonmortar,
+  PetscReal distance, TieSums *sums)
 {
   const ContactOverlapLimits limits = {.cosine = -0.5, .overlap_drop = 1e-10, .distance = distance, .depth = distance};
-  PetscReal                  box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
-  ContactRule                rule;
-  ContactCandidates          candidates;
-  ContactNear                near;
+  PetscReal   box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+  ContactRule rule;
+  ContactCandidates candidates;
+  ContactNear       near;
 
   PetscFunctionBegin;
   PetscCall(ContactRuleCreate(4, &rule));
@@ -147,14 +151,17 @@ static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, 
   }
   PetscCall(ContactExchange(comm, box, mortar, &candidates));
   PetscCall(ContactSearch(nonmortar, distance, distance, &candidates, &near));
-  for (PetscInt f = 0; f < nonmortar->nfacets; ++f) PetscCall(TieAddFacet(nonmortar, f, &limits, &rule, &candidates, near.offset[f + 1] - near.offset[f], near.facet + near.offset[f], sums));
+  for (PetscInt f = 0; f < nonmortar->nfacets; ++f)
+    PetscCall(TieAddFacet(nonmortar, f, &limits, &rule, &candidates, near.offset[f + 1] - near.offset[f],
+      near.facet + near.offset[f], sums));
   PetscCall(ContactNearDestroy(&near));
   PetscCall(ContactCandidatesDestroy(&candidates));
   PetscFunctionReturn(0);
 }
 
 /* Rows of nodes divided by the covered areas; error where the nonmortar face reaches beyond the mortar one */
-static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie *tie, PetscReal distance, TieSums *sums, Mat *rows)
+static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie *tie, PetscReal distance,
+  TieSums *sums, Mat *rows)
 {
   PetscScalar *covered;
   PetscReal    least = 1.0, areas[2] = {0.0, 0.0};
@@ -187,8 +194,14 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscCall(MatDiagonalScale(*rows, sums->covered, NULL));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
-  PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT, "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance says how far away they may be", what, tie->name, tie->mortar, (double)distance, tie->nonmortar);
-  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm, PETSC_ERR_USER_INPUT, "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange the two, or cut it to size under faces", what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
+  PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT,
+    "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance says how far away they may be", what,
+    tie->name, tie->mortar, (double)distance, tie->nonmortar);
+  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm,
+    PETSC_ERR_USER_INPUT,
+    "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange "
+    "the two, or cut it to size under faces",
+    what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
   PetscFunctionReturn(0);
 }
 
@@ -218,7 +231,8 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 - tie  - the two faces
 
   Output Parameter:
-. rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar face's, and sum to 1; the others are empty
+. rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar
+face's, and sum to 1; the others are empty
 
   Level: intermediate
 

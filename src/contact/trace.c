@@ -1,13 +1,13 @@
 /*
-   Faces of order 2 are cut into four facets each at their nodes, and forces act on the vertices of these. Bilinear between the nodes is not
-   the displacement of the face, though, and a pressure spread that way is not the load that it is on quadratic cells: a uniform one would
-   bend them. With T, where along each edge
+   Faces of order 2 are cut into four facets each at their nodes, and forces act on the vertices of these. Bilinear
+   between the nodes is not the displacement of the face, though, and a pressure spread that way is not the load that
+   it is on quadratic cells: a uniform one would bend them. With T, where along each edge
 
      (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6
 
-   and likewise in the middle of a facet, edge by edge in both directions, T u interpolated on the halves has the integral of the quadratic u,
-   and is u where that is linear. So T^T takes the loads of bilinear facets to those of the quadratic face, exactly where the facets are plane
-   and covered as a whole, and keeps their sum everywhere.
+   and likewise in the middle of a facet, edge by edge in both directions, T u interpolated on the halves has the
+   integral of the quadratic u, and is u where that is linear. So T^T takes the loads of bilinear facets to those of
+   the quadratic face, exactly where the facets are plane and covered as a whole, and keeps their sum everywhere.
 */
 #include <petscsf.h>
 #include <mesh.h>
@@ -38,15 +38,17 @@ static PetscErrorCode TraceMark(DM dm, PetscInt nsurfaces, const ContactSurface 
   PetscFunctionReturn(0);
 }
 
-/* A point's part of T - 1 or of its inverse: the global rows of the nodes, and how much its own moves with each. It is that along an edge, edge by edge */
+/* A point's part of T - 1 or of its inverse: the global rows of the nodes, and how much its own moves with each. It
+   is that along an edge, edge by edge */
 typedef struct {
-  PetscInt  row, n, column[TRACE_MAX_NODES]; /* the first of the node's; the row is negative where another rank owns the point */
+  PetscInt row, n,
+    column[TRACE_MAX_NODES]; /* the first of the node's; the row is negative where another rank owns the point */
   PetscReal weight[TRACE_MAX_NODES];
 } TracePoint;
 
 static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type, TracePoint *trace)
 {
-  static const PetscReal of_edge[2][2]  = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}}; /* by type, and by depth */
+  static const PetscReal of_edge[2][2] = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}}; /* by type, and by depth */
   static const PetscReal of_facet[2][3] = {{1.0 / 36.0, -2.0 / 9.0, 7.0 / 9.0}, {1.0 / 64.0, 3.0 / 32.0, -7.0 / 16.0}};
   PetscSection           global;
   PetscInt               depth, own, npoints, *closure = NULL;
@@ -76,8 +78,10 @@ typedef struct {
   PetscInt         components;
 } TraceLayout;
 
-/* The rows of the marked points that this rank owns: counts what they have in diagonal and offdiagonal, or puts it in where they are NULL */
-static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], PetscInt rstart, PetscInt rend, PetscInt diagonal[], PetscInt offdiagonal[], Mat correction)
+/* The rows of the marked points that this rank owns: counts what they have in diagonal and offdiagonal, or puts it in
+   where they are NULL */
+static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], PetscInt rstart,
+  PetscInt rend, PetscInt diagonal[], PetscInt offdiagonal[], Mat correction)
 {
   const PetscInt n = layout->components;
 
@@ -100,7 +104,8 @@ static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, con
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], Mat *correction)
+static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[],
+  Mat *correction)
 {
   PetscInt rstart, rend, *diagonal, *offdiagonal;
   Vec      u;
@@ -125,7 +130,8 @@ static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoi
 }
 
 /* Collective. correction: T - 1, or T^-1 - 1, of so many components a node; NULL where no surface has order 2 */
-PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[], ContactTraceType type, PetscInt components, Mat *correction)
+PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[],
+  ContactTraceType type, PetscInt components, Mat *correction)
 {
   const TraceLayout layout = {dm, type, components};
   PetscInt          npoints, *marked;
@@ -156,7 +162,8 @@ PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* Derivatives by the displacement of the surfaces' vertices become those by the mesh's; of the rows where `which` is 1, or all */
+/* Derivatives by the displacement of the surfaces' vertices become those by the mesh's; of the rows where `which` is
+   1, or all */
 PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian)
 {
   Mat product;

@@ -9,7 +9,8 @@ static inline PetscReal TreeCentre(const ContactTree *t, PetscInt facet, PetscIn
   return t->box[6 * facet + axis] + t->box[6 * facet + 3 + axis];
 }
 
-/* Hoare's selection: orders order[lo..hi] so that nothing before position k has a larger centre than anything after it */
+/* Hoare's selection: orders order[lo..hi] so that nothing before position k has a larger centre than anything after
+   it */
 static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
 {
   while (lo < hi) {

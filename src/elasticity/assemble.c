@@ -1,6 +1,6 @@
 /*
-   Assembly of the tangent. Bodies with a constant tangent are assembled into a matrix once: later assemblies zero the rows of
-   the other bodies and add those bodies again. No second copy of any value is kept.
+   Assembly of the tangent. Bodies with a constant tangent are assembled into a matrix once: later assemblies zero the
+   rows of the other bodies and add those bodies again. No second copy of any value is kept.
 */
 #include "elasticityimpl.h"
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
@@ -55,7 +55,8 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
       for (PetscInt d = 0; d < 3; ++d) rows[n++] = row + d;
     }
   }
-  PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* what was set before the first assembly, the blocks of an MPIBAIJ matrix do not have */
+  PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN,
+    PETSC_TRUE)); /* what was set before the first assembly, the blocks of an MPIBAIJ matrix do not have */
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
   PetscCall(PetscFree(rows));
@@ -109,9 +110,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with a constant
-  tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's tangent is constant,
-  nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without `MatZeroRows()` (sbaij).
+  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with
+a constant tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's
+tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
+type without `MatZeroRows()` (sbaij).
 
   A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
 
@@ -162,7 +164,8 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
 PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *assemblies)
 {
   PetscFunctionBegin;
-  PetscCheck(body >= 0 && body < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
+  PetscCheck(body >= 0 && body < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+    "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
   *assemblies = e->bodies[body].assemblies;
   PetscFunctionReturn(0);
 }

@@ -10,7 +10,8 @@ PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt n, CellBasis *basis)
   basis->nnodes = nnodes;
   if (MeshIsTetrahedron(nnodes)) MeshTetrahedronRule(nnodes, &basis->npoints, basis->xi, basis->weight);
   else {
-    PetscCheck(n == 2 || n == 3, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, n);
+    PetscCheck(n == 2 || n == 3, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+      "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, n);
     PetscCall(PetscDTGaussQuadrature(n, -1, 1, x, w));
     basis->npoints = n * n * n;
     for (PetscInt q = 0; q < basis->npoints; ++q) {

@@ -1,14 +1,15 @@
 /*
-   Mean dilatation: E = int W_iso(H) + kappa/2 int Theta^2, where Theta is the projection of the dilatation theta(H) to polynomials of a
-   cell: the constant one in cells of order 1, its mean; linear ones of the place in those of order 2. Theta = sum_k Theta_k p_k with p_k
-   orthogonal over the cell, Theta_k = int p_k theta / int p_k^2, and g_k = int p_k dtheta/du. For small strain that is B-bar; for laws with
-   theta = J - 1 it is F-bar: W at F (1 + Theta)^(1/3)/J^(1/3). Force and stiffness are the derivatives of E, so the stiffness is symmetric.
+   Mean dilatation: E = int W_iso(H) + kappa/2 int Theta^2, where Theta is the projection of the dilatation theta(H)
+   to polynomials of a cell: the constant one in cells of order 1, its mean; linear ones of the place in those of
+   order 2. Theta = sum_k Theta_k p_k with p_k orthogonal over the cell, Theta_k = int p_k theta / int p_k^2, and g_k
+   = int p_k dtheta/du. For small strain that is B-bar; for laws with theta = J - 1 it is F-bar: W at F (1 +
+   Theta)^(1/3)/J^(1/3). Force and stiffness are the derivatives of E, so the stiffness is symmetric.
 
-   References:
-   Nagtegaal, Parks and Rice, On numerically accurate finite element solutions in the fully plastic range, 1974.
-   Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980.
-   Simo, Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation elasto-plasticity, 1985.
-   Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002: polynomials of the place, not of the cell's parameters.
+   References: Nagtegaal, Parks and Rice, On numerically accurate finite element solutions in the fully plastic range,
+   1974. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980. Simo,
+   Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation
+   elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002:
+   polynomials of the place, not of the cell's parameters.
 */
 #include "elasticityimpl.h"
 
@@ -22,7 +23,8 @@ typedef struct {
   PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum mean_k p_k */
 } Dilatation;
 
-static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
 {
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     d->w[q] = CellGradients(n, basis, q, X, d->G[q]);
@@ -70,7 +72,8 @@ static inline void DilatationProject(const int n, const CellBasis *basis, const 
   for (int k = 0; k < d->npolynomials; ++k) d->mean[k] /= d->square[k];
 }
 
-static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
 {
   CELL_CALL(DilatationSetPoints, basis, X, U, d);
   DilatationSetPolynomials(basis, X, d);
@@ -86,7 +89,8 @@ static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
   return theta;
 }
 
-static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
+static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES])
 {
   Dilatation d;
   PetscReal  sum = 0;
@@ -102,7 +106,8 @@ static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *
   return sum;
 }
 
-static inline PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d, PetscReal F[3][CELL_MAX_NODES])
+static inline PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
+  PetscReal F[3][CELL_MAX_NODES])
 {
   PetscReal P[9];
 
@@ -120,7 +125,8 @@ static inline PetscBool BbarForce(const int n, const CellBasis *basis, const Bod
 }
 
 /* F = int dW_iso/du + kappa sum_k Theta_k g_k */
-static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   Dilatation d;
 
@@ -129,7 +135,8 @@ static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m
 }
 
 /* The isochoric part, and kappa Theta times the dilatation's second derivative */
-static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d, PetscScalar K[])
+static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
+  PetscScalar K[])
 {
   PetscReal A[81];
   CellSums  S;
@@ -145,7 +152,8 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
 }
 
 /* K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
-static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   const PetscInt width = 3 * basis->nnodes;
   Dilatation     d;
@@ -170,7 +178,8 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
 }
 
 /* sigma = sigma_iso + kappa Theta I, as theta's derivative cof F gives the Cauchy stress cof F F^T / J = I */
-static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
+static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   Dilatation d;
   PetscReal  s[6];
@@ -185,7 +194,8 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
 }
 
 /* The dilatation enters by its projection */
-static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
   Dilatation d;
 
@@ -197,4 +207,5 @@ static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, P
   }
 }
 
-const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar, ElementStrains_Bbar};
+const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar,
+  ElementStrains_Bbar};

@@ -76,7 +76,8 @@ PetscErrorCode ElasticitySetUpKept(Elasticity e)
         if (marks[e->cellnodes[i]] && e->bodies[e->cellbody[c]].kept) lost[e->cellbody[c]] = 1;
       }
     }
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lost, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lost, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX,
+      PetscObjectComm((PetscObject)e->dm)));
     nlost = 0;
     for (PetscInt b = 0; b < e->nbodies; ++b) {
       if (!lost[b]) continue;

@@ -9,10 +9,13 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   e->quadrature = 2;
   PetscCall(PetscStrncpy(e->mattype, MATBAIJ, sizeof(e->mattype)));
   PetscOptionsBegin(PetscObjectComm((PetscObject)e->dm), NULL, "Elasticity options", NULL);
-  PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3", "ElasticityCreate", e->quadrature, &e->quadrature, NULL));
-  PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList, e->mattype, e->mattype, sizeof(e->mattype), &e->mattype_given));
+  PetscCall(PetscOptionsInt("-elasticity_quadrature", "Gauss points per axis of a hexahedron, 2 or 3",
+    "ElasticityCreate", e->quadrature, &e->quadrature, NULL));
+  PetscCall(PetscOptionsFList("-elasticity_mat_type", "Type of the tangent matrix", "ElasticityCreateTangent", MatList,
+    e->mattype, e->mattype, sizeof(e->mattype), &e->mattype_given));
   PetscOptionsEnd();
-  PetscCheck(e->quadrature == 2 || e->quadrature == 3, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, e->quadrature);
+  PetscCheck(e->quadrature == 2 || e->quadrature == 3, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE,
+    "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, e->quadrature);
   PetscFunctionReturn(0);
 }
 
@@ -27,7 +30,8 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
     PetscCall(PetscNew(basis));
     PetscCall(CellBasisCreate(nnodes, order == 1 ? e->quadrature : 3, *basis));
   }
-  PetscCheck(!body->basis || body->basis == *basis, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The cells of a body are of different kinds");
+  PetscCheck(!body->basis || body->basis == *basis, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+    "The cells of a body are of different kinds");
   body->basis = *basis;
   PetscCall(ElementGet(body->type, nnodes, &body->element));
   PetscFunctionReturn(0);
@@ -48,7 +52,9 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
     PetscInt n, nodes[MESH_MAX_NODES];
 
     PetscCall(DMLabelGetValue(label, start + c, &e->cellbody[c]));
-    PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT, MESH_BODY_LABEL, e->nbodies);
+    PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+      "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT,
+      MESH_BODY_LABEL, e->nbodies);
     PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
     PetscCall(ElasticitySetBasis(e, n, &e->bodies[e->cellbody[c]]));
     e->cellstart[c + 1] = e->cellstart[c] + n;
@@ -63,7 +69,8 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
       e->cellnodes[e->cellstart[c] + a] = offset / 3;
     }
   }
-  if (e->cellstart[e->ncells] < room) PetscCall(PetscRealloc((size_t)e->cellstart[e->ncells] * sizeof(*e->cellnodes), &e->cellnodes));
+  if (e->cellstart[e->ncells] < room)
+    PetscCall(PetscRealloc((size_t)e->cellstart[e->ncells] * sizeof(*e->cellnodes), &e->cellnodes));
   PetscFunctionReturn(0);
 }
 
@@ -78,7 +85,8 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 
   PetscFunctionBegin;
   PetscCall(DMGetLabel(e->dm, MESH_BODY_LABEL, &label));
-  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\" that gives the body of each cell", MESH_BODY_LABEL);
+  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\" that gives the body of each cell",
+    MESH_BODY_LABEL);
   PetscCall(DMGetLocalSection(e->dm, &section));
   PetscCall(DMPlexGetHeightStratum(e->dm, 0, &start, &end));
   PetscCall(PetscSectionGetStorageSize(section, &size));
@@ -100,22 +108,24 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 + dm        - the mesh, from `MeshCreate()`
 . nbodies   - number of bodies
 . materials - materials[b] belongs to the cells whose "body" label is b
-- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as Poisson's ratio
-              nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain; `NULL` for
-              full integration everywhere
+- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as
+Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain;
+`NULL` for full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
 
   Options Database Keys:
-+ -elasticity_quadrature <2>   - Gauss points per axis in cells of order 1, 2 or 3; 2 is exact for the linear law on parallelepipeds
++ -elasticity_quadrature <2>   - Gauss points per axis in cells of order 1, 2 or 3; 2 is exact for the linear law on
+parallelepipeds
 - -elasticity_mat_type <baij>  - type of the tangent: baij, aij or sbaij
 
   Level: beginner
 
 .seealso: `MeshCreate()`, `ElasticitySetPrescribed()`, `ElasticityCreateTangent()`, `ElasticityForce()`
 @*/
-PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], const ElementType elements[], Elasticity *elasticity)
+PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], const ElementType elements[],
+  Elasticity *elasticity)
 {
   Elasticity e;
 
@@ -132,11 +142,21 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCall(MaterialGetModuli(&materials[b], &m->moduli, &m->isochoric));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     PetscCall(MaterialGetExpansion(&materials[b], e->bodies[b].expansion));
-    for (int i = 0; i < 9; ++i) e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
-    PetscCheck(m->law->constant || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
+    for (int i = 0; i < 9; ++i)
+      e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
+    PetscCheck(m->law->constant || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
+      "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
-    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are unstable", b);
-    PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP, "Body %" PetscInt_FMT ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do", b);
+    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
+      PETSC_ERR_SUP,
+      "Body %" PetscInt_FMT
+      ": incompatible modes are for small strain; under compression at finite strain they are unstable",
+      b);
+    PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
+      PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
+      "Body %" PetscInt_FMT
+      ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do",
+      b);
   }
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
@@ -157,8 +177,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Level: beginner
 
   Notes:
-  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next tangent is
-  assembled completely.
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
+tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/
@@ -188,7 +208,8 @@ PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
   PetscCall(VecRestoreArray(global, &g));
   PetscCall(ISRestoreIndices(rows, &r));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
-  PetscCheck(bad < 0, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "Prescribed row %" PetscInt_FMT " is not owned by the rank that gives it", bad);
+  PetscCheck(bad < 0, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE,
+    "Prescribed row %" PetscInt_FMT " is not owned by the rank that gives it", bad);
   PetscCall(DMGlobalToLocal(e->dm, global, INSERT_VALUES, local));
   PetscCall(PetscCalloc1(e->nnodes, &e->prescribed));
   PetscCall(VecGetArrayRead(local, &l));

@@ -10,8 +10,9 @@
 #include <petscsf.h>
 
 /*
-   basis.c: hexahedra of 8 and of 27 nodes on [-1,1]^3, tetrahedra of 4 and of 10 between the origin and the ends of the unit vectors. Arrays over nodes come last, for the compiler to vectorize; n is the number
-   of nodes, which CELL_CALL() makes a constant for 8.
+   basis.c: hexahedra of 8 and of 27 nodes on [-1,1]^3, tetrahedra of 4 and of 10 between the origin and the ends of
+   the unit vectors. Arrays over nodes come last, for the compiler to vectorize; n is the number of nodes, which
+   CELL_CALL() makes a constant for 8.
 */
 #define CELL_MAX_NODES  27
 #define CELL_MAX_POINTS 27
@@ -27,10 +28,12 @@ typedef struct {
 /* Nodes of a cell: 4, 8, 10 or 27; Gauss points per axis of a hexahedron: 2 or 3 */
 PETSC_INTERN PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt gausspoints, CellBasis *);
 
-#define CELL_CALL(function, basis, ...) ((basis)->nnodes == 8 ? function(8, basis, __VA_ARGS__) : function((int)(basis)->nnodes, basis, __VA_ARGS__))
+#define CELL_CALL(function, basis, ...) \
+  ((basis)->nnodes == 8 ? function(8, basis, __VA_ARGS__) : function((int)(basis)->nnodes, basis, __VA_ARGS__))
 
 /* Gradients G[j][a] = dN_a/dX_j at point q of the cell with nodes X[d][a]; returns weight times det dX/dxi */
-static inline PetscReal CellGradients(const int n, const CellBasis *basis, PetscInt q, PetscReal X[3][CELL_MAX_NODES], PetscReal G[3][CELL_MAX_NODES])
+static inline PetscReal CellGradients(const int n, const CellBasis *basis, PetscInt q, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal G[3][CELL_MAX_NODES])
 {
   const PetscReal(*dN)[CELL_MAX_NODES] = basis->dN[q];
   PetscReal J[3][3], C[3][3], det;
@@ -62,7 +65,8 @@ static inline PetscReal CellGradients(const int n, const CellBasis *basis, Petsc
 }
 
 /* H[3 i + j] = du_i/dX_j */
-static inline void CellDisplacementGradient(const int n, PetscReal U[3][CELL_MAX_NODES], PetscReal G[3][CELL_MAX_NODES], PetscReal H[9])
+static inline void CellDisplacementGradient(const int n, PetscReal U[3][CELL_MAX_NODES], PetscReal G[3][CELL_MAX_NODES],
+  PetscReal H[9])
 {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -75,7 +79,8 @@ static inline void CellDisplacementGradient(const int n, PetscReal U[3][CELL_MAX
 }
 
 /* F[i][a] += w P_ij dN_a/dX_j */
-static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal P[9], PetscReal F[3][CELL_MAX_NODES])
+static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal P[9],
+  PetscReal F[3][CELL_MAX_NODES])
 {
   for (int i = 0; i < 3; ++i) {
     const PetscReal p0 = w * P[3 * i], p1 = w * P[3 * i + 1], p2 = w * P[3 * i + 2];
@@ -90,17 +95,21 @@ typedef struct {
 } CellSums;
 
 /* Stiffness of a law with constant tangent */
-PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *, PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
-/* Clears the sums; adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]; then the stiffness from the sums over all points */
+PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *,
+  PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
+/* Clears the sums; adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]; then the stiffness from the
+   sums over all points */
 PETSC_INTERN void CellSumsClear(PetscInt n, CellSums *);
-PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81], CellSums *);
+PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
+  const PetscReal A[81], CellSums *);
 PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, PetscScalar K[]);
 
 /*
-   full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from its law and its vertices.
+   full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from
+   its law and its vertices.
 
-   A new element is one file with an Element, one line in element.c, and its name in src/scene/formulation.c. Where it is left out what
-   order it is of, it takes cells of any.
+   A new element is one file with an Element, one line in element.c, and its name in src/scene/formulation.c. Where it
+   is left out what order it is of, it takes cells of any.
 */
 typedef struct {
   const MaterialLaw *law;
@@ -110,19 +119,24 @@ typedef struct {
 #define ELEMENT_STRAINS 10
 
 /*
-   A cell with nodes X[d][a] displaced by U[d][a]. Where a point of it is turned inside out the energy is PETSC_INFINITY, and
-   the others return PETSC_FALSE and what they wrote means nothing.
+   A cell with nodes X[d][a] displaced by U[d][a]. Where a point of it is turned inside out the energy is
+   PETSC_INFINITY, and the others return PETSC_FALSE and what they wrote means nothing.
 */
 typedef struct {
-  PetscReal (*energy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES]);
+  PetscReal (
+    *energy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES]);
   /* Derivative of the energy, F[d][a] */
-  PetscBool (*force)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
+  PetscBool (*force)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+    PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
   /* Second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not read where the law's tangent is constant */
-  PetscBool (*stiffness)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
+  PetscBool (*stiffness)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+    PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
   /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
-  PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
+  PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+    PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
   /* Volumes of the points; displacement gradient (9) and dilatation there, those whose energy is the cell's */
-  void (*strains)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
+  void (*strains)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+    PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
 
 PETSC_INTERN const Element ElementFull;
@@ -173,11 +187,14 @@ struct _n_Elasticity {
 };
 
 /* locals.c: local values of a displacement (NULL: zero), and the coordinates */
-PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x);
-PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul, const PetscScalar **x);
+PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, const PetscScalar **ul,
+  const PetscScalar **x);
+PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul,
+  const PetscScalar **x);
 
 /* Values of a local vector (3 a node) at a cell's nodes, component by component */
-static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[], PetscReal values[3][CELL_MAX_NODES])
+static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[],
+  PetscReal values[3][CELL_MAX_NODES])
 {
   for (PetscInt a = 0; a < n; ++a) {
     for (PetscInt d = 0; d < 3; ++d) values[d][a] = PetscRealPart(local[3 * nodes[a] + d]);
@@ -195,7 +212,8 @@ typedef struct {
 /* thermal.c: takes off what a cell would move by in its temperature if it were free */
 PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 
-static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[], CellState *cell)
+static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],
+  CellState *cell)
 {
   cell->n     = e->cellstart[c + 1] - e->cellstart[c];
   cell->nodes = e->cellnodes + e->cellstart[c];
@@ -210,7 +228,8 @@ PETSC_INTERN PetscErrorCode SpringsAddEnergy(Elasticity, Vec u, PetscReal *energ
 PETSC_INTERN PetscErrorCode SpringsAddForce(Elasticity, Vec u, Vec force);
 PETSC_INTERN PetscErrorCode SpringsAddTangent(Elasticity, PetscBool all, const PetscInt global[], Mat);
 
-/* facet.c: a facet of a face, of 4 or 9 nodes, or a triangle of 3 or 6: where they stand in local vectors, and where they are; shape functions on [0,1]^2, or half of it */
+/* facet.c: a facet of a face, of 4 or 9 nodes, or a triangle of 3 or 6: where they stand in local vectors, and where
+   they are; shape functions on [0,1]^2, or half of it */
 #define FACET_MAX_NODES MESH_MAX_FACET_NODES
 
 typedef struct {
@@ -248,13 +267,17 @@ static inline PetscInt RecoveryCorner(PetscInt nnodes, PetscInt corner)
 
 PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
 PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *values);
-PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
+PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[]);
 
 /* recovery_order2.c */
-PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
+PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
+  const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c: the error estimate, public, and the recovery of bodies that remain, as many as can be recovered together */
-PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[], PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
+/* estimate.c: the error estimate, public, and the recovery of bodies that remain, as many as can be recovered
+   together */
+PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[],
+  PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
 
 /* principal.c, fields.c, elasticity.c: fields to look at, and the object's life, public */
 

@@ -1,12 +1,14 @@
-/* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the energy */
+/* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the
+   energy */
 #include "elasticityimpl.h"
 
 /*
-   The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the dilatation's
-   own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform pressure. At finite strain the isochoric
-   tangent may be indefinite; no error is negative.
+   The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the
+   dilatation's own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform
+   pressure. At finite strain the isochoric tangent may be indefinite; no error is negative.
 */
-static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9], const PetscReal error[ELEMENT_STRAINS])
+static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9],
+  const PetscReal error[ELEMENT_STRAINS])
 {
   const PetscReal volumetric = m->moduli.bulk * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
@@ -39,7 +41,8 @@ static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recove
 }
 
 /* Adds the squared errors of the selected bodies, and sets those of their cells */
-static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
+static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[],
+  const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
 {
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
@@ -55,10 +58,11 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
 }
 
 /*
-   Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first at all of
-   their nodes
+   Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first
+   at all of their nodes
 */
-static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[], PetscBool *more)
+static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
+  PetscBool *more)
 {
   PetscInt *first, *second;
 
@@ -69,7 +73,8 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
 
-    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i) first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
+    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i)
+      first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
   }
   PetscCall(PetscSFReduceBegin(sf, MPIU_INT, first, first, MPI_MIN));
   PetscCall(PetscSFReduceEnd(sf, MPIU_INT, first, first, MPI_MIN));
@@ -82,7 +87,8 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
       if (first[e->cellnodes[i]] < b) second[b] = 1;
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, second, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)e->dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, second, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX,
+    PetscObjectComm((PetscObject)e->dm)));
   *more = PETSC_FALSE;
   for (PetscInt b = 0; b < e->nbodies; ++b) {
     selected[b]  = (PetscBool)(remaining[b] && !second[b]);
@@ -94,7 +100,8 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
 }
 
 /* Selects bodies that remain, takes them off, and recovers them; more: whether others remain */
-PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[], PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
+PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
+  PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {
   PetscBool second = (PetscBool)(e->basis[1] || e->basis[3]);
 
@@ -118,18 +125,21 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
 
   Output Parameters:
 + bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
-- cells  - the part of each local cell, in the order of the mesh's cells [force length]; free with `PetscFree()`. `NULL` if not wanted
+- cells  - the part of each local cell, in the order of the mesh's cells [force length]; free with `PetscFree()`. `NULL`
+if not wanted
 
   Level: intermediate
 
   Notes:
-  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own stress s_h,
-  and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's second derivative at u. The
-  true stress is replaced by one recovered from the cells around each vertex, never across the border of a body.
+  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
+stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
+second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across the
+border of a body.
 
-  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the body on, and nears 1 as the
-  mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with its own, too small energy still tells
-  it. Errors of a solver, of the loads or of the geometry are not seen. In bodies of one layer of cells the estimate is rough.
+  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
+body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
+its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies of
+one layer of cells the estimate is rough.
 
   Where a cell is turned inside out the estimate is infinite.
 
@@ -163,7 +173,8 @@ PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], 
   PetscCall(PetscFree3(remaining, selected, recovered));
   PetscCall(PetscSFDestroy(&sf));
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)e->dm)));
   PetscCall(PetscLogEventEnd(ELASTICITY_Error, u, 0, 0, 0));
   PetscFunctionReturn(0);
 }

@@ -57,13 +57,15 @@ static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
         xt[d] += Nt[a] * facet->X[a][d];
       }
     }
-    for (int d = 0; d < 3; ++d) square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+    for (int d = 0; d < 3; ++d)
+      square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
     points[q].area = weight * PetscSqrtReal(square);
   }
 }
 
 /* A global vector gets int N_a f(x) dA */
-static PetscErrorCode FaceAddField(Elasticity e, const char name[], void (*field)(const PetscReal x[3], const void *ctx, PetscReal value[3]), const void *ctx, Vec total)
+static PetscErrorCode FaceAddField(Elasticity e, const char                             name[],
+  void (*field)(const PetscReal x[3], const void *ctx, PetscReal value[3]), const void *ctx, Vec total)
 {
   Face         face;
   Vec          local;
@@ -101,7 +103,8 @@ static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3
 }
 
 /*@
-  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead traction's load, or the stiffness of springs
+  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead
+traction's load, or the stiffness of springs
 
   Collective
 
@@ -170,20 +173,22 @@ static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscRe
 /* b of int r x (b x r) dA = moment, by Cramer's rule on the face's tensor of inertia */
 static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3], PetscReal b[3])
 {
-  const PetscReal inertia[3][3] = {
-    {s[1] + s[2], -s[3], -s[5]},
-    {-s[3], s[2] + s[0], -s[4]},
+  const PetscReal inertia[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[2] + s[0], -s[4]},
     {-s[5], -s[4], s[0] + s[1]}};
-  const PetscReal size = inertia[0][0] + inertia[1][1] + inertia[2][2];
-  PetscReal       det  = 0;
+  const PetscReal size          = inertia[0][0] + inertia[1][1] + inertia[2][2];
+  PetscReal       det           = 0;
 
-  for (int k = 0; k < 3; ++k) det += inertia[0][k] * (inertia[1][(k + 1) % 3] * inertia[2][(k + 2) % 3] - inertia[1][(k + 2) % 3] * inertia[2][(k + 1) % 3]);
+  for (int k = 0; k < 3; ++k)
+    det += inertia[0][k] *
+           (inertia[1][(k + 1) % 3] * inertia[2][(k + 2) % 3] - inertia[1][(k + 2) % 3] * inertia[2][(k + 1) % 3]);
   if (!(det > 1e-12 * size * size * size)) return PETSC_FALSE;
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3, m = (k + 2) % 3;
 
     b[k] = 0;
-    for (int d = 0; d < 3; ++d) b[k] += (inertia[(d + 1) % 3][l] * inertia[(d + 2) % 3][m] - inertia[(d + 1) % 3][m] * inertia[(d + 2) % 3][l]) * moment[d] / det;
+    for (int d = 0; d < 3; ++d)
+      b[k] += (inertia[(d + 1) % 3][l] * inertia[(d + 2) % 3][m] - inertia[(d + 1) % 3][m] * inertia[(d + 2) % 3][l]) *
+              moment[d] / det;
   }
   return PETSC_TRUE;
 }
@@ -210,7 +215,8 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityAddPressure()`
 @*/
-PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3], const PetscReal moment[3], const PetscReal point[3], Vec force)
+PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3],
+  const PetscReal moment[3], const PetscReal point[3], Vec force)
 {
   FaceTraction t = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   PetscReal    sums[10], arm[3] = {0, 0, 0}, about[3];
@@ -222,9 +228,11 @@ PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscRe
   PetscCall(FaceMeasure(e, face, t.center, sums));
   for (int d = 0; d < 3; ++d) t.a[d] = resultant[d] / sums[0];
   for (int d = 0; point && d < 3; ++d) arm[d] = point[d] - t.center[d];
-  for (int d = 0; d < 3; ++d) about[d] = moment[d] + arm[(d + 1) % 3] * resultant[(d + 2) % 3] - arm[(d + 2) % 3] * resultant[(d + 1) % 3];
+  for (int d = 0; d < 3; ++d)
+    about[d] = moment[d] + arm[(d + 1) % 3] * resultant[(d + 2) % 3] - arm[(d + 2) % 3] * resultant[(d + 1) % 3];
   solved = FaceSolveMoment(sums + 4, about, t.b);
-  PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG, "The face \"%s\" is too slender to carry a moment", face);
+  PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG,
+    "The face \"%s\" is too slender to carry a moment", face);
   PetscCall(FaceAddField(e, face, FaceTwisted, &t, force));
   PetscFunctionReturn(0);
 }

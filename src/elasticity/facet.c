@@ -11,8 +11,7 @@ static void FacetTriangleShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N
     const PetscInt  p = a % 3, q = (a + 1) % 3;
     const PetscReal slope = n == 3 ? 1 : 4 * l[p] - 1;
 
-    N[a]  = n == 3 ? l[p] : a < 3 ? l[p] * (2 * l[p] - 1)
-                                  : 4 * l[p] * l[q];
+    N[a]  = n == 3 ? l[p] : a < 3 ? l[p] * (2 * l[p] - 1) : 4 * l[p] * l[q];
     Ns[a] = a < 3 ? slope * by_s[p] : 4 * (by_s[p] * l[q] + l[p] * by_s[q]);
     Nt[a] = a < 3 ? slope * by_t[p] : 4 * (by_t[p] * l[q] + l[p] * by_t[q]);
   }
@@ -33,7 +32,8 @@ PetscReal FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscRea
   return w * (1 - *s);
 }
 
-/* Shape functions of a facet on [0,1]^2 and their derivatives, of 4 nodes around it, or of 9: then of its edges, and of its middle */
+/* Shape functions of a facet on [0,1]^2 and their derivatives, of 4 nodes around it, or of 9: then of its edges, and
+   of its middle */
 void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
 {
   static const PetscInt place[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
@@ -61,15 +61,15 @@ void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal N
   }
 }
 
-/* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for which 2 x 2 Gauss points
-   are exact, or 3 x 3; as on triangles with 3 or 6, where the degree is 1, or 4 */
+/* F[a][d] = int N_a n dA of a facet with 4 or 9 nodes, n dA = dX/ds x dX/dt: in s and in t of degree 2, or 5, for
+   which 2 x 2 Gauss points are exact, or 3 x 3; as on triangles with 3 or 6, where the degree is 1, or 4 */
 void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
 {
   const PetscInt npoints = n <= 4 ? 2 : 3;
 
   for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
   for (PetscInt q = 0; q < npoints * npoints; ++q) {
-    PetscReal       N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
+    PetscReal N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
     const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
 
     FacetShape(n, s, t, N, Ns, Nt);
@@ -80,7 +80,8 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
       }
     }
     for (PetscInt a = 0; a < n; ++a) {
-      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+      for (int d = 0; d < 3; ++d)
+        F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
     }
   }
 }

@@ -1,7 +1,8 @@
 /* Fields for people to look at: stress at the nodes and at the quadrature points, strain energy of the cells */
 #include "elasticityimpl.h"
 
-/* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2 makes */
+/* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2
+   makes */
 static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
 {
   const PetscBool valid = m->law->cauchy(&m->isochoric, strain, stress);
@@ -11,7 +12,8 @@ static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEM
 }
 
 /* Adds the stresses of the selected bodies' nodes; n: how many were added to each */
-static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[], PetscReal n[], PetscReal stress[])
+static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[],
+  PetscReal n[], PetscReal stress[])
 {
   PetscInt *body;
 
@@ -19,7 +21,8 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   PetscCall(PetscMalloc1(e->nnodes, &body));
   for (PetscInt v = 0; v < e->nnodes; ++v) body[v] = PETSC_DECIDE;
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    for (PetscInt i = e->cellstart[c]; selected[e->cellbody[c]] && i < e->cellstart[c + 1]; ++i) body[e->cellnodes[i]] = e->cellbody[c];
+    for (PetscInt i = e->cellstart[c]; selected[e->cellbody[c]] && i < e->cellstart[c + 1]; ++i)
+      body[e->cellnodes[i]] = e->cellbody[c];
   }
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     PetscReal s[6];
@@ -43,14 +46,16 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 - u          - displacement, global, 3 components a vertex [length]
 
   Output Parameter:
-. stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+. stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
+`PetscFree()`
 
   Level: intermediate
 
   Notes:
-  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by body, and the law gives the stress of
-  them: second order up to the surface, where the cells' own stress is first order. Where bodies share a node it has the mean of theirs. A node
-  at which the material is turned inside out has `PETSC_INFINITY`.
+  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
+body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first order.
+Where bodies share a node it has the mean of theirs. A node at which the material is turned inside out has
+`PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
 @*/
@@ -99,7 +104,8 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point turned inside out has `PETSC_INFINITY`.
+  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point turned
+inside out has `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
 @*/

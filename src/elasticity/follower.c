@@ -9,7 +9,8 @@ static void FollowerLoad(const Facet *facet, PetscReal pressure, PetscReal x[][3
   for (PetscInt i = 0; i < 3 * facet->n; ++i) F[i / 3][i % 3] *= -pressure;
 }
 
-/* Symmetric part of the load's derivative: central differences, which are exact as the load is quadratic in the places */
+/* Symmetric part of the load's derivative: central differences, which are exact as the load is quadratic in the
+   places */
 static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscScalar S[])
 {
   const PetscInt width = 3 * facet->n;
@@ -35,7 +36,8 @@ static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][
 }
 
 /* To rows and columns that are not prescribed */
-static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const PetscInt global[], PetscScalar S[], Mat slope)
+static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const PetscInt global[], PetscScalar S[],
+  Mat slope)
 {
   const PetscInt width = 3 * facet->n;
   PetscInt       rows[FACET_MAX_NODES];
@@ -53,7 +55,8 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
 }
 
 /*@
-  ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and how it changes
+  ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and how it
+changes
 
   Collective
 
@@ -65,12 +68,14 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
 
   Output Parameters:
 + force - global vector; the load at u is added to it, on all rows [force]
-- slope - matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is added to it but for prescribed unknowns; `NULL`: not wanted [force/length]
+- slope - matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is added
+to it but for prescribed unknowns; `NULL`: not wanted [force/length]
 
   Level: intermediate
 
   Notes:
-  Over a closed surface, and over one whose edge is held or slides on planes of symmetry, the derivative is symmetric as a whole.
+  Over a closed surface, and over one whose edge is held or slides on planes of symmetry, the derivative is symmetric as
+a whole.
 
   References:
   Schweizerhof and Ramm, Displacement dependent pressure loads in nonlinear finite element analyses, 1984.
@@ -103,7 +108,8 @@ PetscErrorCode ElasticityAddFollower(Elasticity e, const char face[], PetscReal 
     PetscScalar S[9 * FACET_MAX_NODES * FACET_MAX_NODES];
 
     PetscCall(FacetGet(e, f[i], x, &facet));
-    for (PetscInt k = 0; k < 3 * facet.n; ++k) now[k / 3][k % 3] = facet.X[k / 3][k % 3] + PetscRealPart(ul[facet.offset[k / 3] + k % 3]);
+    for (PetscInt k = 0; k < 3 * facet.n; ++k)
+      now[k / 3][k % 3] = facet.X[k / 3][k % 3] + PetscRealPart(ul[facet.offset[k / 3] + k % 3]);
     FollowerLoad(&facet, pressure, now, F);
     for (PetscInt k = 0; k < 3 * facet.n; ++k) l[facet.offset[k / 3] + k % 3] += F[k / 3][k % 3];
     if (!slope) continue;

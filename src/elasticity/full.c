@@ -1,7 +1,8 @@
 /* Full integration: E = int W(H) */
 #include "elasticityimpl.h"
 
-static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
+static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], H[9], sum = 0;
 
@@ -17,12 +18,14 @@ static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const Bo
   return sum;
 }
 
-static PetscReal ElementEnergy_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
+static PetscReal ElementEnergy_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES])
 {
   return CELL_CALL(FullEnergy, basis, m, X, U);
 }
 
-static inline PetscBool FullForce(const int n, const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+static inline PetscBool FullForce(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], H[9], P[9];
 
@@ -39,13 +42,15 @@ static inline PetscBool FullForce(const int n, const CellBasis *basis, const Bod
   return PETSC_TRUE;
 }
 
-static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   return CELL_CALL(FullForce, basis, m, X, U, F);
 }
 
 /* K_ia,kb = int dN_a/dX_j dP_ij/dH_kl dN_b/dX_l */
-static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   PetscReal G[3][CELL_MAX_NODES], H[9], A[81];
   CellSums  S;
@@ -62,14 +67,16 @@ static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const
   return PETSC_TRUE;
 }
 
-static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   if (!m->law->constant) return CELL_CALL(FullStiffness, basis, m, X, U, K);
   CellStiffnessConstant(basis, m->law, &m->moduli, X, K);
   return PETSC_TRUE;
 }
 
-static inline PetscBool FullCauchy(const int n, const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
+static inline PetscBool FullCauchy(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   PetscReal G[3][CELL_MAX_NODES], H[9], s[6], volume = 0;
 
@@ -86,12 +93,14 @@ static inline PetscBool FullCauchy(const int n, const CellBasis *basis, const Bo
   return PETSC_TRUE;
 }
 
-static PetscBool ElementCauchy_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
+static PetscBool ElementCauchy_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   return CELL_CALL(FullCauchy, basis, m, X, U, sigma);
 }
 
-static inline void FullStrains(const int n, const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+static inline void FullStrains(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
   PetscReal G[3][CELL_MAX_NODES], C[9];
 
@@ -102,9 +111,11 @@ static inline void FullStrains(const int n, const CellBasis *basis, const BodyMa
   }
 }
 
-static void ElementStrains_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+static void ElementStrains_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
   CELL_CALL(FullStrains, basis, m, X, U, w, H);
 }
 
-const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full, ElementStrains_Full};
+const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full,
+  ElementStrains_Full};

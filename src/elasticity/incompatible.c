@@ -1,16 +1,16 @@
 /*
-   Incompatible modes, for linear laws and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), the modes of a cell condensed in it. With J the
-   Jacobian at a point and J0 that at the centre the 12 modes are
+   Incompatible modes, for linear laws and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), the modes of
+   a cell condensed in it. With J the Jacobian at a point and J0 that at the centre the 12 modes are
 
      M_(3 i + k) = det J0/det J  xi_k e_i (x) (row k of J0^(-1)),   M_(9 + k) = det J0/det J  xi_(k + 1) xi_(k + 2) I:
 
-   the gradients of xi_k^2, in which a bent cell does not shear, and the dilatations that a trilinear displacement lacks, without which
-   it locks as Poisson's ratio nears 1/2. det J0/det J makes int M = 0 in cells of every shape, so they pass the patch test.
+   the gradients of xi_k^2, in which a bent cell does not shear, and the dilatations that a trilinear displacement
+   lacks, without which it locks as Poisson's ratio nears 1/2. det J0/det J makes int M = 0 in cells of every shape,
+   so they pass the patch test.
 
-   References:
-   Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976.
-   Simo and Rifai, A class of mixed assumed strain methods and the method of incompatible modes, 1990.
-   Simo, Armero and Taylor, Improved versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
+   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A
+   class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
+   versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
 #include "elasticityimpl.h"
 
@@ -35,12 +35,14 @@ static void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofacto
   for (int k = 0; k < 3; ++k) {
     const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
 
-    for (int j = 0; j < 3; ++j) cofactor[k][j] = J[(j + 1) % 3][k1] * J[(j + 2) % 3][k2] - J[(j + 1) % 3][k2] * J[(j + 2) % 3][k1];
+    for (int j = 0; j < 3; ++j)
+      cofactor[k][j] = J[(j + 1) % 3][k1] * J[(j + 2) % 3][k2] - J[(j + 1) % 3][k2] * J[(j + 2) % 3][k1];
   }
 }
 
 /* The modes as displacement gradients at point q, whose volume is w */
-static void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3], PetscReal M[MODES][9])
+static void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3],
+  PetscReal M[MODES][9])
 {
   const PetscReal *xi = basis->xi[q], inverse = basis->weight[q] / w;
 
@@ -68,7 +70,8 @@ static void IncompatibleFactor(PetscReal L[MODES][MODES])
   }
 }
 
-static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], Incompatibility *modes)
+static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  Incompatibility *modes)
 {
   PetscReal G[3][CELL_MAX_NODES], M[MODES][9], P[9], cofactor[3][3];
 
@@ -110,7 +113,8 @@ static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][
   return released;
 }
 
-static PetscReal ElementEnergy_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
+static PetscReal ElementEnergy_Incompatible(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
   Incompatibility modes;
   PetscReal       a[MODES];
@@ -119,7 +123,8 @@ static PetscReal ElementEnergy_Incompatible(const CellBasis *basis, const BodyMa
   return ElementFull.energy(basis, m, X, U) - IncompatibleSolve(&modes, U, a);
 }
 
-static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   Incompatibility modes;
   PetscReal       a[MODES];
@@ -136,7 +141,8 @@ static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMat
 }
 
 /* K_uu - (L^(-1) K_au)^T (L^(-1) K_au) */
-static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
   Incompatibility modes;
   PetscReal       row[24];
@@ -159,12 +165,14 @@ static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const Bod
 }
 
 /* The modes' stresses have no mean */
-static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
+static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   return ElementFull.cauchy(basis, m, X, U, sigma);
 }
 
-static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
   Incompatibility modes;
   PetscReal       a[MODES], M[MODES][9], C[9], cofactor[3][3];
@@ -182,4 +190,5 @@ static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMateri
   }
 }
 
-const Element ElementIncompatible = {ElementEnergy_Incompatible, ElementForce_Incompatible, ElementStiffness_Incompatible, ElementCauchy_Incompatible, ElementStrains_Incompatible};
+const Element ElementIncompatible = {ElementEnergy_Incompatible, ElementForce_Incompatible,
+  ElementStiffness_Incompatible, ElementCauchy_Incompatible, ElementStrains_Incompatible};

@@ -15,7 +15,8 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
   }
 }
 
-/* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals of the squared shape functions */
+/* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals
+   of the squared shape functions */
 static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
@@ -35,7 +36,9 @@ static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], P
 }
 
 /* Adds factor[d] times the integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
-static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]), const PetscReal factor[3], Vec total)
+static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
+  void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]),
+  const PetscReal factor[3], Vec total)
 {
   Vec                coordinates, local;
   const PetscScalar *x;
@@ -64,7 +67,8 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, void (*in
 }
 
 /*@
-  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape function
+  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape
+function
 
   Collective
 
@@ -77,7 +81,8 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body, void (*in
   Level: intermediate
 
   Notes:
-  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of the mass matrix.
+  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of the
+mass matrix.
 
   References:
   Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
@@ -115,7 +120,8 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
 PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscReal density[3], Vec force)
 {
   PetscFunctionBegin;
-  PetscCheck(body == PETSC_DECIDE || (body >= 0 && body < e->nbodies), PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
+  PetscCheck(body == PETSC_DECIDE || (body >= 0 && body < e->nbodies), PetscObjectComm((PetscObject)e->dm),
+    PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
   PetscCall(ElasticityAddVolume(e, body, CellVolumes, density, force));
   PetscFunctionReturn(0);
 }
@@ -190,8 +196,8 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not a face of the mesh is an
-  error.
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
+a face of the mesh is an error.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
 @*/
@@ -212,13 +218,14 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 - face       - name of the face, "<body>.<face>"
 
   Output Parameter:
-. areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added to it [length^2]
+. areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added
+to it [length^2]
 
   Level: developer
 
   Notes:
-  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of quadratic shape functions
-  are loads.
+  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
+quadratic shape functions are loads.
 
 .seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
 @*/

@@ -60,10 +60,11 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
 
 /*
    Numbers of neighbours of each owned node: on this rank, on others, and both again among the nodes not below itself.
-   Exact for a node whose cells are all here. For a node shared with other ranks their counts are added up: neighbours in the
-   interface count twice there, and MatAssemblyEnd() gives the surplus back.
+   Exact for a node whose cells are all here. For a node shared with other ranks their counts are added up: neighbours
+   in the interface count twice there, and MatAssemblyEnd() gives the surplus back.
 */
-static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout, const PetscInt global[], const PetscInt start[], const PetscInt neighbours[], PetscInt nowned, PetscInt *owned[4])
+static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout, const PetscInt global[],
+  const PetscInt start[], const PetscInt neighbours[], PetscInt nowned, PetscInt *owned[4])
 {
   PetscSF   sf;
   PetscInt *local[4], N;
@@ -97,8 +98,10 @@ static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout
   PetscFunctionReturn(0);
 }
 
-/* Puts explicit zeros at all entries, row by row in ascending columns: assembly then only adds, and never shifts rows */
-static PetscErrorCode ElasticityInsertPattern(Elasticity e, Mat A, const PetscInt global[], const PetscInt start[], const PetscInt neighbours[])
+/* Puts explicit zeros at all entries, row by row in ascending columns: assembly then only adds, and never shifts rows
+ */
+static PetscErrorCode ElasticityInsertPattern(Elasticity e, Mat A, const PetscInt global[], const PetscInt start[],
+  const PetscInt neighbours[])
 {
   PetscInt     longest = 0, *columns;
   PetscScalar *zeros;

@@ -39,9 +39,7 @@ static void PrincipalRotate(PetscReal A[3][3], int p, int q)
 @*/
 PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3])
 {
-  PetscReal A[3][3] = {
-    {stress[0], stress[3], stress[5]},
-    {stress[3], stress[1], stress[4]},
+  PetscReal A[3][3] = {{stress[0], stress[3], stress[5]}, {stress[3], stress[1], stress[4]},
     {stress[5], stress[4], stress[2]}};
 
   PetscFunctionBegin;

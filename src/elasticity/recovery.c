@@ -1,8 +1,9 @@
 /*
-   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, placed at the
-   cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a vertex on a body's surface
-   lie on one side of it; the polynomials of the interior vertices of these cells are continued to it, and averaged: second order up to
-   the surface. A body of one layer of cells has no interior vertex; its vertices take the mean of their cells.
+   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, placed
+   at the cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a
+   vertex on a body's surface lie on one side of it; the polynomials of the interior vertices of these cells are
+   continued to it, and averaged: second order up to the surface. A body of one layer of cells has no interior vertex;
+   its vertices take the mean of their cells.
 
    References:
    Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
@@ -11,9 +12,9 @@
 
 /* Of the cells around a node, their places relative to it */
 typedef struct {
-  PetscReal n, d[3], dd[6];                             /* number, sum of places and of their products xx yy zz xy yz zx */
+  PetscReal n, d[3], dd[6]; /* number, sum of places and of their products xx yy zz xy yz zx */
   PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sum of values, and of places times values */
-  PetscReal normal[3], area;                            /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
 } NodeSums;
 
 typedef struct {
@@ -75,8 +76,10 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, c
 /* Inverse of the scatter of the cells' centroids about their mean; false where they lie in a plane, or nearly */
 static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
 {
-  const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1], zz = sums->dd[2] - sums->n * mean[2] * mean[2];
-  const PetscReal xy = sums->dd[3] - sums->n * mean[0] * mean[1], yz = sums->dd[4] - sums->n * mean[1] * mean[2], zx = sums->dd[5] - sums->n * mean[2] * mean[0];
+  const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1],
+                  zz = sums->dd[2] - sums->n * mean[2] * mean[2];
+  const PetscReal xy = sums->dd[3] - sums->n * mean[0] * mean[1], yz = sums->dd[4] - sums->n * mean[1] * mean[2],
+                  zx      = sums->dd[5] - sums->n * mean[2] * mean[0];
   const PetscReal C[3][3] = {
     {yy * zz - yz * yz, yz * zx - xy * zz, xy * yz - yy * zx},
     {yz * zx - xy * zz, xx * zz - zx * zx, xy * zx - xx * yz},
@@ -95,10 +98,12 @@ static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mea
 static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
 {
   const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
-  const PetscReal open    = PetscSqrtReal(PetscSqr(sums->normal[0]) + PetscSqr(sums->normal[1]) + PetscSqr(sums->normal[2]));
-  PetscReal       inverse[3][3];
+  const PetscReal open =
+    PetscSqrtReal(PetscSqr(sums->normal[0]) + PetscSqr(sums->normal[1]) + PetscSqr(sums->normal[2]));
+  PetscReal inverse[3][3];
 
-  p->inside = (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * sums->area && NodeSumsInvertScatter(sums, mean, inverse));
+  p->inside =
+    (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * sums->area && NodeSumsInvertScatter(sums, mean, inverse));
   for (int k = 0; k < ELEMENT_STRAINS; ++k) p->value[k] = sums->s[k] / sums->n;
   if (!p->inside) return;
   for (int k = 0; k < ELEMENT_STRAINS; ++k) {
@@ -172,7 +177,8 @@ PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], NodePatch patches[])
+static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], NodePatch patches[])
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < e->ncells; ++c) {
@@ -190,7 +196,8 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
 }
 
 /* Continues the polynomials of a cell's interior vertices to the others */
-static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES], RecoveredNode recovered[])
+static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES],
+  RecoveredNode recovered[])
 {
   for (int a = 0; a < n; ++a) {
     RecoveredNode *r = &recovered[nodes[a]];
@@ -202,13 +209,16 @@ static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt n
 
       if (!p->inside) continue;
       r->n += 1;
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k)
+        r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
     }
   }
 }
 
-/* Values at the nodes of the selected bodies' cells of order 1, of which no two share a node. recovered is zero on entry */
-PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[])
+/* Values at the nodes of the selected bodies' cells of order 1, of which no two share a node. recovered is zero on
+   entry */
+PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[])
 {
   NodePatch *patches;
 
@@ -226,7 +236,8 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     const PetscReal n = recovered[v].n;
 
-    for (int k = 0; k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k)
+      recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
   }
   PetscCall(PetscFree(patches));
   PetscFunctionReturn(0);

@@ -1,9 +1,10 @@
 /*
-   Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8 samples a cell, at the
-   2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, or 4 a tetrahedron, at the points of its rule of degree 2, fitted by quadratic polynomials over the cells around a
-   vertex: second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of their cells'
-   vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that the samples do not
-   determine are left out, as the square across one layer of cells.
+   Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8
+   samples a cell, at the 2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, or 4 a
+   tetrahedron, at the points of its rule of degree 2, fitted by quadratic polynomials over the cells around a vertex:
+   second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of
+   their cells' vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that
+   the samples do not determine are left out, as the square across one layer of cells.
 */
 #include "elasticityimpl.h"
 
@@ -13,7 +14,7 @@
 /* Least squares about a vertex: sums over the samples around it */
 typedef struct {
   PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* then the polynomial's coefficients */
-  PetscReal normal[3], area;                            /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
   PetscReal ncells;
 } QuadraticPatch;
 
@@ -46,8 +47,8 @@ static void QuadraticLine(PetscReal weight[2][3])
   }
 }
 
-/* Weights that take values at the points of a tetrahedron to its 4 samples, in each of which one barycentric coordinate is the largest: those of the linear
-   polynomial that is nearest in the mean */
+/* Weights that take values at the points of a tetrahedron to its 4 samples, in each of which one barycentric
+   coordinate is the largest: those of the linear polynomial that is nearest in the mean */
 static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
 {
   const PetscReal place = 0.1381966011250105;
@@ -75,14 +76,16 @@ static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weig
   }
   QuadraticLine(line);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    for (int s = 0; s < SAMPLES; ++s) weight[s][q] = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
+    for (int s = 0; s < SAMPLES; ++s)
+      weight[s][q] = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
   }
 }
 
 static void QuadraticSample(CellState *state, QuadraticCell *cell)
 {
   const CellBasis *basis = state->body->basis;
-  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES], weight[SAMPLES][CELL_MAX_POINTS];
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES],
+    weight[SAMPLES][CELL_MAX_POINTS];
 
   *cell = (QuadraticCell){0};
   QuadraticWeights(basis, &cell->n, weight);
@@ -124,7 +127,8 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
   patch->ncells += 1;
 }
 
-/* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before, which are left out */
+/* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before,
+   which are left out */
 static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], PetscReal L[TERMS][TERMS])
 {
   for (int i = 0; i < TERMS; ++i) {
@@ -166,12 +170,14 @@ static void QuadraticPatchFit(QuadraticPatch *patch)
 
 static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
 {
-  const PetscReal open = PetscSqrtReal(PetscSqr(patch->normal[0]) + PetscSqr(patch->normal[1]) + PetscSqr(patch->normal[2]));
+  const PetscReal open =
+    PetscSqrtReal(PetscSqr(patch->normal[0]) + PetscSqr(patch->normal[1]) + PetscSqr(patch->normal[2]));
 
   return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
-/* How far a vertex's polynomial is to be trusted at a node of a cell: most inside the body, else the more cells it is of; more at the vertex itself */
+/* How far a vertex's polynomial is to be trusted at a node of a cell: most inside the body, else the more cells it is
+   of; more at the vertex itself */
 static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscBool itself)
 {
   return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (itself ? 1 : 0);
@@ -188,8 +194,10 @@ static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], 
   }
 }
 
-/* At the nodes of a cell: the highest rank that a polynomial of its vertices has; or with `sums` adds the polynomials of the rank that is known by now */
-static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[], PetscInt rank[], RecoveredNode sums[])
+/* At the nodes of a cell: the highest rank that a polynomial of its vertices has; or with `sums` adds the polynomials
+   of the rank that is known by now */
+static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[],
+  PetscInt rank[], RecoveredNode sums[])
 {
   for (PetscInt a = 0; a < state->n; ++a) {
     const PetscInt node = state->nodes[a];
@@ -197,7 +205,8 @@ static void QuadraticContinue(const CellState *state, const PetscInt number[], c
     for (int c = 0; c < MeshCorners(state->n); ++c) {
       const PetscInt        b     = RecoveryCorner(state->n, c);
       const QuadraticPatch *patch = &patches[number[state->nodes[b]]];
-      const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b], state->X[2][a] - state->X[2][b]};
+      const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b],
+               state->X[2][a] - state->X[2][b]};
 
       if (!sums) rank[node] = PetscMax(rank[node], QuadraticRank(patch, (PetscBool)(a == b)));
       else if (rank[node] == QuadraticRank(patch, (PetscBool)(a == b))) QuadraticNodeAdd(patch, d, &sums[node]);
@@ -245,7 +254,8 @@ static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt numb
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const PetscInt number[], PetscInt n, QuadraticPatch patches[])
+static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const PetscInt number[], PetscInt n, QuadraticPatch patches[])
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < e->ncells; ++c) {
@@ -267,8 +277,10 @@ static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscB
   PetscFunctionReturn(0);
 }
 
-/* The mean of the polynomials of the highest rank at every node of the selected bodies' cells of order 2: their sums, and how many */
-static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], const PetscInt number[], const QuadraticPatch patches[], RecoveredNode sums[])
+/* The mean of the polynomials of the highest rank at every node of the selected bodies' cells of order 2: their sums,
+   and how many */
+static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const PetscInt number[], const QuadraticPatch patches[], RecoveredNode sums[])
 {
   PetscInt *rank;
 
@@ -294,7 +306,8 @@ static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool 
 }
 
 /* Values at the nodes of the selected bodies' cells of order 2; those of other nodes stay */
-PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[])
+PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[])
 {
   QuadraticPatch *patches;
   RecoveredNode  *sums;

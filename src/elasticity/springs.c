@@ -1,4 +1,5 @@
-/* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E = u^T S u/2 */
+/* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E =
+   u^T S u/2 */
 #include "elasticityimpl.h"
 
 /*@
@@ -9,12 +10,14 @@
   Input Parameters:
 + elasticity - the context
 . stiffness  - one a row, not negative, referenced; `NULL`: no springs to the ground [force/length]
-- between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none [force/length]
+- between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none
+[force/length]
 
   Level: intermediate
 
   Notes:
-  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the others. The next tangent is assembled completely.
+  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the others.
+The next tangent is assembled completely.
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
 @*/
@@ -75,7 +78,8 @@ PetscErrorCode SpringsAddForce(Elasticity e, Vec u, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* To the diagonal blocks of nodes that this rank owns, of all bodies or of those that are not kept. Where an unknown is prescribed its diagonal is arbitrary */
+/* To the diagonal blocks of nodes that this rank owns, of all bodies or of those that are not kept. Where an unknown
+   is prescribed its diagonal is arbitrary */
 PetscErrorCode SpringsAddTangent(Elasticity e, PetscBool all, const PetscInt global[], Mat tangent)
 {
   const PetscScalar *k;

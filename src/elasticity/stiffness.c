@@ -14,7 +14,8 @@ void CellSumsClear(PetscInt n, CellSums *S)
    K_ab = int lambda grad N_a (x) grad N_b + mu grad N_b (x) grad N_a + mu (grad N_a . grad N_b) I,
    from the six integrals S_ij[a][b] = int dN_a/dX_i dN_b/dX_j, i <= j, as S_ji is the transpose of S_ij.
 */
-static inline void StiffnessIsotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal lambda, PetscReal mu, PetscScalar K[])
+static inline void StiffnessIsotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal lambda, PetscReal mu, PetscScalar K[])
 {
   PetscReal G[3][CELL_MAX_NODES];
   CellSums  S;
@@ -50,7 +51,8 @@ static inline void StiffnessIsotropic(const int n, const CellBasis *basis, Petsc
   }
 }
 
-static inline void StiffnessAdd(const int n, const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81], CellSums *S)
+static inline void StiffnessAdd(const int n, const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
+  const PetscReal A[81], CellSums *S)
 {
   (void)basis;
   for (int i = 0; i < 3; ++i) {
@@ -69,7 +71,8 @@ static inline void StiffnessAdd(const int n, const CellBasis *basis, PetscReal w
   }
 }
 
-void CellStiffnessAdd(const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81], CellSums *S)
+void CellStiffnessAdd(const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal A[81],
+  CellSums *S)
 {
   CELL_CALL(StiffnessAdd, basis, w, G, A, S);
 }
@@ -95,7 +98,8 @@ void CellStiffnessFinish(const CellBasis *basis, const CellSums *S, PetscScalar 
 }
 
 /* With the tangent at rest, where it does not come from lambda and mu alone */
-static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], const PetscReal A[81], PetscScalar K[])
+static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
+  const PetscReal A[81], PetscScalar K[])
 {
   PetscReal G[3][CELL_MAX_NODES];
   CellSums  S;
@@ -109,7 +113,8 @@ static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, Pet
   CellStiffnessFinish(basis, &S, K);
 }
 
-void CellStiffnessConstant(const CellBasis *basis, const MaterialLaw *law, const MaterialModuli *m, PetscReal X[3][CELL_MAX_NODES], PetscScalar K[])
+void CellStiffnessConstant(const CellBasis *basis, const MaterialLaw *law, const MaterialModuli *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscScalar K[])
 {
   const PetscReal rest[9] = {0};
   PetscReal       A[81];

@@ -3,7 +3,8 @@
 
 static PetscReal StressVonMises(const PetscReal s[6])
 {
-  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) +
+                       3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 /*@
@@ -16,13 +17,14 @@ static PetscReal StressVonMises(const PetscReal s[6])
 - u          - displacement, global, 3 components a node [length]
 
   Output Parameter:
-. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free with `PetscFree()`
+. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free
+with `PetscFree()`
 
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean dilatation. A cell
-  turned inside out has the value `PETSC_INFINITY`.
+  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
+dilatation. A cell turned inside out has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/

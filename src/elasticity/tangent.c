@@ -114,7 +114,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   PetscCall(MatSetType(A, e->mattype));
   PetscCall(ElasticityPreallocate(e, A));
   PetscCall(MatSetOption(A, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
-  PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* rows are zeroed when some bodies are assembled again */
+  PetscCall(
+    MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* rows are zeroed when some bodies are assembled again */
   PetscCall(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   *tangent = A;
@@ -122,7 +123,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 }
 
 /*@
-  ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed aggregation and nodal AMG build on
+  ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed
+aggregation and nodal AMG build on
 
   Collective
 
@@ -133,8 +135,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   Level: beginner
 
   Notes:
-  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as much memory as six solutions, and PCHYPRE copies
-  them whether or not it makes use of them.
+  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
+much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

@@ -1,14 +1,15 @@
 /*
-   Thermal strain of bodies of small strain: the law sees the displacement gradient less A T, with the expansion A and the temperature T above
-   that of the body without stress.
+   Thermal strain of bodies of small strain: the law sees the displacement gradient less A T, with the expansion A and
+   the temperature T above that of the body without stress.
 
-   In a cell T is taken as linear, T_c + g.y with y the place from the centre, by least squares over the nodes. A strain linear in the place is
-   compatible: a free cell would move by
+   In a cell T is taken as linear, T_c + g.y with y the place from the centre, by least squares over the nodes. A
+   strain linear in the place is compatible: a free cell would move by
 
      u = A y (T_c + g.y) - (y.A y)/2 g,
 
-   whose symmetric gradient is A (T_c + g.y). So each cell is evaluated at its displacement less that one, whatever its element, and a free
-   body in a temperature that is linear in the place is without stress, in bending too. The tangent does not know of it.
+   whose symmetric gradient is A (T_c + g.y). So each cell is evaluated at its displacement less that one, whatever
+   its element, and a free body in a temperature that is linear in the place is without stress, in bending too. The
+   tangent does not know of it.
 */
 #include "elasticityimpl.h"
 #include <mesh.h>
@@ -21,7 +22,8 @@ static void ThermalSolve(PetscReal M[3][3], const PetscReal b[3], PetscReal x[3]
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
 
-    for (int j = 0; j < 3; ++j) C[i][j] = M[i1][(j + 1) % 3] * M[i2][(j + 2) % 3] - M[i1][(j + 2) % 3] * M[i2][(j + 1) % 3];
+    for (int j = 0; j < 3; ++j)
+      C[i][j] = M[i1][(j + 1) % 3] * M[i2][(j + 2) % 3] - M[i1][(j + 2) % 3] * M[i2][(j + 1) % 3];
   }
   det = M[0][0] * C[0][0] + M[0][1] * C[0][1] + M[0][2] * C[0][2];
   for (int j = 0; j < 3; ++j) x[j] = (C[0][j] * b[0] + C[1][j] * b[1] + C[2][j] * b[2]) / det;
@@ -92,7 +94,8 @@ void ThermalSubtract(const PetscReal fit[4], CellState *cell)
 
 .seealso: `ElasticitySetTemperature()`
 @*/
-PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt body, PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[])
+PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                            body,
+  PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[])
 {
   Vec                coordinates;
   const PetscScalar *x;
@@ -121,13 +124,14 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt body, PetscErrorC
 
   Input Parameters:
 + elasticity - the context
-- fits       - 4 values a local cell, from `ElasticityFitTemperature()`, copied; `NULL`: none. Cells of bodies without expansion must have zeros
+- fits       - 4 values a local cell, from `ElasticityFitTemperature()`, copied; `NULL`: none. Cells of bodies without
+expansion must have zeros
 
   Level: intermediate
 
   Notes:
-  Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of small strain, which alone
-  expand, does not depend on it.
+  Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
+small strain, which alone expand, does not depend on it.
 
 .seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
 @*/

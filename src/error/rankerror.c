@@ -2,9 +2,10 @@
 #include <rankerror.h>
 #include <string.h>
 
-/* The call deepest inside, which raises the error, knows best what is wrong. For want of memory PETSc 3.18 gives the line of the
-   code and the function as number and message */
-static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+/* The call deepest inside, which raises the error, knows best what is wrong. For want of memory PETSc 3.18 gives the
+   line of the code and the function as number and message */
+static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
+  PetscErrorType type, const char *message, void *ctx)
 {
   RankError  *error = (RankError *)ctx;
   const char *text  = message;

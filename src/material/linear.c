@@ -6,7 +6,8 @@ static PetscReal MaterialEnergy_Linear(const MaterialModuli *m, const PetscReal 
   const PetscReal trace = H[0] + H[4] + H[8];
   const PetscReal xy = H[1] + H[3], yz = H[5] + H[7], zx = H[2] + H[6];
 
-  return 0.5 * m->lambda * trace * trace + m->mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
+  return 0.5 * m->lambda * trace * trace +
+         m->mu * (H[0] * H[0] + H[4] * H[4] + H[8] * H[8] + 0.5 * (xy * xy + yz * yz + zx * zx));
 }
 
 static PetscBool MaterialCauchy_Linear(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
@@ -62,4 +63,5 @@ static void MaterialCurvature_Linear(PetscReal pressure, const PetscReal H[9], P
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawLinear = {PETSC_TRUE, PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear, MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};
+const MaterialLaw MaterialLawLinear = {PETSC_TRUE, PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear,
+  MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};

@@ -1,13 +1,14 @@
 /*
-   Compressible Mooney-Rivlin: W = c10 (J^(-2/3) I1 - 3) + c01 (J^(-4/3) I2 - 3) + kappa/2 (J - 1)^2, I1 = |F|^2, I2 = |cof F|^2.
+   Compressible Mooney-Rivlin: W = c10 (J^(-2/3) I1 - 3) + c01 (J^(-4/3) I2 - 3) + kappa/2 (J - 1)^2, I1 = |F|^2, I2 =
+   |cof F|^2.
 
-   As det cof F = J^2, the second term is the first one's function at G = cof F in place of F: neo-Hookean without volume, whose
-   functions take G - I. Derivatives follow by the chain rule with the tensor cross product (A x B)_ij = e_ikm e_jln A_kl B_mn:
-   dG = F x dF, so that P = Q x F and dP = (dQ/dG : (F x dF)) x F + Q x dF with Q = dW/dG.
+   As det cof F = J^2, the second term is the first one's function at G = cof F in place of F: neo-Hookean without
+   volume, whose functions take G - I. Derivatives follow by the chain rule with the tensor cross product (A x B)_ij =
+   e_ikm e_jln A_kl B_mn: dG = F x dF, so that P = Q x F and dP = (dQ/dG : (F x dF)) x F + Q x dF with Q = dW/dG.
 
-   References:
-   Mooney, A theory of large elastic deformation, 1940. Rivlin, Large elastic deformations of isotropic materials IV, 1948.
-   Bonet, Gil and Ortigosa, On a tensor cross product based formulation of large strain solid mechanics, 2016.
+   References: Mooney, A theory of large elastic deformation, 1940. Rivlin, Large elastic deformations of isotropic
+   materials IV, 1948. Bonet, Gil and Ortigosa, On a tensor cross product based formulation of large strain solid
+   mechanics, 2016.
 */
 #include "materialimpl.h"
 
@@ -27,7 +28,8 @@ static void MooneyRivlinCross(const PetscReal A[9], const PetscReal B[9], PetscR
     for (int j = 0; j < 3; ++j) {
       const int l = (j + 1) % 3, n = (j + 2) % 3;
 
-      C[3 * i + j] = A[3 * k + l] * B[3 * m + n] - A[3 * k + n] * B[3 * m + l] - A[3 * m + l] * B[3 * k + n] + A[3 * m + n] * B[3 * k + l];
+      C[3 * i + j] = A[3 * k + l] * B[3 * m + n] - A[3 * k + n] * B[3 * m + l] - A[3 * m + l] * B[3 * k + n] +
+                     A[3 * m + n] * B[3 * k + l];
     }
   }
 }
@@ -56,7 +58,8 @@ static PetscReal MaterialEnergy_MooneyRivlin(const MaterialModuli *m, const Pets
 }
 
 /* F = I + H, Q = dW/dG */
-static PetscBool MooneyRivlinDual(const MaterialModuli *second, const PetscReal H[9], PetscReal F[9], PetscReal D[9], PetscReal Q[9])
+static PetscBool MooneyRivlinDual(const MaterialModuli *second, const PetscReal H[9], PetscReal F[9], PetscReal D[9],
+  PetscReal Q[9])
 {
   for (int i = 0; i < 9; ++i) F[i] = (i % 4 ? 0 : 1) + H[i];
   MooneyRivlinCofactor(H, D);
@@ -125,4 +128,6 @@ static void MaterialCurvature_MooneyRivlin(PetscReal pressure, const PetscReal H
   MaterialLawNeoHookean.curvature(pressure, H, A);
 }
 
-const MaterialLaw MaterialLawMooneyRivlin = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_MooneyRivlin, MaterialStress_MooneyRivlin, MaterialTangent_MooneyRivlin, MaterialCauchy_MooneyRivlin, MaterialDilatation_MooneyRivlin, MaterialCurvature_MooneyRivlin};
+const MaterialLaw MaterialLawMooneyRivlin = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_MooneyRivlin,
+  MaterialStress_MooneyRivlin, MaterialTangent_MooneyRivlin, MaterialCauchy_MooneyRivlin,
+  MaterialDilatation_MooneyRivlin, MaterialCurvature_MooneyRivlin};

@@ -30,8 +30,9 @@ static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k
     }
   }
   for (int i = 0; i < 9; ++i) square += H[i] * H[i];
-  k->theta = trace + cofactor[0] + cofactor[4] + cofactor[8] + H[0] * cofactor[0] + H[1] * cofactor[1] + H[2] * cofactor[2];
-  k->i1    = 2 * trace + square;
+  k->theta =
+    trace + cofactor[0] + cofactor[4] + cofactor[8] + H[0] * cofactor[0] + H[1] * cofactor[1] + H[2] * cofactor[2];
+  k->i1 = 2 * trace + square;
   if (k->theta <= -1) return PETSC_FALSE;
   c        = PetscCbrtReal(1 + k->theta);
   k->power = 1 / (c * c);
@@ -40,8 +41,9 @@ static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k
 }
 
 /*
-   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), D without trace: det(I + D) = 1 + q,
-   q = det D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Where q nears -1 its own digits go, and none cancel in the first form.
+   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), D without trace: det(I + D) = 1 +
+   q, q = det D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Where q nears -1 its own digits go, and none cancel
+   in the first form.
 */
 static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
 {
@@ -49,7 +51,9 @@ static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
   PetscReal       D[9], q, r;
 
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) D[3 * i + j] = scale * (H[3 * i + j] + H[3 * j + i] + H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j] - (i == j ? k->i1 / 3 : 0));
+    for (int j = 0; j < 3; ++j)
+      D[3 * i + j] = scale * (H[3 * i + j] + H[3 * j + i] + H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j] -
+                               (i == j ? k->i1 / 3 : 0));
   }
   q = D[0] * (D[4] * D[8] - D[5] * D[7]) - D[1] * (D[3] * D[8] - D[5] * D[6]) + D[2] * (D[3] * D[7] - D[4] * D[6]);
   for (int i = 0; i < 9; ++i) q -= 0.5 * D[i] * D[i];
@@ -66,7 +70,8 @@ static PetscReal MaterialEnergy_NeoHookean(const MaterialModuli *m, const PetscR
   return 0.5 * m->mu * NeoHookeanIsochoric(H, &k) + 0.5 * m->bulk * k.theta * k.theta;
 }
 
-/* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 - 3)/3 cof F */
+/* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 -
+   3)/3 cof F */
 static inline void NeoHookeanStress(const MaterialModuli *m, const PetscReal H[9], const Kinematics *k, PetscReal P[9])
 {
   const PetscReal J = 1 + k->theta, shear = m->mu * k->power, g = m->bulk * k->theta - shear * k->i1 / (3 * J);
@@ -105,7 +110,8 @@ static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const Petsc
   }
   for (int p = 0; p < 9; ++p) {
     for (int q = p; q < 9; ++q) {
-      A[9 * p + q] = mixed * (F[p] * G[q] + G[p] * F[q]) + dyad * G[p] * G[q] + crossed * G[p / 3 * 3 + q % 3] * G[q / 3 * 3 + p % 3];
+      A[9 * p + q] = mixed * (F[p] * G[q] + G[p] * F[q]) + dyad * G[p] * G[q] +
+                     crossed * G[p / 3 * 3 + q % 3] * G[q / 3 * 3 + p % 3];
       A[9 * q + p] = A[9 * p + q];
     }
     A[10 * p] += unit;
@@ -156,4 +162,6 @@ static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9
   }
 }
 
-const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_NeoHookean, MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean, MaterialCurvature_NeoHookean};
+const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_NeoHookean,
+  MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean,
+  MaterialCurvature_NeoHookean};

@@ -1,8 +1,9 @@
 /*
-   Orthotropic linear elasticity: W = e:C:e/2, three planes of symmetry whose normals are the material's axes. C stands in the moduli, for
-   strains xx yy zz 2xy 2yz 2zx along the axes of space.
+   Orthotropic linear elasticity: W = e:C:e/2, three planes of symmetry whose normals are the material's axes. C
+   stands in the moduli, for strains xx yy zz 2xy 2yz 2zx along the axes of space.
 
-   Its part kappa/2 (tr e)^2 is the largest one that leaves the rest without negative energy: kappa = 1/(1:S:1), S = C^(-1), Reuss's bulk modulus.
+   Its part kappa/2 (tr e)^2 is the largest one that leaves the rest without negative energy: kappa = 1/(1:S:1), S =
+   C^(-1), Reuss's bulk modulus.
 */
 #include "materialimpl.h"
 
@@ -24,7 +25,8 @@ static PetscReal MaterialEnergy_Orthotropic(const MaterialModuli *m, const Petsc
   PetscReal s[6];
 
   (void)MaterialCauchy_Orthotropic(m, H, s);
-  return 0.5 * (s[0] * H[0] + s[1] * H[4] + s[2] * H[8] + s[3] * (H[1] + H[3]) + s[4] * (H[5] + H[7]) + s[5] * (H[6] + H[2]));
+  return 0.5 *
+         (s[0] * H[0] + s[1] * H[4] + s[2] * H[8] + s[3] * (H[1] + H[3]) + s[4] * (H[5] + H[7]) + s[5] * (H[6] + H[2]));
 }
 
 static PetscBool MaterialStress_Orthotropic(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
@@ -61,7 +63,9 @@ static void MaterialCurvature_Orthotropic(PetscReal pressure, const PetscReal H[
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawOrthotropic = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Orthotropic, MaterialStress_Orthotropic, MaterialTangent_Orthotropic, MaterialCauchy_Orthotropic, MaterialDilatation_Orthotropic, MaterialCurvature_Orthotropic};
+const MaterialLaw MaterialLawOrthotropic = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Orthotropic,
+  MaterialStress_Orthotropic, MaterialTangent_Orthotropic, MaterialCauchy_Orthotropic, MaterialDilatation_Orthotropic,
+  MaterialCurvature_Orthotropic};
 
 /* Rows of R are the material's axes; whether they are three */
 PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
@@ -88,11 +92,13 @@ PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
   return PETSC_TRUE;
 }
 
-/* The inverse of the compliance of normal strains along the material's axes; sum: of all compliances. Whether it is positive definite */
+/* The inverse of the compliance of normal strains along the material's axes; sum: of all compliances. Whether it is
+   positive definite */
 static PetscBool OrthotropicInvert(const Material *material, PetscReal C[3][3], PetscReal *sum)
 {
   const PetscReal *E = material->youngs, *nu = material->poissons;
-  const PetscReal  S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]}, {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
+  const PetscReal  S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]},
+     {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
   PetscReal        det;
 
   *sum = 0;
@@ -117,7 +123,8 @@ static PetscReal OrthotropicTurn(PetscReal R[3][3], int s, int p)
   return a == b ? R[a][i] * R[a][j] : R[a][i] * R[b][j] + R[b][i] * R[a][j];
 }
 
-/* C in space from C along the axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd; kappa = 1/(1:S:1). Whether there is such a material */
+/* C in space from C along the axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd; kappa = 1/(1:S:1). Whether there is such a
+   material */
 PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
 {
   PetscReal R[3][3], N[3][3], local[6][6] = {{0}}, sum;

@@ -1,6 +1,6 @@
 /*
-   A body of no strain, whose displacements are all prescribed: no energy and no stress. Its tangent gives the rows of the matrix, which then
-   hold nothing but their diagonal, the scale of the young modulus that it was given.
+   A body of no strain, whose displacements are all prescribed: no energy and no stress. Its tangent gives the rows of
+   the matrix, which then hold nothing but their diagonal, the scale of the young modulus that it was given.
 */
 #include "materialimpl.h"
 
@@ -43,4 +43,5 @@ static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], Pe
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawRigid = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Rigid, MaterialStress_Rigid, MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};
+const MaterialLaw MaterialLawRigid = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Rigid, MaterialStress_Rigid,
+  MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};

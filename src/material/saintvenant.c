@@ -1,6 +1,6 @@
 /*
-   Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2. For large rotations at moderate strain: it softens in
-   compression, and is unstable below about 0.58 of the length.
+   Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2. For large rotations at moderate
+   strain: it softens in compression, and is unstable below about 0.58 of the length.
 */
 #include "materialimpl.h"
 
@@ -46,7 +46,8 @@ static PetscBool MaterialStress_SaintVenant(const MaterialModuli *m, const Petsc
 
   if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) P[3 * i + j] = S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j];
+    for (int j = 0; j < 3; ++j)
+      P[3 * i + j] = S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j];
   }
   return PETSC_TRUE;
 }
@@ -59,13 +60,15 @@ static PetscBool MaterialTangent_SaintVenant(const MaterialModuli *m, const Pets
   if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int k = 0; k < 9; ++k) F[k] = (k % 4 ? 0 : 1) + H[k];
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) B[3 * i + k] = F[3 * i] * F[3 * k] + F[3 * i + 1] * F[3 * k + 1] + F[3 * i + 2] * F[3 * k + 2];
+    for (int k = 0; k < 3; ++k)
+      B[3 * i + k] = F[3 * i] * F[3 * k] + F[3 * i + 1] * F[3 * k + 1] + F[3 * i + 2] * F[3 * k + 2];
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
         for (int l = 0; l < 3; ++l) {
-          A[9 * (3 * i + j) + 3 * k + l] = (i == k ? S[3 * j + l] : 0) + m->lambda * F[3 * i + j] * F[3 * k + l] + m->mu * (F[3 * i + l] * F[3 * k + j] + (j == l ? B[3 * i + k] : 0));
+          A[9 * (3 * i + j) + 3 * k + l] = (i == k ? S[3 * j + l] : 0) + m->lambda * F[3 * i + j] * F[3 * k + l] +
+                                           m->mu * (F[3 * i + l] * F[3 * k + j] + (j == l ? B[3 * i + k] : 0));
         }
       }
     }
@@ -82,7 +85,9 @@ static PetscBool MaterialCauchy_SaintVenant(const MaterialModuli *m, const Petsc
   if (!SaintVenantStress(m, H, S, &J)) return PETSC_FALSE;
   for (int s = 0; s < 6; ++s) {
     sigma[s] = 0;
-    for (int k = 0; k < 9; ++k) sigma[s] += ((row[s] == k / 3) + H[3 * row[s] + k / 3]) * S[k] * ((column[s] == k % 3) + H[3 * column[s] + k % 3]) / J;
+    for (int k = 0; k < 9; ++k)
+      sigma[s] +=
+        ((row[s] == k / 3) + H[3 * row[s] + k / 3]) * S[k] * ((column[s] == k % 3) + H[3 * column[s] + k % 3]) / J;
   }
   return PETSC_TRUE;
 }
@@ -103,4 +108,6 @@ static void MaterialCurvature_SaintVenant(PetscReal pressure, const PetscReal H[
   for (int k = 0; k < 9; ++k) A[10 * k] += pressure;
 }
 
-const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_SaintVenant, MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant, MaterialCurvature_SaintVenant};
+const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_SaintVenant,
+  MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant,
+  MaterialCurvature_SaintVenant};

@@ -1,7 +1,7 @@
 /*
-   Quadratic cells for a grid that has straight ones alone: edges of its surface become arcs between the normals at their ends, as
-   contact has them between its facets, and what lies inside stays straight. Edges where facets make a larger angle than ARC_FEATURE stay
-   sharp, and are bent by the surfaces on both sides.
+   Quadratic cells for a grid that has straight ones alone: edges of its surface become arcs between the normals at
+   their ends, as contact has them between its facets, and what lies inside stays straight. Edges where facets make a
+   larger angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
 */
 #include "meshimpl.h"
 #include <stdlib.h>
@@ -9,7 +9,8 @@
 #define ARC_FEATURE 35.0 /* degrees; contact's default */
 #define ARC_FLAT    1e-6 /* of an edge: less is rounding in the file */
 
-/* Facets that bound the grid, their vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet f, and the edge from there to the next */
+/* Facets that bound the grid, their vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet
+   f, and the edge from there to the next */
 typedef struct {
   PetscInt         ncorners, *vertex;
   PetscInt        *twin; /* the same edge, seen from the other facet; negative: sharp, or there is not one other */
@@ -67,7 +68,8 @@ static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e
 /* The sides of the cells that no other cell has */
 static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
 {
-  static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
+    {4, 5, 7, 6}};
   const PetscInt        n          = 6 * grid->ncells;
   ArcKey               *keys;
 
@@ -83,8 +85,10 @@ static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
   s->ncorners = 0;
   s->x        = grid->coordinates;
   for (PetscInt i = 0; i < n; ++i) {
-    if ((i && !ArcCompareKeys(&keys[i], &keys[i - 1])) || (i + 1 < n && !ArcCompareKeys(&keys[i], &keys[i + 1]))) continue;
-    for (PetscInt a = 0; a < 4; ++a) s->vertex[s->ncorners++] = grid->cells[8 * (keys[i].at / 6) + side[keys[i].at % 6][a]];
+    if ((i && !ArcCompareKeys(&keys[i], &keys[i - 1])) || (i + 1 < n && !ArcCompareKeys(&keys[i], &keys[i + 1])))
+      continue;
+    for (PetscInt a = 0; a < 4; ++a)
+      s->vertex[s->ncorners++] = grid->cells[8 * (keys[i].at / 6) + side[keys[i].at % 6][a]];
   }
   PetscCall(PetscFree(keys));
   PetscFunctionReturn(0);
@@ -121,7 +125,8 @@ static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
   }
 }
 
-/* First corner about a corner's vertex, clockwise, and the last, as far as no edge is sharp; true where all around is smooth */
+/* First corner about a corner's vertex, clockwise, and the last, as far as no edge is sharp; true where all around is
+   smooth */
 static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -136,7 +141,8 @@ static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, P
   return PETSC_FALSE;
 }
 
-/* Sum of (e x f) / (e.e f.f) over the corners of a fan, e and f the edges that meet there: exact on spheres and cylinders (N. Max, J. Graphics Tools 4 (1999)) */
+/* Sum of (e x f) / (e.e f.f) over the corners of a fan, e and f the edges that meet there: exact on spheres and
+   cylinders (N. Max, J. Graphics Tools 4 (1999)) */
 static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last, PetscReal n[3])
 {
   const PetscBool closed = ArcFan(s, corner, first, last);
@@ -156,7 +162,8 @@ static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *fi
   return closed;
 }
 
-/* How much of an edge's direction n lacks to be the mirror image of the normal at the other end, as at the ends of an arc */
+/* How much of an edge's direction n lacks to be the mirror image of the normal at the other end, as at the ends of an
+   arc */
 static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
 {
   PetscReal m[3];
@@ -180,10 +187,12 @@ static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   c       = ArcDot(e[0], e[1]);
   det     = a * b - c * c;
   if (!(det > 1e-4 * a * b)) return;
-  for (PetscInt d = 0; d < 3; ++d) n[d] += ((b * lack[0] - c * lack[1]) * e[0][d] + (a * lack[1] - c * lack[0]) * e[1][d]) / det;
+  for (PetscInt d = 0; d < 3; ++d)
+    n[d] += ((b * lack[0] - c * lack[1]) * e[0][d] + (a * lack[1] - c * lack[0]) * e[1][d]) / det;
 }
 
-/* Where the surface ends: the mean is right along its border; across it the surface is an arc along the edges that lead inward, by least squares */
+/* Where the surface ends: the mean is right along its border; across it the surface is an arc along the edges that
+   lead inward, by least squares */
 static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal e[3], f[3], along[3], across[3], sum = 0, squares = 0;
@@ -212,7 +221,8 @@ static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   ArcScale(n);
 }
 
-/* How far the middle of an edge stands off along the mean N of the normals at its ends: the middle of the arc; 0 where rounding explains it */
+/* How far the middle of an edge stands off along the mean N of the normals at its ends: the middle of the arc; 0
+   where rounding explains it */
 static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
 {
   PetscReal n[2][3], e[3], slope[2], height;
@@ -233,7 +243,8 @@ static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const Pet
 {
   const PetscReal c = ArcDot(n1, n2), det = 1 - c * c;
 
-  for (PetscInt d = 0; d < 3; ++d) off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;
+  for (PetscInt d = 0; d < 3; ++d)
+    off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;
 }
 
 /* off: 3 an edge of the surface, in the order of `edges`, at the first of those that are the same. Is any bent? */
@@ -256,26 +267,28 @@ static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscRe
 
 static ArcKey ArcEdgeKey(PetscInt a, PetscInt b, PetscInt at)
 {
-  const ArcKey key = {
-    {PetscMin(a, b), PetscMax(a, b), 0, 0},
-    at};
+  const ArcKey key = {{PetscMin(a, b), PetscMax(a, b), 0, 0}, at};
 
   return key;
 }
 
 /* The cells with their edges on the surface bent */
-static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[], PetscReal curve[])
+static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[],
+  PetscReal curve[])
 {
   for (PetscInt c = 0; c < grid->ncells; ++c) {
     PetscReal x[20][3];
 
     for (PetscInt a = 0; a < 20; ++a) {
-      const PetscInt *ends = GmshHexahedronEnds[a], from = grid->cells[8 * c + ends[0]], to = grid->cells[8 * c + ends[1]];
-      const ArcKey    key  = ArcEdgeKey(from, to, 0);
-      const ArcKey   *edge = (const ArcKey *)bsearch(&key, edges, (size_t)nedges, sizeof(key), ArcCompareKeys);
+      const PetscInt *ends = GmshHexahedronEnds[a], from = grid->cells[8 * c + ends[0]],
+                     to  = grid->cells[8 * c + ends[1]];
+      const ArcKey  key  = ArcEdgeKey(from, to, 0);
+      const ArcKey *edge = (const ArcKey *)bsearch(&key, edges, (size_t)nedges, sizeof(key), ArcCompareKeys);
 
       while (edge && edge > edges && !ArcCompareKeys(edge - 1, edge)) --edge;
-      for (PetscInt d = 0; d < 3; ++d) x[a][d] = (grid->coordinates[3 * from + d] + grid->coordinates[3 * to + d]) / 2 + (edge ? off[3 * (edge - edges) + d] : 0);
+      for (PetscInt d = 0; d < 3; ++d)
+        x[a][d] = (grid->coordinates[3 * from + d] + grid->coordinates[3 * to + d]) / 2 +
+                  (edge ? off[3 * (edge - edges) + d] : 0);
     }
     (void)GmshGetCurve(20, (const PetscReal(*)[3])x, curve + 81 * c);
   }

@@ -4,7 +4,8 @@
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {
   PetscFunctionBegin;
-  PetscCheck(body->octant.outer.radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the radius of the ball must be positive, but is %g", body->name, (double)body->octant.outer.radius);
+  PetscCheck(body->octant.outer.radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the ball must be positive, but is %g", body->name, (double)body->octant.outer.radius);
   PetscCall(OctantSize(comm, body, PETSC_TRUE, ncells, nvertices));
   PetscFunctionReturn(0);
 }
@@ -16,8 +17,8 @@ static PetscErrorCode ShapeCreate_Ball(const SceneBody *body, ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-/* Trilinear image of the unit cube for a ball of radius 1. The corners on an axis, in a coordinate plane and inside lie at
-   0.5, 0.6 and 0.62 of the radius: angles within the patches and the core stay far from 0 and 180 degrees */
+/* Trilinear image of the unit cube for a ball of radius 1. The corners on an axis, in a coordinate plane and inside
+   lie at 0.5, 0.6 and 0.62 of the radius: angles within the patches and the core stay far from 0 and 180 degrees */
 static void BallCore(const PetscReal p[3], PetscReal x[3])
 {
   static const PetscReal component[4] = {0, 0.5, 0.424, 0.358}; /* of a corner with so many components that are not 0 */

@@ -2,7 +2,8 @@
 #include "meshimpl.h"
 
 /*@
-  MeshCheckBody - Checks the parameters of a body's shape, or that its mesh file has its volume, and the parts of its faces
+  MeshCheckBody - Checks the parameters of a body's shape, or that its mesh file has its volume, and the parts of its
+faces
 
   Collective
 
@@ -45,7 +46,9 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = shape->create(body, &mesh->grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "Body \"%s\": the first rank cannot make its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells, error.message);
+  PetscCheck(!error.code, comm, error.code,
+    "Body \"%s\": the first rank cannot make its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells,
+    error.message);
   PetscFunctionReturn(0);
 }
 
@@ -81,8 +84,9 @@ PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody
     PetscCall(MeshGetFaceNames(comm, &bodies[b], &meshes[b].nfaces, &meshes[b].faces));
     if (shape) PetscCall(MeshCreateGrid(comm, &bodies[b], shape, &meshes[b]));
     else PetscCall(MeshReadGrid(comm, &bodies[b], &file, &meshes[b]));
-    meshes[b].order = bodies[b].order ? bodies[b].order : meshes[b].ncorners == 4 ? 2
-                                                                                  : 1; /* straight tetrahedra of order 1 are far too stiff */
+    meshes[b].order = bodies[b].order           ? bodies[b].order
+                      : meshes[b].ncorners == 4 ? 2
+                                                : 1; /* straight tetrahedra of order 1 are far too stiff */
   }
   PetscCall(GmshFileClose(&file));
   PetscFunctionReturn(0);

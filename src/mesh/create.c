@@ -24,7 +24,8 @@ static PetscErrorCode MeshInitializePackage(void)
 static PetscErrorCode MeshCheckNames(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[])
 {
   PetscFunctionBegin;
-  PetscCheck(nbodies > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "A mesh needs at least one body, but %" PetscInt_FMT " are given", nbodies);
+  PetscCheck(nbodies > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "A mesh needs at least one body, but %" PetscInt_FMT " are given", nbodies);
   for (PetscInt b = 0; b < nbodies; ++b) {
     for (PetscInt c = 0; c < b; ++c) {
       PetscBool same;
@@ -57,8 +58,10 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
-/* The numbers of cells and vertices, refined so many times, against the ranks and PETSc's integers; ncells: at level 0 */
-static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine, PetscInt64 *ncells)
+/* The numbers of cells and vertices, refined so many times, against the ranks and PETSc's integers; ncells: at level
+   0 */
+static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine,
+  PetscInt64 *ncells)
 {
   PetscMPIInt size;
   PetscInt64  nvertices = 0, finecells;
@@ -69,19 +72,25 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
     *ncells += meshes[b].ncells;
     nvertices += meshes[b].nvertices;
   }
-  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE, "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
+  PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
   finecells = *ncells;
   for (PetscInt l = 0; l < refine; ++l) {
-    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers", refine, *ncells);
+    PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers",
+      refine, *ncells);
     finecells *= 8;
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE, "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
+  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
   PetscFunctionReturn(0);
 }
 
-/* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's partitioners are to part, is not; frees the bodies' grids */
-static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[], PetscBool may, PetscBool *dealt, MeshCurves *curves, DM *dm)
+/* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's
+   partitioners are to part, is not; frees the bodies' grids */
+static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
+  PetscBool may, PetscBool *dealt, MeshCurves *curves, DM *dm)
 {
   PetscInt64  ncells = 0;
   PetscBool   chosen, file = PETSC_FALSE;
@@ -105,7 +114,8 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
 }
 
 /* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
-static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, const MeshLocalRefinement *local, DM *dm)
+static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine,
+  const MeshLocalRefinement *local, DM *dm)
 {
   PetscMPIInt size;
   PetscInt64  ncells = 0;
@@ -119,14 +129,18 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscCall(MeshInitializePackage());
   PetscCall(PetscLogEventBegin(MESH_Create, 0, 0, 0, 0));
   PetscCall(MeshCheckNames(comm, nbodies, bodies));
-  PetscCheck(refine >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "The number of refinements must not be negative, but is %" PetscInt_FMT, refine);
+  PetscCheck(refine >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "The number of refinements must not be negative, but is %" PetscInt_FMT, refine);
   PetscCall(PetscCalloc1(nbodies, &meshes));
   PetscCall(PetscMalloc1(nbodies, &orders));
   PetscCall(MeshCreateBodies(comm, nbodies, bodies, meshes));
   PetscCall(MeshCheckSize(comm, nbodies, meshes, refine, &ncells));
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
-    PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP, "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the mesh file", bodies[b].name);
+    PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
+      "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the "
+      "mesh file",
+      bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
 
@@ -162,7 +176,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 }
 
 /*@
-  MeshCreate - Creates the mesh of all bodies, of hexahedra and tetrahedra: generated, distributed, refined, with the displacements laid out
+  MeshCreate - Creates the mesh of all bodies, of hexahedra and tetrahedra: generated, distributed, refined, with the
+displacements laid out
 
   Collective
 
@@ -182,18 +197,20 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   Level: beginner
 
   Notes:
-  The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on rank 0,
-  or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh files before any rank makes a `DMPLEX` of them; refinement
-  is parallel. Refined
-  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file
-  of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
+  The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on
+rank 0, or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh
+files before any rank makes a `DMPLEX` of them; refinement is parallel. Refined vertices of a curved body lie on its
+true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file of second order follow its
+quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
-  Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order open, 0, has order 1 of
-  hexahedra and order 2 of tetrahedra.
+  Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order
+open, 0, has order 1 of hexahedra and order 2 of tetrahedra.
 
-  It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is inverted or flat.
+  It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is
+inverted or flat.
 
-.seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`, `ElasticityCreate()`
+.seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`,
+`ElasticityCreate()`
 @*/
 PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, DM *dm)
 {
@@ -220,9 +237,10 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   Level: beginner
 
   Notes:
-  Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the mesh is distributed; neighbours of
-  finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer cells
-  are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is curved.
+  Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the
+mesh is distributed; neighbours of finer cells are refined with them until they differ by one refinement. Vertices that
+hang between coarser and finer cells are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie
+there, also where the body is curved.
 
 .seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
 @*/

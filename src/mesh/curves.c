@@ -23,7 +23,8 @@ PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[]
   PetscCall(PetscMalloc1(nbodies, &first));
   PetscCall(MeshGetFirstCells(nbodies, meshes, first));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c) PetscCall(PetscSectionSetDof(curves->section, first[b] + c, MeshCurveSize(meshes[b].ncorners)));
+    for (PetscInt c = 0; meshes[b].quadratic && c < meshes[b].grid.ncells; ++c)
+      PetscCall(PetscSectionSetDof(curves->section, first[b] + c, MeshCurveSize(meshes[b].ncorners)));
   }
   PetscCall(PetscSectionSetUp(curves->section));
   PetscCall(PetscSectionGetStorageSize(curves->section, &n));
@@ -35,7 +36,8 @@ PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[]
     if (!meshes[b].quadratic || !meshes[b].grid.ncells) continue;
     PetscCall(PetscSectionGetOffset(curves->section, first[b], &offset));
     PetscCall(VecGetArray(curves->places, &x));
-    for (PetscInt i = 0; i < MeshCurveSize(meshes[b].ncorners) * meshes[b].grid.ncells; ++i) x[offset + i] = meshes[b].grid.curve[i];
+    for (PetscInt i = 0; i < MeshCurveSize(meshes[b].ncorners) * meshes[b].grid.ncells; ++i)
+      x[offset + i] = meshes[b].grid.curve[i];
     PetscCall(VecRestoreArray(curves->places, &x));
   }
   PetscCall(PetscFree(first));
@@ -98,7 +100,8 @@ static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const P
   }
 }
 
-/* What refinement makes of one cell, in DMPlex's order, which is that of every cell: corners, as many a child as a cell has, in [0, 1]^3 */
+/* What refinement makes of one cell, in DMPlex's order, which is that of every cell: corners, as many a child as a
+   cell has, in [0, 1]^3 */
 typedef struct {
   PetscInt n;
   PetscReal (*corners)[8][3];
@@ -117,7 +120,8 @@ static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, Curve
     for (PetscInt d = 0; d < 3; ++d) x[a][d] = (PetscReal)(a >> d & 1);
     if (ncorners == 4) MeshTetrahedronPlace(a, x[a]);
   }
-  PetscCall(DMPlexCreateFromCellListPetsc(PETSC_COMM_SELF, 3, 1, ncorners, ncorners, PETSC_TRUE, cell, 3, &x[0][0], &dm));
+  PetscCall(
+    DMPlexCreateFromCellListPetsc(PETSC_COMM_SELF, 3, 1, ncorners, ncorners, PETSC_TRUE, cell, 3, &x[0][0], &dm));
   PetscCall(MeshRefine(&dm, levels));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
   children->n = cend - cstart;
@@ -132,7 +136,8 @@ static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, Curve
   PetscFunctionReturn(0);
 }
 
-/* Of a tetrahedron and of a hexahedron: as many, so that cell c of a refined mesh is number c % n of cell c / n, tetrahedra being before hexahedra */
+/* Of a tetrahedron and of a hexahedron: as many, so that cell c of a refined mesh is number c % n of cell c / n,
+   tetrahedra being before hexahedra */
 static PetscErrorCode CurveGetAllChildren(PetscInt levels, CurveChildren children[2])
 {
   PetscFunctionBegin;
@@ -192,7 +197,8 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
     ncorners = n == MeshCurveSize(4) ? 4 : 8;
     PetscCall(PetscSectionGetOffset(curves->section, c / nchildren, &parent));
     PetscCall(PetscSectionGetOffset(there.section, c, &child));
-    CurveCut(ncorners, from + parent, (const PetscReal(*)[3])children[ncorners / 4 - 1].corners[c % nchildren], to + child);
+    CurveCut(ncorners, from + parent, (const PetscReal(*)[3])children[ncorners / 4 - 1].corners[c % nchildren],
+      to + child);
   }
   PetscCall(VecRestoreArrayWrite(there.places, &to));
   PetscCall(VecRestoreArrayRead(curves->places, &from));
@@ -205,11 +211,13 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
 /* Corners of a part of a cell that local refinement made, in [0, 1]^3 */
 static void CurveGetPart(const PetscInt place[4], PetscReal corners[8][3])
 {
-  for (PetscInt i = 0; i < 24; ++i) corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
+  for (PetscInt i = 0; i < 24; ++i)
+    corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
 }
 
 /* The places of such a part's corners; those stay where the cell that it is of has no curve */
-PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
+PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell,
+  PetscReal places[8][3])
 {
   PetscInt           n = 0, whole;
   const PetscScalar *from;

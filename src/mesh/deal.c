@@ -1,11 +1,13 @@
 /*
-   The grids of all bodies, dealt out from the first rank to all before any of it is a DMPlex: no rank ever holds more of that, which takes several times the
-   memory of the grids, than its own part. METIS parts the cells of the first rank by their dual graph; each part goes out with its vertices, facets and curves.
+   The grids of all bodies, dealt out from the first rank to all before any of it is a DMPlex: no rank ever holds more
+   of that, which takes several times the memory of the grids, than its own part. METIS parts the cells of the first
+   rank by their dual graph; each part goes out with its vertices, facets and curves.
 */
 #include "meshimpl.h"
 #include <metis.h>
 
-/* What a rank gets: sizes of each body's grid, its whole numbers and its reals, one after another, and the vertices' owners */
+/* What a rank gets: sizes of each body's grid, its whole numbers and its reals, one after another, and the vertices'
+   owners */
 typedef struct {
   PetscInt   nints, nreals;
   PetscInt  *sizes; /* DEAL_SIZES a body */
@@ -43,20 +45,23 @@ static PetscErrorCode DealPartition(Deal *deal)
   int       status;
 
   PetscFunctionBegin;
-  PetscCheck(deal->ncells <= PETSC_MPI_INT_MAX / 8, PETSC_COMM_SELF, PETSC_ERR_SUP, "METIS's numbers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
+  PetscCheck(deal->ncells <= PETSC_MPI_INT_MAX / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
+    "METIS's numbers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
   PetscCall(PetscMalloc2(deal->ncells + 1, &start, 8 * deal->ncells, &nodes));
   start[0] = 0;
   for (PetscInt b = 0; b < deal->nbodies; ++b) {
     const ShapeGrid *grid = &deal->meshes[b].grid;
 
     for (PetscInt c = 0; c < grid->ncells; ++c, ++cell) {
-      for (PetscInt a = 0; a < grid->ncorners; ++a) nodes[start[cell] + a] = (idx_t)(vertex + grid->cells[grid->ncorners * c + a]);
+      for (PetscInt a = 0; a < grid->ncorners; ++a)
+        nodes[start[cell] + a] = (idx_t)(vertex + grid->cells[grid->ncorners * c + a]);
       start[cell + 1] = start[cell] + (idx_t)grid->ncorners;
     }
     vertex += grid->nvertices;
   }
   status = METIS_MeshToDual(&ne, &nn, start, nodes, &common, &base, &xadj, &adjncy);
-  PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with status %d on the dual graph of %" PetscInt_FMT " cells", status, deal->ncells);
+  PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB,
+    "METIS failed with status %d on the dual graph of %" PetscInt_FMT " cells", status, deal->ncells);
   PetscCall(PetscFree2(start, nodes));
   PetscCall(PetscMalloc2(deal->ncells + 1, &xadjacency, xadj[ne], &adjacency));
   for (PetscInt c = 0; c <= deal->ncells; ++c) xadjacency[c] = (PetscInt)xadj[c];
@@ -98,13 +103,15 @@ static PetscBool DealCellHas(const ShapeGrid *grid, PetscInt c, const PetscInt f
   for (PetscInt a = 0; a < 4; ++a) {
     PetscBool found = PETSC_FALSE;
 
-    for (PetscInt i = 0; i < grid->ncorners; ++i) found = (PetscBool)(found || grid->cells[grid->ncorners * c + i] == facet[a]);
+    for (PetscInt i = 0; i < grid->ncorners; ++i)
+      found = (PetscBool)(found || grid->cells[grid->ncorners * c + i] == facet[a]);
     if (!found) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }
 
-/* A facet goes where a cell of its goes, found among those at its first vertex. first: cell and facet of the body among those of all */
+/* A facet goes where a cell of its goes, found among those at its first vertex. first: cell and facet of the body
+   among those of all */
 static PetscErrorCode DealFacets(Deal *deal, const ShapeGrid *grid, PetscInt firstcell, PetscInt firstfacet)
 {
   const PetscInt n = grid->ncorners;
@@ -123,7 +130,8 @@ static PetscErrorCode DealFacets(Deal *deal, const ShapeGrid *grid, PetscInt fir
     for (PetscInt i = start[facet[0]]; i < start[facet[0] + 1] && deal->facetpart[firstfacet + q] < 0; ++i) {
       if (DealCellHas(grid, cells[i], facet)) deal->facetpart[firstfacet + q] = deal->part[firstcell + cells[i]];
     }
-    PetscCheck(deal->facetpart[firstfacet + q] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Facet %" PetscInt_FMT " is of no cell", q);
+    PetscCheck(deal->facetpart[firstfacet + q] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "Facet %" PetscInt_FMT " is of no cell", q);
   }
   PetscCall(PetscFree(start));
   PetscCall(PetscFree(cells));
@@ -152,17 +160,20 @@ static PetscErrorCode DealPrepare(Deal *deal)
     facet += deal->meshes[b].grid.nfacets;
   }
   for (PetscInt p = 0; p < deal->nparts; ++p) {
-    PetscCheck(deal->count[p] <= PETSC_MPI_INT_MAX / 128, PETSC_COMM_SELF, PETSC_ERR_SUP, "A rank's part of %" PetscInt_FMT " cells is more than a message takes; use more ranks", deal->count[p]);
+    PetscCheck(deal->count[p] <= PETSC_MPI_INT_MAX / 128, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "A rank's part of %" PetscInt_FMT " cells is more than a message takes; use more ranks", deal->count[p]);
   }
   PetscFunctionReturn(0);
 }
 
 /* Numbers the vertices of one body's cells in a part, in their old order; n: those of the part so far */
-static PetscErrorCode DealNumber(Deal *deal, PetscInt part, const ShapeGrid *grid, PetscInt firstcell, PetscInt firstvertex, PetscInt *n)
+static PetscErrorCode DealNumber(Deal *deal, PetscInt part, const ShapeGrid *grid, PetscInt firstcell,
+  PetscInt firstvertex, PetscInt *n)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < grid->ncells; ++c) {
-    for (PetscInt a = 0; deal->part[firstcell + c] == part && a < grid->ncorners; ++a) deal->here[firstvertex + grid->cells[grid->ncorners * c + a]] = 0;
+    for (PetscInt a = 0; deal->part[firstcell + c] == part && a < grid->ncorners; ++a)
+      deal->here[firstvertex + grid->cells[grid->ncorners * c + a]] = 0;
   }
   for (PetscInt v = firstvertex; v < firstvertex + grid->nvertices; ++v) {
     if (deal->here[v] < 0) continue;
@@ -173,7 +184,8 @@ static PetscErrorCode DealNumber(Deal *deal, PetscInt part, const ShapeGrid *gri
 }
 
 /* One body's share of a part, behind what the part has already; forgets the numbers of its vertices */
-static PetscErrorCode DealPack(Deal *deal, PetscInt part, const ShapeGrid *grid, const PetscInt first[3], PetscInt body, DealPart *to)
+static PetscErrorCode DealPack(Deal *deal, PetscInt part, const ShapeGrid *grid, const PetscInt first[3], PetscInt body,
+  DealPart *to)
 {
   PetscInt *sizes = to->sizes + DEAL_SIZES * body, base = PETSC_DECIDE;
 
@@ -190,7 +202,8 @@ static PetscErrorCode DealPack(Deal *deal, PetscInt part, const ShapeGrid *grid,
   }
   for (PetscInt c = 0; c < grid->ncells; ++c) {
     if (deal->part[first[0] + c] != part) continue;
-    for (PetscInt a = 0; a < grid->ncorners; ++a) to->ints[to->nints++] = deal->here[first[1] + grid->cells[grid->ncorners * c + a]] - base;
+    for (PetscInt a = 0; a < grid->ncorners; ++a)
+      to->ints[to->nints++] = deal->here[first[1] + grid->cells[grid->ncorners * c + a]] - base;
     for (PetscInt i = 0; i < sizes[DEAL_CURVE]; ++i) to->reals[to->nreals++] = grid->curve[sizes[DEAL_CURVE] * c + i];
     ++sizes[DEAL_CELLS];
   }
@@ -215,7 +228,8 @@ static PetscErrorCode DealPartCreate(const Deal *deal, PetscInt part, DealPart *
     if (deal->meshes[b].grid.curve) curve = MeshCurveSize(8);
   }
   to->nints = to->nreals = 0;
-  PetscCall(PetscMalloc3(DEAL_SIZES * deal->nbodies, &to->sizes, (8 + 2 * 8) * deal->count[part] + 5 * facets, &to->ints, (3 * 8 + curve) * deal->count[part], &to->reals));
+  PetscCall(PetscMalloc3(DEAL_SIZES * deal->nbodies, &to->sizes, (8 + 2 * 8) * deal->count[part] + 5 * facets,
+    &to->ints, (3 * 8 + curve) * deal->count[part], &to->reals));
   PetscFunctionReturn(0);
 }
 
@@ -245,7 +259,8 @@ static PetscErrorCode DealFill(Deal *deal, PetscInt part, DealPart *to)
 }
 
 /* The grid of one body out of a part; at: how far its numbers have been read */
-static PetscErrorCode DealUnpack(const DealPart *part, PetscInt body, PetscInt ncorners, PetscInt at[2], ShapeGrid *grid, PetscSFNode owners[])
+static PetscErrorCode DealUnpack(const DealPart *part, PetscInt body, PetscInt ncorners, PetscInt at[2],
+  ShapeGrid *grid, PetscSFNode owners[])
 {
   const PetscInt  *sizes = part->sizes + DEAL_SIZES * body, curve = sizes[DEAL_CURVE];
   const PetscInt  *ints  = part->ints + at[0];
@@ -296,7 +311,8 @@ static PetscErrorCode DealTake(PetscInt nbodies, const DealPart *part, MeshBody 
   PetscFunctionReturn(0);
 }
 
-/* From the first rank to another, which says first whether it has room; a part of no size at all is none, and the end of it */
+/* From the first rank to another, which says first whether it has room; a part of no size at all is none, and the end
+   of it */
 static PetscErrorCode DealSend(MPI_Comm comm, PetscInt nbodies, const DealPart *part, PetscMPIInt to)
 {
   PetscInt    counts[2] = {part->sizes ? part->nints : PETSC_DECIDE, part->nreals};
@@ -334,7 +350,8 @@ static PetscErrorCode DealReceive(MPI_Comm comm, PetscInt nbodies, DealPart *par
   PetscFunctionReturn(0);
 }
 
-/* One part after another leaves the first rank, which keeps the first. Where one cannot be filled the other ranks get none, for they wait for something */
+/* One part after another leaves the first rank, which keeps the first. Where one cannot be filled the other ranks get
+   none, for they wait for something */
 static PetscErrorCode DealSendAll(Deal *deal, DealPart *own)
 {
   PetscErrorCode ierr;
@@ -384,7 +401,8 @@ PetscErrorCode MeshDealGrids(MPI_Comm comm, PetscInt nbodies, MeshBody meshes[],
   PetscCall(RankErrorBegin(&error));
   ierr = DealExchange(&deal, owners);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be dealt out to the ranks: %s", error.message);
+  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be dealt out to the ranks: %s",
+    error.message);
   PetscCall(PetscFree3(deal.part, deal.count, deal.facetpart));
   PetscCall(PetscFree3(deal.owner, deal.place, deal.here));
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
-/* Fields of one mesh at points of any others: each rank asks for its own, and looks at the cells of all, a block at a time. */
+/* Fields of one mesh at points of any others: each rank asks for its own, and looks at the cells of all, a block at a
+   time. */
 #include "meshimpl.h"
 
 #define EVALUATE_CELLS 1024 /* of a block */
@@ -50,18 +51,23 @@ static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, Evaluat
   PetscCallMPI(MPI_Bcast(&block->n, 1, MPIU_INT, from, comm));
   PetscCallMPI(MPI_Bcast(block->body, (PetscMPIInt)block->n, MPIU_INT, from, comm));
   PetscCallMPI(MPI_Bcast(block->nnodes, (PetscMPIInt)block->n, MPIU_INT, from, comm));
-  PetscCallMPI(MPI_Bcast(block->values, (PetscMPIInt)(3 * MESH_MAX_NODES * block->nvecs * block->n), MPIU_REAL, from, comm));
+  PetscCallMPI(
+    MPI_Bcast(block->values, (PetscMPIInt)(3 * MESH_MAX_NODES * block->nvecs * block->n), MPIU_REAL, from, comm));
   PetscFunctionReturn(0);
 }
 
-/* The fields at points that have their nearest place so far in a cell of the block, the first of which has this number */
-static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints, MeshLocator locator, PetscReal values[])
+/* The fields at points that have their nearest place so far in a cell of the block, the first of which has this
+   number */
+static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints,
+  MeshLocator locator, PetscReal values[])
 {
   const PetscInt   nfields = block->nvecs - 1;
   const MeshPlace *places;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < block->n; ++c) PetscCall(MeshLocatorAddCell(locator, number + c, block->body[c], block->nnodes[c], (PetscReal(*)[3])EvaluateBlockValues(block, c, 0)));
+  for (PetscInt c = 0; c < block->n; ++c)
+    PetscCall(MeshLocatorAddCell(locator, number + c, block->body[c], block->nnodes[c],
+      (PetscReal(*)[3])EvaluateBlockValues(block, c, 0)));
   PetscCall(MeshLocatorGetPlaces(locator, &places));
   for (PetscInt i = 0; i < npoints; ++i) {
     const MeshPlace *place = &places[i];
@@ -77,7 +83,8 @@ static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt numb
 }
 
 /* Every rank's cells in turn */
-static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block, PetscInt npoints, MeshLocator locator, PetscReal values[])
+static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block, PetscInt npoints, MeshLocator locator,
+  PetscReal values[])
 {
   MPI_Comm    comm = PetscObjectComm((PetscObject)dm);
   PetscMPIInt rank, size;
@@ -126,7 +133,8 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
 
 .seealso: `MeshLocate()`, `SimulationSetForecast()`
 @*/
-PetscErrorCode MeshEvaluate(DM dm, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing)
+PetscErrorCode MeshEvaluate(DM dm, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3],
+  const PetscInt body[], PetscReal values[], PetscInt *missing)
 {
   EvaluateBlock    block = {.nvecs = 1 + nfields};
   MeshLocator      locator;

@@ -48,7 +48,8 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
   *n = nown + body->nsubfaces;
   PetscCall(PetscMalloc1(*n, names));
   for (PetscInt f = 0; f < nown; ++f) PetscCall(PetscStrallocpy(own[f], &(*names)[f]));
-  for (PetscInt f = 0; f < body->nsubfaces; ++f) PetscCall(PetscStrallocpy(body->subfaces[f].name, &(*names)[nown + f]));
+  for (PetscInt f = 0; f < body->nsubfaces; ++f)
+    PetscCall(PetscStrallocpy(body->subfaces[f].name, &(*names)[nown + f]));
   if (surfaces) PetscCall(NamesDestroy(&nown, &surfaces));
   PetscFunctionReturn(0);
 }

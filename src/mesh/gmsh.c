@@ -3,9 +3,7 @@
 #include <petscbt.h>
 
 /* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k; a tetrahedron's are in order */
-static const PetscInt corner_at[9][8] = {
-  [4] = {0, 1, 2, 3},
-  [8] = {0, 1, 3, 2, 4, 5, 7, 6}};
+static const PetscInt corner_at[9][8] = {[4] = {0, 1, 2, 3}, [8] = {0, 1, 3, 2, 4, 5, 7, 6}};
 
 /* On rank 0 */
 static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
@@ -34,10 +32,12 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh: %s", body->name, body->gmsh.file, error.message);
+  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh: %s", body->name,
+    body->gmsh.file, error.message);
   dim = file->mesh.dim;
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
-  PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
+  PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT,
+    "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
   file->name = body->gmsh.file;
   PetscFunctionReturn(0);
 }
@@ -60,14 +60,21 @@ static PetscBool GmshIsWithin(const GmshMesh *mesh, const GmshElement *element, 
 static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type, const GmshType *before)
 {
   PetscFunctionBegin;
-  PetscCheck(type->ncorners == 8 || type->ncorners == 4, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8, 20 or 27 nodes and tetrahedra with 4 or 10 are read", body->gmsh.volume, body->gmsh.file, type->name);
-  PetscCheck(!before || type->ncorners == before->ncorners, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has cells of the types %s and %s; a volume is read where all of its cells are of one, so make it two physical volumes, and tie them", body->gmsh.volume, body->gmsh.file, before->name, type->name);
+  PetscCheck(type->ncorners == 8 || type->ncorners == 4, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "the volume \"%s\" of %s has cells of type %s; only hexahedra with 8, 20 or 27 nodes and tetrahedra with 4 or 10 "
+    "are read",
+    body->gmsh.volume, body->gmsh.file, type->name);
+  PetscCheck(!before || type->ncorners == before->ncorners, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "the volume \"%s\" of %s has cells of the types %s and %s; a volume is read where all of its cells are of one, so "
+    "make it two physical volumes, and tie them",
+    body->gmsh.volume, body->gmsh.file, before->name, type->name);
   PetscFunctionReturn(0);
 }
 
-/* The cells of the body's volume with their vertices numbered anew; number: new number by the place of each node, PETSC_DECIDE
-   without one */
-static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[], ShapeGrid *grid)
+/* The cells of the body's volume with their vertices numbered anew; number: new number by the place of each node,
+   PETSC_DECIDE without one */
+static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[],
+  ShapeGrid *grid)
 {
   const GmshType *type = NULL;
 
@@ -112,9 +119,12 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
 
   PetscFunctionBegin;
   *quadratic = PETSC_FALSE;
-  for (PetscInt v = 3; v < 3 * grid->nvertices; ++v) size = PetscMax(size, PetscAbsReal(grid->coordinates[v] - grid->coordinates[v % 3]));
+  for (PetscInt v = 3; v < 3 * grid->nvertices; ++v)
+    size = PetscMax(size, PetscAbsReal(grid->coordinates[v] - grid->coordinates[v % 3]));
   for (PetscInt e = 0; e < mesh->nelements; ++e) {
-    if (GmshIsWithin(mesh, &mesh->elements[e], volume) && mesh->elements[e].type->nnodes > mesh->elements[e].type->ncorners) *quadratic = PETSC_TRUE;
+    if (GmshIsWithin(mesh, &mesh->elements[e], volume) &&
+        mesh->elements[e].type->nnodes > mesh->elements[e].type->ncorners)
+      *quadratic = PETSC_TRUE;
   }
   if (!*quadratic) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(ncoordinates * grid->ncells, &grid->curve));
@@ -174,7 +184,8 @@ static PetscErrorCode GmshFindBoundary(const GmshMesh *mesh, PetscInt volume, Pe
 }
 
 /* A facet may be on several surfaces and is listed once for each */
-static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
+static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, PetscInt nsurfaces,
+  const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
   const PetscInt ncorners = grid->ncorners == 4 ? 3 : 4;
   PetscSegBuffer vertices, facetface;
@@ -218,8 +229,9 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
 {
   static const PetscReal direction[3] = {0.5773, 0.6180, 0.5342};
   const PetscReal       *x            = grid->coordinates;
-  PetscReal              lower[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, upper[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, near = 0, *along;
-  PetscInt              *order;
+  PetscReal              lower[3]     = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
+            upper[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, near = 0, *along;
+  PetscInt *order;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(grid->nvertices, &along, grid->nvertices, &order));
@@ -238,7 +250,11 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
     for (PetscInt j = i + 1; j < grid->nvertices && along[j] - along[i] <= 2 * near; ++j) {
       const PetscReal *a = x + 3 * order[i], *b = x + 3 * order[j];
 
-      PetscCheck(PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near || PetscAbsReal(a[2] - b[2]) > near, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells do not hang together there", body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
+      PetscCheck(PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near ||
+                   PetscAbsReal(a[2] - b[2]) > near,
+        PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+        "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells do not hang together there",
+        body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
     }
   }
   PetscCall(PetscFree2(along, order));
@@ -246,7 +262,8 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
 }
 
 /* On rank 0; volume: its tag */
-static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces, const PetscInt surfaces[], ShapeGrid *grid)
+static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces,
+  const PetscInt surfaces[], ShapeGrid *grid)
 {
   PetscInt *number;
   PetscBool quadratic;
@@ -254,7 +271,8 @@ static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, P
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(mesh->nnodes, &number));
   PetscCall(GmshCutVolume(mesh, body, volume, number, grid));
-  PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells", body->gmsh.volume, body->gmsh.file);
+  PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells",
+    body->gmsh.volume, body->gmsh.file);
   PetscCall(GmshCutCoordinates(mesh, number, grid));
   if (body->curved) {
     PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));

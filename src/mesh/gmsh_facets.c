@@ -6,18 +6,17 @@
 #define GMSH_SLICE      64
 #define GMSH_MAX_SLICES 16
 
-/* The quadrilaterals of hexahedra, prisms and pyramids, and the triangles of tetrahedra, in the corners' order of Gmsh; by the number of corners */
-static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}}, tetrahedron[4][4] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+/* The quadrilaterals of hexahedra, prisms and pyramids, and the triangles of tetrahedra, in the corners' order of
+   Gmsh; by the number of corners */
+static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
+  {3, 0, 4, 7}};
+static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}},
+                 tetrahedron[4][4] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 static const struct {
   int n, ncorners;
   const int (*corners)[4];
-} sides[9] = {
-  [4] = {4, 3, tetrahedron},
-  [5] = {1, 4, pyramid},
-  [6] = {3, 4, prism},
-  [8] = {6, 4, hexahedron}};
+} sides[9] = {[4] = {4, 3, tetrahedron}, [5] = {1, 4, pyramid}, [6] = {3, 4, prism}, [8] = {6, 4, hexahedron}};
 
 static GmshFacet GmshFacetOf(int n, const PetscInt64 corners[], PetscInt64 element)
 {
@@ -69,7 +68,8 @@ PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const Pet
     PetscInt64 corners[4];
 
     for (int a = 0; a < 4; ++a) corners[a] = nodes[sides[type->ncorners].corners[f][a]];
-    if (GmshFacetsHave(facets, sides[type->ncorners].ncorners, corners)) facets->list[facets->n++] = GmshFacetOf(sides[type->ncorners].ncorners, corners, element);
+    if (GmshFacetsHave(facets, sides[type->ncorners].ncorners, corners))
+      facets->list[facets->n++] = GmshFacetOf(sides[type->ncorners].ncorners, corners, element);
   }
   PetscFunctionReturn(0);
 }
@@ -96,8 +96,12 @@ PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
     const GmshFacet *here = &facets->list[i], *before = here - 1;
 
     if (GmshCompareFacets(here, before)) continue;
-    if (here->across != before->across) return GmshWrong(in, "the elements %lld and %lld have the corners of a facet in orders that do not agree", (long long)before->element, (long long)here->element);
-    if (i > 1 && !GmshCompareFacets(here, here - 2)) return GmshWrong(in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element, (long long)before->element, (long long)here->element);
+    if (here->across != before->across)
+      return GmshWrong(in, "the elements %lld and %lld have the corners of a facet in orders that do not agree",
+        (long long)before->element, (long long)here->element);
+    if (i > 1 && !GmshCompareFacets(here, here - 2))
+      return GmshWrong(in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element,
+        (long long)before->element, (long long)here->element);
   }
   return PETSC_TRUE;
 }
@@ -109,7 +113,9 @@ PetscBool GmshFacetsBound(const GmshFacets *facets, PetscInt ncorners, const Pet
   const GmshFacet *end    = facets->list + facets->n, *found;
 
   if (!GmshFacetsHave(facets, (int)ncorners, corners)) return PETSC_FALSE;
-  found = facets->n ? (const GmshFacet *)bsearch(&wanted, facets->list, (size_t)facets->n, sizeof(wanted), GmshCompareFacets) : NULL;
+  found = facets->n
+            ? (const GmshFacet *)bsearch(&wanted, facets->list, (size_t)facets->n, sizeof(wanted), GmshCompareFacets)
+            : NULL;
   if (!found) return PETSC_FALSE;
   if (found > facets->list && !GmshCompareFacets(found - 1, &wanted)) return PETSC_FALSE;
   return found + 1 < end && !GmshCompareFacets(found + 1, &wanted) ? PETSC_FALSE : PETSC_TRUE;

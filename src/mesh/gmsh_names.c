@@ -29,7 +29,8 @@ static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *
   PetscFunctionBegin;
   *length = 1;
   PetscCall(PetscCalloc1(*length, entries));
-  while (fgets(line, sizeof(line), stream) && strncmp(line, "$Nodes", 6) && strncmp(line, "$Entities", 9) && strncmp(line, "$EndPhysicalNames", 17)) {
+  while (fgets(line, sizeof(line), stream) && strncmp(line, "$Nodes", 6) && strncmp(line, "$Entities", 9) &&
+         strncmp(line, "$EndPhysicalNames", 17)) {
     char  *begin = strchr(line, '"'), *end = strrchr(line, '"');
     int    here, tag;
     size_t n;
@@ -86,7 +87,8 @@ static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *bod
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscInt dim, PetscInt *n, char ***names, PetscInt **tags)
+PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscInt dim, PetscInt *n, char ***names,
+  PetscInt **tags)
 {
   char *entries, **words;
   int   nwords;
@@ -126,6 +128,7 @@ PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *
   }
   PetscCall(NamesDestroy(&n, &volumes));
   PetscCall(PetscFree(tags));
-  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name, body->gmsh.file, body->gmsh.volume, choices);
+  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name,
+    body->gmsh.file, body->gmsh.volume, choices);
   PetscFunctionReturn(0);
 }

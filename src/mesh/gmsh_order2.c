@@ -2,30 +2,12 @@
 #include "meshimpl.h"
 
 /* Where each of Gmsh's nodes stands: i + 3 j + 9 k. The corners, the middles of the edges, of the facets, the middle */
-static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25, 4, 10, 12, 14, 16, 22, 13};
+static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25,
+  4, 10, 12, 14, 16, 22, 13};
 
 /* The corners, i + 2 j + 4 k, that each of its first 20 nodes is between */
-const PetscInt GmshHexahedronEnds[20][2] = {
-  {0, 0},
-  {1, 1},
-  {3, 3},
-  {2, 2},
-  {4, 4},
-  {5, 5},
-  {7, 7},
-  {6, 6},
-  {0, 1},
-  {0, 2},
-  {0, 4},
-  {1, 3},
-  {1, 5},
-  {3, 2},
-  {3, 7},
-  {2, 6},
-  {4, 5},
-  {4, 6},
-  {5, 7},
-  {7, 6}};
+const PetscInt GmshHexahedronEnds[20][2] = {{0, 0}, {1, 1}, {3, 3}, {2, 2}, {4, 4}, {5, 5}, {7, 7}, {6, 6}, {0, 1},
+  {0, 2}, {0, 4}, {1, 3}, {1, 5}, {3, 2}, {3, 7}, {2, 6}, {4, 5}, {4, 6}, {5, 7}, {7, 6}};
 
 /* Whether coordinate d of a place is in the middle of the cell */
 static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
@@ -35,7 +17,8 @@ static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
   return place / step[d] % 3 == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Sum over the places that are at an end in `ends` of the directions in which this one is in the middle, and like it in the others */
+/* Sum over the places that are at an end in `ends` of the directions in which this one is in the middle, and like it
+   in the others */
 static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
 {
   sum[0] = sum[1] = sum[2] = 0;
@@ -62,8 +45,8 @@ static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal stra
   for (PetscInt d = 0; d < 3; ++d) straight[d] /= (PetscReal)(1 << n);
 }
 
-/* The middles that 20 nodes leave out, of facets and of the cell: their shape functions there are -1/4 at the corners, and 1/2 and 1/4
-   at the middles of the edges */
+/* The middles that 20 nodes leave out, of facets and of the cell: their shape functions there are -1/4 at the
+   corners, and 1/2 and 1/4 at the middles of the edges */
 static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
 {
   const PetscBool cell = (PetscBool)(place == 13);

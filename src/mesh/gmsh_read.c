@@ -1,5 +1,5 @@
-/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks whether it is what it says it is: no number in it is trusted. The walk is that
-   of PETSc's reader: the same words, numbers and blanks in the same order */
+/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks whether it is what it says it is: no number in it is
+   trusted. The walk is that of PETSc's reader: the same words, numbers and blanks in the same order */
 #include "meshimpl.h"
 #include <petscbt.h>
 #include <string.h>
@@ -7,11 +7,12 @@
 #define GMSH_MAX_TAGS 100
 
 typedef struct {
-  GmshStream     in;
-  PetscInt       nentities[4], *entities[4], *labels[4]; /* numbers of the entities of each dimension, sorted, and where their tags are */
-  PetscInt64     first, nnodes;                          /* numbers of the nodes lie in [first, first + nnodes) */
-  PetscBT        nodes;                                  /* those that exist */
-  PetscSegBuffer tags, elements, corners;                /* of the mesh */
+  GmshStream in;
+  PetscInt   nentities[4], *entities[4],
+    *labels[4];                 /* numbers of the entities of each dimension, sorted, and where their tags are */
+  PetscInt64     first, nnodes; /* numbers of the nodes lie in [first, first + nnodes) */
+  PetscBT        nodes;         /* those that exist */
+  PetscSegBuffer tags, elements, corners; /* of the mesh */
   GmshMesh      *mesh;
 } GmshReader;
 
@@ -25,11 +26,14 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
   for (int i = 0; i < 3; ++i) {
     if (!GmshGetWord(&reader->in, words[i])) return PETSC_FALSE;
   }
-  if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1)) return GmshWrong(&reader->in, "its format is \"%s\"; 2.2, 4.0 and 4.1 are read", words[0]);
+  if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1))
+    return GmshWrong(&reader->in, "its format is \"%s\"; 2.2, 4.0 and 4.1 are read", words[0]);
   reader->in.version = (int)(10 * version + 0.5);
-  if (strcmp(words[1], "0") && strcmp(words[1], "1")) return GmshWrong(&reader->in, "its file type is \"%s\", neither 0 for text nor 1 for binary", words[1]);
+  if (strcmp(words[1], "0") && strcmp(words[1], "1"))
+    return GmshWrong(&reader->in, "its file type is \"%s\", neither 0 for text nor 1 for binary", words[1]);
   reader->in.binary = words[1][0] == '1' ? PETSC_TRUE : PETSC_FALSE;
-  if (strcmp(words[2], "8") && (reader->in.version < 41 || strcmp(words[2], "4"))) return GmshWrong(&reader->in, "its data size is \"%s\"; 8 is read", words[2]);
+  if (strcmp(words[2], "8") && (reader->in.version < 41 || strcmp(words[2], "4")))
+    return GmshWrong(&reader->in, "its data size is \"%s\"; 8 is read", words[2]);
   reader->in.width = words[2][0] - '0';
   if (reader->in.binary) {
     if (!GmshGetBytes(&reader->in, 4, &one)) return PETSC_FALSE;
@@ -52,12 +56,17 @@ static PetscBool GmshCheckNames(GmshReader *reader)
 
     for (int j = 0; j < 2; ++j) {
       if (!GmshGetWord(&reader->in, words[j])) return PETSC_FALSE;
-      if (sscanf(words[j], "%d%c", &number, &rest) != 1) return GmshWrong(&reader->in, "a dimension and a tag are expected in $PhysicalNames where \"%s\" stands", words[j]);
+      if (sscanf(words[j], "%d%c", &number, &rest) != 1)
+        return GmshWrong(&reader->in, "a dimension and a tag are expected in $PhysicalNames where \"%s\" stands",
+          words[j]);
     }
     if (!fgets(name, sizeof(name), reader->in.file)) return GmshWrong(&reader->in, "it ends too early");
     begin = strchr(name, '"');
     end   = strrchr(name, '"');
-    if (!strchr(name, '\n') || begin != name || end == begin || end - begin > 127) return GmshWrong(&reader->in, "physical name %lld is not a dimension, a tag and a name of at most 126 characters in quotes", (long long)i + 1);
+    if (!strchr(name, '\n') || begin != name || end == begin || end - begin > 127)
+      return GmshWrong(&reader->in,
+        "physical name %lld is not a dimension, a tag and a name of at most 126 characters in quotes",
+        (long long)i + 1);
   }
   return GmshExpectNext(&reader->in, "$EndPhysicalNames");
 }
@@ -83,8 +92,14 @@ static PetscErrorCode GmshReadEntity(GmshReader *reader, int dim, PetscInt *enti
   PetscInt64 number = 0, ntags = 0, tags[16], bound;
 
   PetscFunctionBegin;
-  *sound = GmshGetNumbers(&reader->in, 4, 1, &number) && GmshGetReals(&reader->in, !dim && reader->in.version > 40 ? 3 : 6, NULL) && GmshGetCounts(&reader->in, "tags", 1, &ntags) ? PETSC_TRUE : PETSC_FALSE;
-  if (*sound && ntags > 16) *sound = GmshWrong(&reader->in, "entity %d of dimension %d has %lld physical tags, more than 16", (int)number, dim, (long long)ntags);
+  *sound = GmshGetNumbers(&reader->in, 4, 1, &number) &&
+               GmshGetReals(&reader->in, !dim && reader->in.version > 40 ? 3 : 6, NULL) &&
+               GmshGetCounts(&reader->in, "tags", 1, &ntags)
+             ? PETSC_TRUE
+             : PETSC_FALSE;
+  if (*sound && ntags > 16)
+    *sound = GmshWrong(&reader->in, "entity %d of dimension %d has %lld physical tags, more than 16", (int)number, dim,
+      (long long)ntags);
   if (*sound) *sound = GmshGetNumbers(&reader->in, 4, ntags, tags);
   if (!*sound) PetscFunctionReturn(0);
   *entity = (PetscInt)number;
@@ -103,27 +118,36 @@ static PetscErrorCode GmshReadEntities(GmshReader *reader, PetscBool *sound)
   for (int dim = 0; dim < 4 && *sound; ++dim) {
     PetscCall(PetscMalloc2(counts[dim], &reader->entities[dim], counts[dim], &reader->labels[dim]));
     reader->nentities[dim] = (PetscInt)counts[dim];
-    for (PetscInt i = 0; i < reader->nentities[dim] && *sound; ++i) PetscCall(GmshReadEntity(reader, dim, &reader->entities[dim][i], &reader->labels[dim][i], sound));
+    for (PetscInt i = 0; i < reader->nentities[dim] && *sound; ++i)
+      PetscCall(GmshReadEntity(reader, dim, &reader->entities[dim][i], &reader->labels[dim][i], sound));
     if (*sound) PetscCall(PetscSortIntWithArray(reader->nentities[dim], reader->entities[dim], reader->labels[dim]));
   }
   if (*sound) *sound = GmshExpectNext(&reader->in, "$EndEntities");
   PetscFunctionReturn(0);
 }
 
-/* The header of a block of nodes or elements in formats 4, whose entity must exist; label: of the entity's tags; last: its third number */
-static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscInt *label, PetscInt64 *last, PetscInt64 *count, PetscBool *sound)
+/* The header of a block of nodes or elements in formats 4, whose entity must exist; label: of the entity's tags;
+   last: its third number */
+static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscInt *label, PetscInt64 *last,
+  PetscInt64 *count, PetscBool *sound)
 {
   PetscInt64 info[3], entity;
   PetscInt   at = PETSC_DECIDE;
 
   PetscFunctionBegin;
-  *sound = GmshGetNumbers(&reader->in, 4, 3, info) && GmshGetCounts(&reader->in, "nodes or elements in a block", 1, count) ? PETSC_TRUE : PETSC_FALSE;
+  *sound =
+    GmshGetNumbers(&reader->in, 4, 3, info) && GmshGetCounts(&reader->in, "nodes or elements in a block", 1, count)
+      ? PETSC_TRUE
+      : PETSC_FALSE;
   if (!*sound) PetscFunctionReturn(0);
   *dim   = info[reader->in.version == 40 ? 1 : 0];
   entity = info[reader->in.version == 40 ? 0 : 1];
   *last  = info[2];
-  if (*dim >= 0 && *dim <= 3) PetscCall(PetscFindInt((PetscInt)entity, reader->nentities[*dim], reader->entities[*dim], &at));
-  if (at < 0) *sound = GmshWrong(&reader->in, "a block is of the entity %lld of dimension %lld, which does not exist", (long long)entity, (long long)*dim);
+  if (*dim >= 0 && *dim <= 3)
+    PetscCall(PetscFindInt((PetscInt)entity, reader->nentities[*dim], reader->entities[*dim], &at));
+  if (at < 0)
+    *sound = GmshWrong(&reader->in, "a block is of the entity %lld of dimension %lld, which does not exist",
+      (long long)entity, (long long)*dim);
   else *label = reader->labels[*dim][at];
   PetscFunctionReturn(0);
 }
@@ -135,25 +159,32 @@ static PetscErrorCode GmshMarkNodes(GmshReader *reader, PetscInt64 n, const Pets
 
   PetscFunctionBegin;
   for (PetscInt64 i = 0; i < n && *sound; ++i) {
-    if (numbers[i] < 1 || numbers[i] >= PETSC_MAX_INT) *sound = GmshWrong(&reader->in, "%lld is not the number of a node", (long long)numbers[i]);
+    if (numbers[i] < 1 || numbers[i] >= PETSC_MAX_INT)
+      *sound = GmshWrong(&reader->in, "%lld is not the number of a node", (long long)numbers[i]);
     first = PetscMin(first, numbers[i]);
     last  = PetscMax(last, numbers[i]);
   }
   if (!*sound) PetscFunctionReturn(0);
   reader->first  = first;
   reader->nnodes = last - first + 1;
-  if (reader->nnodes > 1000000 + 100 * n) *sound = GmshWrong(&reader->in, "its %lld nodes have numbers from %lld to %lld; number them anew", (long long)n, (long long)first, (long long)last);
+  if (reader->nnodes > 1000000 + 100 * n)
+    *sound = GmshWrong(&reader->in, "its %lld nodes have numbers from %lld to %lld; number them anew", (long long)n,
+      (long long)first, (long long)last);
   if (!*sound) PetscFunctionReturn(0);
   PetscCall(PetscBTCreate((PetscInt)reader->nnodes, &reader->nodes));
   for (PetscInt64 i = 0; i < n && *sound; ++i) {
-    if (PetscBTLookupSet(reader->nodes, (PetscInt)(numbers[i] - first))) *sound = GmshWrong(&reader->in, "the node %lld is given twice", (long long)numbers[i]);
+    if (PetscBTLookupSet(reader->nodes, (PetscInt)(numbers[i] - first)))
+      *sound = GmshWrong(&reader->in, "the node %lld is given twice", (long long)numbers[i]);
   }
   PetscFunctionReturn(0);
 }
 
 static PetscBool GmshGetNodesOfBlock(GmshReader *reader, PetscInt64 n, PetscInt64 numbers[], PetscReal x[])
 {
-  if (reader->in.version > 40) return GmshGetNumbers(&reader->in, reader->in.width, n, numbers) && GmshGetReals(&reader->in, 3 * n, x) ? PETSC_TRUE : PETSC_FALSE;
+  if (reader->in.version > 40)
+    return GmshGetNumbers(&reader->in, reader->in.width, n, numbers) && GmshGetReals(&reader->in, 3 * n, x)
+             ? PETSC_TRUE
+             : PETSC_FALSE;
   for (PetscInt64 i = 0; i < n; ++i) {
     if (!GmshGetNumbers(&reader->in, 4, 1, &numbers[i]) || !GmshGetReals(&reader->in, 3, &x[3 * i])) return PETSC_FALSE;
   }
@@ -174,8 +205,10 @@ static PetscErrorCode GmshKeepNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Formats 4 count blocks and all that is in them; 4.1 gives also the least and the largest number, which PETSc relies on */
-static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], PetscInt64 *nblocks, PetscInt64 *count, PetscInt64 range[2], PetscBool *sound)
+/* Formats 4 count blocks and all that is in them; 4.1 gives also the least and the largest number, which PETSc relies
+   on */
+static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], PetscInt64 *nblocks, PetscInt64 *count,
+  PetscInt64 range[2], PetscBool *sound)
 {
   PetscInt64 sizes[2];
 
@@ -184,7 +217,10 @@ static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], Petsc
     *nblocks = 1;
     *sound   = GmshGetCountWord(&reader->in, what, count);
   } else {
-    *sound   = GmshGetCounts(&reader->in, what, 2, sizes) && (reader->in.version == 40 || GmshGetNumbers(&reader->in, reader->in.width, 2, range)) ? PETSC_TRUE : PETSC_FALSE;
+    *sound   = GmshGetCounts(&reader->in, what, 2, sizes) &&
+                 (reader->in.version == 40 || GmshGetNumbers(&reader->in, reader->in.width, 2, range))
+                 ? PETSC_TRUE
+                 : PETSC_FALSE;
     *nblocks = sizes[0];
     *count   = sizes[1];
   }
@@ -206,15 +242,21 @@ static PetscErrorCode GmshCheckNodes(GmshReader *reader, PetscBool *sound)
     PetscInt   label;
 
     if (reader->in.version >= 40) PetscCall(GmshReadBlock(reader, &dim, &label, &parametric, &count, sound));
-    if (*sound && parametric) *sound = GmshWrong(&reader->in, "its nodes have parametric coordinates, which are not read");
-    if (*sound && n + count > total) *sound = GmshWrong(&reader->in, "its blocks have more nodes than the %lld it announces", (long long)total);
+    if (*sound && parametric)
+      *sound = GmshWrong(&reader->in, "its nodes have parametric coordinates, which are not read");
+    if (*sound && n + count > total)
+      *sound = GmshWrong(&reader->in, "its blocks have more nodes than the %lld it announces", (long long)total);
     if (*sound) *sound = GmshGetNodesOfBlock(reader, count, numbers + n, reader->mesh->x + 3 * n);
     n += count;
   }
-  if (*sound && n != total) *sound = GmshWrong(&reader->in, "it has %lld nodes, but announces %lld", (long long)n, (long long)total);
+  if (*sound && n != total)
+    *sound = GmshWrong(&reader->in, "it has %lld nodes, but announces %lld", (long long)n, (long long)total);
   if (*sound) PetscCall(GmshMarkNodes(reader, total, numbers, sound));
-  if (*sound && (range[0] > reader->first || range[1] < reader->first + reader->nnodes - 1 || (reader->in.version > 40 && range[1] - range[0] > 1000000 + 100 * total)))
-    *sound = GmshWrong(&reader->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld", (long long)reader->first, (long long)(reader->first + reader->nnodes - 1), (long long)range[0], (long long)range[1]);
+  if (*sound && (range[0] > reader->first || range[1] < reader->first + reader->nnodes - 1 ||
+                  (reader->in.version > 40 && range[1] - range[0] > 1000000 + 100 * total)))
+    *sound = GmshWrong(&reader->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld",
+      (long long)reader->first, (long long)(reader->first + reader->nnodes - 1), (long long)range[0],
+      (long long)range[1]);
   if (*sound) PetscCall(GmshKeepNodes(reader->mesh, total, numbers));
   PetscCall(PetscFree(numbers));
   if (*sound) *sound = GmshExpectNext(&reader->in, "$EndNodes");
@@ -224,7 +266,10 @@ static PetscErrorCode GmshCheckNodes(GmshReader *reader, PetscBool *sound)
 static PetscBool GmshReadType(GmshReader *reader, PetscInt64 number, const GmshType **type)
 {
   *type = GmshGetType(number);
-  return *type ? PETSC_TRUE : GmshWrong(&reader->in, "it has elements of Gmsh's type %lld, which are neither of first nor of second order", (long long)number);
+  return *type ? PETSC_TRUE
+               : GmshWrong(&reader->in,
+                   "it has elements of Gmsh's type %lld, which are neither of first nor of second order",
+                   (long long)number);
 }
 
 static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscInt64 n, const PetscInt64 nodes[])
@@ -232,16 +277,21 @@ static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscI
   for (PetscInt64 i = 0; i < n; ++i) {
     const PetscInt64 at = nodes[i] - reader->first;
 
-    if (at < 0 || at >= reader->nnodes || !PetscBTLookup(reader->nodes, (PetscInt)at)) return GmshWrong(&reader->in, "the element %lld names the node %lld, which does not exist", (long long)element, (long long)nodes[i]);
+    if (at < 0 || at >= reader->nnodes || !PetscBTLookup(reader->nodes, (PetscInt)at))
+      return GmshWrong(&reader->in, "the element %lld names the node %lld, which does not exist", (long long)element,
+        (long long)nodes[i]);
     for (PetscInt64 j = 0; j < i; ++j) {
-      if (nodes[i] == nodes[j]) return GmshWrong(&reader->in, "the element %lld names the node %lld twice", (long long)element, (long long)nodes[i]);
+      if (nodes[i] == nodes[j])
+        return GmshWrong(&reader->in, "the element %lld names the node %lld twice", (long long)element,
+          (long long)nodes[i]);
     }
   }
   return PETSC_TRUE;
 }
 
 /* label: of its tags */
-static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number, const PetscInt64 nodes[])
+static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number,
+  const PetscInt64 nodes[])
 {
   GmshElement        *element;
   PetscSegBufferCount first;
@@ -258,8 +308,8 @@ static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, 
   PetscFunctionReturn(0);
 }
 
-/* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them. The first tag is
-   the physical one */
+/* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them.
+   The first tag is the physical one */
 static PetscErrorCode GmshReadElements2(GmshReader *reader, PetscInt64 total, PetscBool *sound)
 {
   PetscFunctionBegin;
@@ -270,14 +320,20 @@ static PetscErrorCode GmshReadElements2(GmshReader *reader, PetscInt64 total, Pe
     *sound = GmshGetNumbers(&reader->in, 4, 3, head);
     count  = reader->in.binary ? head[1] : 1;
     if (*sound) *sound = GmshReadType(reader, reader->in.binary ? head[0] : head[1], &type);
-    if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS)) *sound = GmshWrong(&reader->in, "an element has %lld tags", (long long)head[2]);
-    if (*sound && (count < 1 || c + count > total)) *sound = GmshWrong(&reader->in, "it has more elements than the %lld it announces", (long long)total);
+    if (*sound && (head[2] < 0 || head[2] > GMSH_MAX_TAGS))
+      *sound = GmshWrong(&reader->in, "an element has %lld tags", (long long)head[2]);
+    if (*sound && (count < 1 || c + count > total))
+      *sound = GmshWrong(&reader->in, "it has more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       const PetscInt64 *nodes = numbers + 1 + head[2];
       PetscInt          label;
 
       numbers[0] = head[0];
-      *sound     = GmshGetNumbers(&reader->in, 4, (reader->in.binary ? 1 : 0) + head[2] + type->nnodes, numbers + (reader->in.binary ? 0 : 1)) && GmshCheckElement(reader, numbers[0], type->nnodes, nodes) ? PETSC_TRUE : PETSC_FALSE;
+      *sound     = GmshGetNumbers(&reader->in, 4, (reader->in.binary ? 1 : 0) + head[2] + type->nnodes,
+                     numbers + (reader->in.binary ? 0 : 1)) &&
+                   GmshCheckElement(reader, numbers[0], type->nnodes, nodes)
+                     ? PETSC_TRUE
+                     : PETSC_FALSE;
       if (!*sound) break;
       PetscCall(GmshKeepTags(reader, PetscMin(1, head[2]), numbers + 1, &label));
       PetscCall(GmshKeepElement(reader, type, label, numbers[0], nodes));
@@ -298,16 +354,24 @@ static PetscErrorCode GmshReadElements4(GmshReader *reader, PetscInt64 nblocks, 
 
     PetscCall(GmshReadBlock(reader, &dim, &label, &number, &count, sound));
     if (*sound) *sound = GmshReadType(reader, number, &type);
-    if (*sound && dim != type->dim) *sound = GmshWrong(&reader->in, "an entity of dimension %lld has elements of dimension %lld", (long long)dim, (long long)type->dim);
-    if (*sound && c + count > total) *sound = GmshWrong(&reader->in, "its blocks have more elements than the %lld it announces", (long long)total);
+    if (*sound && dim != type->dim)
+      *sound = GmshWrong(&reader->in, "an entity of dimension %lld has elements of dimension %lld", (long long)dim,
+        (long long)type->dim);
+    if (*sound && c + count > total)
+      *sound = GmshWrong(&reader->in, "its blocks have more elements than the %lld it announces", (long long)total);
     for (PetscInt64 i = 0; i < count && *sound; ++i, ++c) {
       PetscInt64 numbers[1 + GMSH_MAX_NODES];
 
-      *sound = GmshGetNumbers(&reader->in, reader->in.version == 40 ? 4 : reader->in.width, 1 + type->nnodes, numbers) && GmshCheckElement(reader, numbers[0], type->nnodes, numbers + 1) ? PETSC_TRUE : PETSC_FALSE;
+      *sound =
+        GmshGetNumbers(&reader->in, reader->in.version == 40 ? 4 : reader->in.width, 1 + type->nnodes, numbers) &&
+            GmshCheckElement(reader, numbers[0], type->nnodes, numbers + 1)
+          ? PETSC_TRUE
+          : PETSC_FALSE;
       if (*sound) PetscCall(GmshKeepElement(reader, type, label, numbers[0], numbers + 1));
     }
   }
-  if (*sound && c != total) *sound = GmshWrong(&reader->in, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
+  if (*sound && c != total)
+    *sound = GmshWrong(&reader->in, "it has %lld elements, but announces %lld", (long long)c, (long long)total);
   PetscFunctionReturn(0);
 }
 
@@ -330,7 +394,8 @@ static PetscErrorCode GmshReadSections(GmshReader *reader)
 
   PetscFunctionBegin;
   sound = GmshCheckFormat(reader) && GmshGetSection(&reader->in, word) ? PETSC_TRUE : PETSC_FALSE;
-  if (sound && !strcmp(word, "$PhysicalNames")) sound = GmshCheckNames(reader) && GmshGetSection(&reader->in, word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound && !strcmp(word, "$PhysicalNames"))
+    sound = GmshCheckNames(reader) && GmshGetSection(&reader->in, word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound && reader->in.version >= 40) {
     sound = GmshExpect(&reader->in, "$Entities", word);
     if (sound) PetscCall(GmshReadEntities(reader, &sound));
@@ -338,7 +403,8 @@ static PetscErrorCode GmshReadSections(GmshReader *reader)
   }
   if (sound) sound = GmshExpect(&reader->in, "$Nodes", word);
   if (sound) PetscCall(GmshCheckNodes(reader, &sound));
-  if (sound) sound = GmshGetSection(&reader->in, word) && GmshExpect(&reader->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
+  if (sound)
+    sound = GmshGetSection(&reader->in, word) && GmshExpect(&reader->in, "$Elements", word) ? PETSC_TRUE : PETSC_FALSE;
   if (sound) PetscCall(GmshReadElements(reader, &sound));
   PetscFunctionReturn(0);
 }

@@ -72,8 +72,11 @@ PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 val
     int       narrow = 0;
 
     if (!in->binary) {
-      if (fscanf(in->file, "%lld", &value) != 1) return GmshWrong(in, feof(in->file) ? "it ends too early" : "a whole number is expected where other text stands");
-      if (width == 4 && (value > INT_MAX || value < INT_MIN)) return GmshWrong(in, "the number %lld is too large", value);
+      if (fscanf(in->file, "%lld", &value) != 1)
+        return GmshWrong(in,
+          feof(in->file) ? "it ends too early" : "a whole number is expected where other text stands");
+      if (width == 4 && (value > INT_MAX || value < INT_MIN))
+        return GmshWrong(in, "the number %lld is too large", value);
       values[i] = (PetscInt64)value;
     } else if (width == 4) {
       if (!GmshGetBytes(in, 4, &narrow)) return PETSC_FALSE;
@@ -91,7 +94,8 @@ PetscBool GmshGetReals(GmshStream *in, PetscInt64 n, PetscReal values[])
 
     if (in->binary) {
       if (!GmshGetBytes(in, 8, &value)) return PETSC_FALSE;
-    } else if (fscanf(in->file, "%le", &value) != 1) return GmshWrong(in, feof(in->file) ? "it ends too early" : "a coordinate is expected where other text stands");
+    } else if (fscanf(in->file, "%le", &value) != 1)
+      return GmshWrong(in, feof(in->file) ? "it ends too early" : "a coordinate is expected where other text stands");
     if (PetscIsInfOrNanReal(value)) return GmshWrong(in, "a coordinate is not a finite number");
     if (values) values[i] = (PetscReal)value;
   }
@@ -120,7 +124,8 @@ PetscBool GmshGetCountWord(GmshStream *in, const char what[], PetscInt64 *count)
   long long value;
 
   if (!GmshGetWord(in, word)) return PETSC_FALSE;
-  if (sscanf(word, "%lld%c", &value, &rest) != 1) return GmshWrong(in, "the number of %s is expected where \"%s\" stands", what, word);
+  if (sscanf(word, "%lld%c", &value, &rest) != 1)
+    return GmshWrong(in, "the number of %s is expected where \"%s\" stands", what, word);
   *count = (PetscInt64)value;
   return GmshIsCount(in, what, *count);
 }

@@ -31,13 +31,16 @@ static void ShapeBlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *g
   for (PetscInt k = 0; k < block->n[2]; ++k) {
     for (PetscInt j = 0; j < block->n[1]; ++j) {
       for (PetscInt i = 0; i < block->n[0]; ++i, ++grid->ncells) {
-        for (PetscInt a = 0; a < 8; ++a) grid->cells[8 * grid->ncells + (a ^ flip)] = block->vertex(block->context, i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
+        for (PetscInt a = 0; a < 8; ++a)
+          grid->cells[8 * grid->ncells + (a ^ flip)] =
+            block->vertex(block->context, i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
       }
     }
   }
 }
 
-PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], PetscInt nvertices, PetscBool mirrored, ShapeGrid *grid)
+PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], PetscInt nvertices, PetscBool mirrored,
+  ShapeGrid *grid)
 {
   PetscInt ncells = 0, nfacets = 0;
 
@@ -46,7 +49,8 @@ PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], Pets
     const PetscInt *n = blocks[b].n;
 
     ncells += n[0] * n[1] * n[2];
-    for (PetscInt side = 0; side < 6; ++side) nfacets += blocks[b].faces[side] < 0 ? 0 : n[(side / 2 + 1) % 3] * n[(side / 2 + 2) % 3];
+    for (PetscInt side = 0; side < 6; ++side)
+      nfacets += blocks[b].faces[side] < 0 ? 0 : n[(side / 2 + 1) % 3] * n[(side / 2 + 2) % 3];
   }
   PetscCall(PetscMalloc1(8 * ncells, &grid->cells));
   PetscCall(PetscMalloc1(3 * nvertices, &grid->coordinates));
@@ -95,21 +99,28 @@ PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
 PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)
 {
   PetscFunctionBegin;
-  PetscCheck(count > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" must have at least one cell %s, but has %" PetscInt_FMT, body->name, what, count);
+  PetscCheck(count > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" must have at least one cell %s, but has %" PetscInt_FMT, body->name, what, count);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal nvertices)
 {
   PetscFunctionBegin;
-  PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
+  PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal grading, PetscInt even, PetscInt n)
 {
   PetscFunctionBegin;
-  PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the even cells of a grading must be between 0 and all %" PetscInt_FMT ", but are %" PetscInt_FMT, body->name, n, even);
-  PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, but is %g", body->name, (double)grading);
+  PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the even cells of a grading must be between 0 and all %" PetscInt_FMT ", but are %" PetscInt_FMT,
+    body->name, n, even);
+  PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, "
+    "but is %g",
+    body->name, (double)grading);
   PetscFunctionReturn(0);
 }

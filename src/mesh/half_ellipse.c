@@ -1,9 +1,9 @@
 /*
    Prism over half an ellipse, or a quarter: an O-grid of a core and a ring, extruded.
 
-   Parameters: (u, v) along depth and across, and w along the axis, from 0 to 1. The core is [0, 1] x [-1, 1], or [0, 1]^2 for a
-   quarter. Outside of it, with m = max(u, |v|), q = (u, v)/m lies on the core's outline and s = m - 1 goes from 0 there to 1 on
-   the arc, where q is a place by arc length.
+   Parameters: (u, v) along depth and across, and w along the axis, from 0 to 1. The core is [0, 1] x [-1, 1], or [0,
+   1]^2 for a quarter. Outside of it, with m = max(u, |v|), q = (u, v)/m lies on the core's outline and s = m - 1 goes
+   from 0 there to 1 on the arc, where q is a place by arc length.
 */
 #include "meshimpl.h"
 
@@ -42,25 +42,40 @@ static void EllipseSetUp(const SceneBody *body, HalfEllipse *e)
   e->nsection = (e->core[0] + 1) * (halves * e->core[1] + 1) + e->ring * e->nring;
 }
 
-static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
+static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
 {
   const SceneHalfEllipse *ellipse = &body->ellipse;
-  const char *const       what[3] = {"of the core along its depth (patches)", "of the core across one half (patches)", "across the ring (patches)"};
+  const char *const       what[3] = {"of the core along its depth (patches)", "of the core across one half (patches)",
+          "across the ring (patches)"};
   const PetscReal         halves  = ellipse->half < 0 ? 2 : 1;
   HalfEllipse             e;
 
   PetscFunctionBegin;
-  PetscCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis, the depth and the half of the prism are unknown directions", body->name);
-  PetscCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the depth of the half ellipse lies along the prism's axis %c, they must be normal to each other", body->name, "xyz"[ellipse->axis]);
-  PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the direction of the half that is meant must be normal to the prism's axis and to its depth", body->name);
-  PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0], (double)ellipse->semi_axes[1]);
-  PetscCheck(ellipse->extent[0] < ellipse->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name, (double)ellipse->extent[0], (double)ellipse->extent[1]);
+  PetscCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6,
+    comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis, the depth and the half of the prism are unknown directions",
+    body->name);
+  PetscCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the depth of the half ellipse lies along the prism's axis %c, they must be normal to each other",
+    body->name, "xyz"[ellipse->axis]);
+  PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm,
+    PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the direction of the half that is meant must be normal to the prism's axis and to its depth",
+    body->name);
+  PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0],
+    (double)ellipse->semi_axes[1]);
+  PetscCheck(ellipse->extent[0] < ellipse->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
+    (double)ellipse->extent[0], (double)ellipse->extent[1]);
   for (PetscInt d = 0; d < 3; ++d) {
     PetscCall(ShapeCheckCount(comm, body, what[d], body->cells[d]));
     PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], body->cells[d]));
   }
   PetscCall(ShapeCheckCount(comm, body, "along the axis (layers)", body->layers));
-  PetscCall(ShapeCheckTotal(comm, body, halves * ((PetscReal)body->cells[0] + body->cells[2] + 1) * ((PetscReal)body->cells[1] + body->cells[2] + 1) * ((PetscReal)body->layers + 1)));
+  PetscCall(ShapeCheckTotal(comm, body,
+    halves * ((PetscReal)body->cells[0] + body->cells[2] + 1) * ((PetscReal)body->cells[1] + body->cells[2] + 1) *
+      ((PetscReal)body->layers + 1)));
   EllipseSetUp(body, &e);
   *ncells    = (PetscInt64)e.length * (e.core[0] * (e.middle + e.core[1]) + e.ring * (e.nring - 1));
   *nvertices = (PetscInt64)(e.length + 1) * e.nsection;
@@ -154,7 +169,8 @@ static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *
   }
 }
 
-/* Do depth, across and axis make a left-handed system? Across points to the half that is meant, else along its coordinate axis */
+/* Do depth, across and axis make a left-handed system? Across points to the half that is meant, else along its
+   coordinate axis */
 static PetscBool EllipseIsMirrored(const SceneBody *body)
 {
   const PetscInt depth = body->ellipse.depth, half = body->ellipse.half;
@@ -175,10 +191,14 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
     const PetscInt   across   = e.middle + e.core[1];
     const PetscInt   symmetry = e.middle ? PETSC_DECIDE : ELLIPSE_SYMMETRY;
     const ShapeBlock blocks[] = {
-      {{e.core[0], across, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseCoreVertex},
-      {{e.ring, across, e.length}, {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseCrownVertex},
-      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseAboveVertex},
-      {{e.core[0], e.ring, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseBelowVertex},
+      {{e.core[0], across, e.length}, {ELLIPSE_FLAT, PETSC_DECIDE, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX},
+        &e, EllipseCoreVertex},
+      {{e.ring, across, e.length}, {PETSC_DECIDE, ELLIPSE_ARC, symmetry, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e,
+        EllipseCrownVertex},
+      {{e.core[0], e.ring, e.length},
+        {ELLIPSE_FLAT, PETSC_DECIDE, PETSC_DECIDE, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseAboveVertex},
+      {{e.core[0], e.ring, e.length},
+        {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseBelowVertex},
     };
 
     PetscCall(ShapeGridCreate(e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
@@ -187,8 +207,9 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
   PetscFunctionReturn(0);
 }
 
-/* Length of the arc from the crown to the angle, measured at the auxiliary circle: 4 panels of 8 Gauss points reach rounding
-   for ratios of the semi-axes up to about 5, and stay monotone beyond, where the arc is cut into not quite equal parts */
+/* Length of the arc from the crown to the angle, measured at the auxiliary circle: 4 panels of 8 Gauss points reach
+   rounding for ratios of the semi-axes up to about 5, and stay monotone beyond, where the arc is cut into not quite
+   equal parts */
 static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
 {
   static const PetscReal point[4]  = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -200,7 +221,8 @@ static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
     for (PetscInt q = 0; q < 8; ++q) {
       const PetscReal t = h * (panel + (q < 4 ? 1 - point[q] : 1 + point[q - 4]) / 2);
 
-      length += weight[q % 4] * h / 2 * PetscSqrtReal(PetscSqr(semi_axes[0] * PetscSinReal(t)) + PetscSqr(semi_axes[1] * PetscCosReal(t)));
+      length += weight[q % 4] * h / 2 *
+                PetscSqrtReal(PetscSqr(semi_axes[0] * PetscSinReal(t)) + PetscSqr(semi_axes[1] * PetscCosReal(t)));
     }
   }
   return length;
@@ -215,8 +237,9 @@ static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, Pe
   /* Newton, kept in the bracket */
   for (PetscInt i = 0; i < 50; ++i) {
     const PetscReal excess = EllipseArcLength(semi_axes, angle) - target;
-    const PetscReal slope  = PetscSqrtReal(PetscSqr(semi_axes[0] * PetscSinReal(angle)) + PetscSqr(semi_axes[1] * PetscCosReal(angle)));
-    const PetscReal next   = angle - excess / slope;
+    const PetscReal slope =
+      PetscSqrtReal(PetscSqr(semi_axes[0] * PetscSinReal(angle)) + PetscSqr(semi_axes[1] * PetscCosReal(angle)));
+    const PetscReal next = angle - excess / slope;
 
     if (PetscAbsReal(excess) <= 4 * PETSC_MACHINE_EPSILON * target) break;
     if (excess > 0) high = angle;
@@ -233,7 +256,8 @@ static void EllipseSectionMap(const SceneBody *body, const PetscReal uv[2], Pets
   const PetscReal *a       = body->ellipse.semi_axes;
   const PetscReal  ring    = body->cells[2];
   const PetscReal  total   = (PetscReal)(body->cells[0] + body->cells[1]);
-  const PetscReal  edge[2] = {body->cells[0] / (body->cells[0] + ring), body->cells[1] / (body->cells[1] + ring)}; /* of the core, so that cells on the symmetry lines are equal */
+  const PetscReal  edge[2] = {body->cells[0] / (body->cells[0] + ring),
+     body->cells[1] / (body->cells[1] + ring)}; /* of the core, so that cells on the symmetry lines are equal */
   const PetscReal  m = PetscMax(uv[0], uv[1]), scale = PetscMax(m, 1);
   const PetscReal  q[2] = {uv[0] / scale, uv[1] / scale};
   PetscReal        corner[2], arc[2];
@@ -264,4 +288,5 @@ static PetscErrorCode ShapeMap_HalfEllipse(const SceneBody *body, const PetscRea
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeHalfEllipse = {ShapeFaces_HalfEllipse, ShapeSize_HalfEllipse, ShapeCreate_HalfEllipse, ShapeMap_HalfEllipse};
+const Shape ShapeHalfEllipse = {ShapeFaces_HalfEllipse, ShapeSize_HalfEllipse, ShapeCreate_HalfEllipse,
+  ShapeMap_HalfEllipse};

@@ -1,13 +1,14 @@
 /*
-   Vertices that hang in the middle of an edge or a side of a cell: they are where the mean of its 2 or 4 vertices is, and move as that does. None of these
-   hangs itself.
+   Vertices that hang in the middle of an edge or a side of a cell: they are where the mean of its 2 or 4 vertices is,
+   and move as that does. None of these hangs itself.
 */
 #include "meshimpl.h"
 #include <petscsf.h>
 
 #define MESH_HANGING "hanging" /* of the mesh: the matrix of the means, a row a node */
 
-/* What is carried along as the mesh is distributed: of a cell its number, of a vertex its number and, where it hangs, those of up to four others */
+/* What is carried along as the mesh is distributed: of a cell its number, of a vertex its number and, where it hangs,
+   those of up to four others */
 PetscErrorCode MeshHangingCreate(const MeshHexes *hexes, DM dm, MeshHanging *hanging)
 {
   PetscInt   pstart, pend, n, offset = 0;
@@ -20,7 +21,8 @@ PetscErrorCode MeshHangingCreate(const MeshHexes *hexes, DM dm, MeshHanging *han
   PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)dm), &hanging->section));
   PetscCall(PetscSectionSetChart(hanging->section, pstart, pend));
   for (PetscInt c = 0; c < hexes->ncells; ++c) PetscCall(PetscSectionSetDof(hanging->section, c, 1));
-  for (PetscInt v = 0; v < hexes->nvertices; ++v) PetscCall(PetscSectionSetDof(hanging->section, hexes->ncells + v, hangs[v] ? 5 : 1));
+  for (PetscInt v = 0; v < hexes->nvertices; ++v)
+    PetscCall(PetscSectionSetDof(hanging->section, hexes->ncells + v, hangs[v] ? 5 : 1));
   PetscCall(PetscSectionSetUp(hanging->section));
   PetscCall(PetscSectionGetStorageSize(hanging->section, &n));
   PetscCall(PetscMalloc1(n, &hanging->numbers));
@@ -73,7 +75,8 @@ static PetscErrorCode HangingVerticesCreate(DM dm, const MeshHanging *hanging, H
   vertices->largest = -1;
   PetscCall(DMGetGlobalSection(dm, &global));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
-  PetscCall(PetscMalloc4(vend - vstart, &vertices->number, vend - vstart, &vertices->node, vend - vstart, &vertices->at, 4 * (vend - vstart), &vertices->parent));
+  PetscCall(PetscMalloc4(vend - vstart, &vertices->number, vend - vstart, &vertices->node, vend - vstart, &vertices->at,
+    4 * (vend - vstart), &vertices->parent));
   for (PetscInt v = vstart; v < vend; ++v) {
     PetscInt n, offset, row;
 
@@ -133,11 +136,14 @@ static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices,
   PetscCall(DMGetGlobalVector(dm, &u));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(DMRestoreGlobalVector(dm, &u));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)dm), n / 3, n / 3, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 4, NULL, means));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)dm), n / 3, n / 3, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 4,
+    NULL, means));
   for (PetscInt i = 0; i < vertices->n; ++i) {
     const PetscReal weight = vertices->parent[4 * i + 2] < 0 ? 0.5 : 0.25;
 
-    for (PetscInt k = 0; k < 4; ++k) PetscCall(MatSetValue(*means, vertices->at[i], vertices->parent[4 * i + k], weight, INSERT_VALUES)); /* PETSc passes over a negative column */
+    for (PetscInt k = 0; k < 4; ++k)
+      PetscCall(MatSetValue(*means, vertices->at[i], vertices->parent[4 * i + k], weight,
+        INSERT_VALUES)); /* PETSc passes over a negative column */
   }
   PetscCall(MatAssemblyBegin(*means, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*means, MAT_FINAL_ASSEMBLY));
@@ -169,7 +175,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 }
 
 /*@
-  MeshGetHanging - Gets the vertices that hang amid an edge or a facet of a cell which is refined less than its neighbour
+  MeshGetHanging - Gets the vertices that hang amid an edge or a facet of a cell which is refined less than its
+neighbour
 
   Not Collective
 
@@ -177,8 +184,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 . dm - mesh from `MeshCreateScene()`
 
   Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the mean of, none of which hangs; the
-          others are empty. The mesh's own; NULL where no vertex hangs
+. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the
+mean of, none of which hangs; the others are empty. The mesh's own; NULL where no vertex hangs
 
   Level: developer
 

@@ -1,6 +1,7 @@
 /*
-   Hexahedra on one rank, some refined more often than their neighbours: each becomes eight, and what has a side or an edge in common differs by one
-   refinement at most. A vertex in the middle of an edge or a side of a cell that is not refined hangs there.
+   Hexahedra on one rank, some refined more often than their neighbours: each becomes eight, and what has a side or an
+   edge in common differs by one refinement at most. A vertex in the middle of an edge or a side of a cell that is not
+   refined hangs there.
 */
 #include "meshimpl.h"
 #include <petsc/private/hashmapij.h>
@@ -10,7 +11,8 @@ struct _n_MeshMiddles {
   PetscHMapIJ edges, sides;
 };
 
-/* The corners of a cell about a place i + 3 j + 9 k of it, with vertices at even i, j, k: itself, the ends of an edge, the corners of a side, or all */
+/* The corners of a cell about a place i + 3 j + 9 k of it, with vertices at even i, j, k: itself, the ends of an
+   edge, the corners of a side, or all */
 static PetscInt HexAround(PetscInt place, PetscInt corners[8])
 {
   const PetscInt at[3] = {place % 3, place / 3 % 3, place / 9};
@@ -108,7 +110,9 @@ static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscIn
 {
   PetscFunctionBegin;
   if (hexes->nvertices == hexes->maxvertices) {
-    PetscCheck(hexes->maxvertices < PETSC_MAX_INT / 16, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "local refinement makes too many vertices for this PETSc's integers: more than %" PetscInt_FMT, hexes->maxvertices);
+    PetscCheck(hexes->maxvertices < PETSC_MAX_INT / 16, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+      "local refinement makes too many vertices for this PETSc's integers: more than %" PetscInt_FMT,
+      hexes->maxvertices);
     hexes->maxvertices = 2 * hexes->maxvertices + 64;
     PetscCall(PetscRealloc(3 * hexes->maxvertices * sizeof(PetscReal), &hexes->x));
     PetscCall(PetscRealloc(4 * hexes->maxvertices * sizeof(PetscInt), &hexes->parent));
@@ -222,7 +226,8 @@ PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], 
 }
 
 /* A cell's eight parts, of which the first is number `to` of a longer list */
-static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, PetscInt vertex[], PetscInt root[], PetscInt place[])
+static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, PetscInt vertex[], PetscInt root[],
+  PetscInt place[])
 {
   PetscInt lattice[27];
 
@@ -234,7 +239,8 @@ static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, P
     root[to + k]            = hexes->root[cell];
     place[4 * (to + k) + 3] = hexes->place[4 * cell + 3] + 1;
     for (PetscInt d = 0; d < 3; ++d) place[4 * (to + k) + d] = 2 * hexes->place[4 * cell + d] + (k >> d & 1);
-    for (PetscInt a = 0; a < 8; ++a) vertex[8 * (to + k) + a] = lattice[corner + (a & 1) + 3 * (a >> 1 & 1) + 9 * (a >> 2)];
+    for (PetscInt a = 0; a < 8; ++a)
+      vertex[8 * (to + k) + a] = lattice[corner + (a & 1) + 3 * (a >> 1 & 1) + 9 * (a >> 2)];
   }
   PetscFunctionReturn(0);
 }
@@ -247,7 +253,8 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscFunctionBegin;
   PetscCall(HexesBalance(hexes, marked));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
-    PetscCheck(n < PETSC_MAX_INT / 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "local refinement makes too many cells for this PETSc's integers: more than %" PetscInt_FMT, n);
+    PetscCheck(n < PETSC_MAX_INT / 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+      "local refinement makes too many cells for this PETSc's integers: more than %" PetscInt_FMT, n);
     n += marked[c] ? 8 : 1;
   }
   PetscCall(PetscMalloc1(8 * n, &vertex));

@@ -19,7 +19,8 @@ static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody 
 }
 
 /* Sets the labels of one body's cells and facets; only on the rank that has them */
-static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt number, const MeshBody *mesh, PetscInt firstcell, PetscInt firstvertex)
+static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt number, const MeshBody *mesh,
+  PetscInt firstcell, PetscInt firstvertex)
 {
   const ShapeGrid *grid = &mesh->grid;
 
@@ -32,7 +33,8 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
 
     for (PetscInt a = 0; a < n; ++a) corners[a] = firstvertex + grid->facets[4 * q + a];
     PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
-    PetscCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of its mesh", q, body->name);
+    PetscCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+      "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of its mesh", q, body->name);
     PetscCall(MeshFaceLabelName(body->name, mesh->faces[grid->facetface[q]], sizeof(name), name));
     PetscCall(DMSetLabelValue(dm, name, join[0], 1));
     PetscCall(DMPlexRestoreJoin(dm, n, corners, &njoin, &join));
@@ -41,7 +43,8 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
 }
 
 /* Sets the labels of all bodies; DMPlex numbers the cells first, then the vertices */
-static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], PetscInt ncells)
+static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
+  PetscInt ncells)
 {
   PetscInt vertex = ncells, *first;
 
@@ -92,7 +95,8 @@ PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], Pets
 }
 
 /* The cells of all bodies as DMPlex points, on vertices numbered behind them */
-static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells, PetscInt nvertices)
+static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells,
+  PetscInt nvertices)
 {
   PetscInt vertex = ncells, *first;
 
@@ -101,7 +105,8 @@ static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody mes
   PetscCall(MeshGetFirstCells(nbodies, meshes, first));
   PetscCall(DMPlexSetChart(dm, 0, ncells + nvertices));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    for (PetscInt c = 0; c < meshes[b].grid.ncells; ++c) PetscCall(DMPlexSetConeSize(dm, first[b] + c, meshes[b].ncorners));
+    for (PetscInt c = 0; c < meshes[b].grid.ncells; ++c)
+      PetscCall(DMPlexSetConeSize(dm, first[b] + c, meshes[b].ncorners));
   }
   PetscCall(DMSetUp(dm));
   for (PetscInt b = 0; b < nbodies; ++b) {
@@ -122,7 +127,8 @@ static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody mes
 }
 
 /* The vertices of all bodies on this rank; free coordinates */
-static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[], PetscInt nvertices, PetscReal **coordinates)
+static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[], PetscInt nvertices,
+  PetscReal **coordinates)
 {
   PetscInt vertex = 0;
 
@@ -158,7 +164,8 @@ static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners
 }
 
 /* The other ranks' parts are empty, unless the grids were dealt out */
-PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[], const MeshOwners *owners, DM *dm)
+PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
+  const MeshOwners *owners, DM *dm)
 {
   RankError      error;
   PetscErrorCode ierr;
@@ -178,7 +185,8 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
   ierr = MeshBuildCells(cells, nbodies, meshes, ncells, nvertices);
   if (!ierr) ierr = MeshJoinVertices(nbodies, meshes, nvertices, &coordinates);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s", error.message);
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s",
+    error.message);
   PetscCall(DMPlexSymmetrize(cells));
   PetscCall(DMPlexStratify(cells));
   if (owners->dealt) PetscCall(MeshShareVertices(cells, ncells, owners));

@@ -1,4 +1,5 @@
-/* Local refinement: of the mesh that uniform refinement made, on the rank that has it, a mesh of the cells as they are then, with its labels and curves */
+/* Local refinement: of the mesh that uniform refinement made, on the rank that has it, a mesh of the cells as they
+   are then, with its labels and curves */
 #include "meshimpl.h"
 
 /* Which side of a cell a facet of it is: 2 d + end */
@@ -51,7 +52,8 @@ static PetscErrorCode LocalIsMade(const char label[], PetscBool *made)
   PetscFunctionReturn(0);
 }
 
-/* Labels of a facet that bounds its body are those of the facet that it lies on; one that does not and has one cell is a coarse cell's, or those of fine ones beside it */
+/* Labels of a facet that bounds its body are those of the facet that it lies on; one that does not and has one cell
+   is a coarse cell's, or those of fine ones beside it */
 static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, PetscInt facet)
 {
   const PetscInt *cells;
@@ -102,7 +104,8 @@ static PetscErrorCode LocalLabelPoints(DM dm, const MeshHexes *hexes, DM fine)
   PetscFunctionReturn(0);
 }
 
-/* Collective: the labels of the mesh before, and of facets that bound no body though they have one cell; as level 0 has them */
+/* Collective: the labels of the mesh before, and of facets that bound no body though they have one cell; as level 0
+   has them */
 static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
 {
   PetscInt nlabels;
@@ -139,13 +142,15 @@ static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     for (PetscInt a = 0; a < 8; ++a) cells[8 * c + order[a]] = hexes->vertex[8 * c + a];
   }
-  PetscCall(DMPlexCreateFromCellListPetsc(PetscObjectComm((PetscObject)dm), 3, hexes->ncells, hexes->nvertices, 8, PETSC_TRUE, cells, 3, hexes->x, fine));
+  PetscCall(DMPlexCreateFromCellListPetsc(PetscObjectComm((PetscObject)dm), 3, hexes->ncells, hexes->nvertices, 8,
+    PETSC_TRUE, cells, 3, hexes->x, fine));
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(0);
 }
 
 /* Collective; the mesh is that of the first rank */
-PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBody bodies[], DM *dm, MeshCurves *curves, MeshHanging *hanging)
+PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBody bodies[], DM *dm, MeshCurves *curves,
+  MeshHanging *hanging)
 {
   MPI_Comm       comm = PetscObjectComm((PetscObject)*dm);
   RankError      error;
@@ -161,7 +166,8 @@ PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBo
       PetscBool has;
 
       PetscCall(DMHasLabel(*dm, local->zones[z].face[k], &has));
-      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinements \"%s\": there is no face \"%s\"", local->zones[z].name, local->zones[z].face[k]);
+      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinements \"%s\": there is no face \"%s\"", local->zones[z].name,
+        local->zones[z].face[k]);
     }
   }
   PetscCall(RankErrorBegin(&error));

@@ -1,16 +1,19 @@
 /*
-   Which cell is a point in? Points are sorted into the bins of a grid, as narrow as they are close; each cell looks at those in the bins about it, and the point's place in the
-   cell is where the cell's map takes it, linear or quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+   Which cell is a point in? Points are sorted into the bins of a grid, as narrow as they are close; each cell looks
+   at those in the bins about it, and the point's place in the cell is where the cell's map takes it, linear or
+   quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
 */
 #include "meshimpl.h"
 
-/* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between facets */
+/* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between
+   facets */
 static const PetscReal locate_margin = 0.25;
 
 /* Points in a cell and on its side differ by less than this part of its size */
 static const PetscReal locate_rounding = 1e-12;
 
-/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at first[d][i] */
+/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at
+   first[d][i] */
 typedef struct {
   PetscInt   n[3], *start, *order;
   PetscReal *first[3];
@@ -36,7 +39,8 @@ static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
 }
 
 /* Bins along an axis with as many points each, so that meshes graded towards a place have narrow ones there */
-static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d, LocateBins *bins)
+static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d,
+  LocateBins *bins)
 {
   PetscReal *sorted;
 
@@ -49,7 +53,8 @@ static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][
   for (PetscInt b = 1; b < nbins; ++b) {
     const PetscReal first = sorted[(PetscInt)((PetscInt64)b * npoints / nbins)];
 
-    if (first > sorted[0] && (bins->n[d] == 1 || first > bins->first[d][bins->n[d] - 1])) bins->first[d][bins->n[d]++] = first;
+    if (first > sorted[0] && (bins->n[d] == 1 || first > bins->first[d][bins->n[d] - 1]))
+      bins->first[d][bins->n[d]++] = first;
   }
   PetscCall(PetscFree(sorted));
   PetscFunctionReturn(0);
@@ -117,7 +122,8 @@ void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal d
 }
 
 /* Vector from X(xi) to the point, and dX_d/dxi_k */
-static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3], PetscReal N[], PetscReal r[3], PetscReal J[3][3])
+static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3],
+  PetscReal N[], PetscReal r[3], PetscReal J[3][3])
 {
   PetscReal dN[3][MESH_MAX_NODES];
 
@@ -137,12 +143,14 @@ static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[
 {
   PetscReal det = 0;
 
-  for (PetscInt k = 0; k < 3; ++k) det += J[0][k] * (J[1][(k + 1) % 3] * J[2][(k + 2) % 3] - J[1][(k + 2) % 3] * J[2][(k + 1) % 3]);
+  for (PetscInt k = 0; k < 3; ++k)
+    det += J[0][k] * (J[1][(k + 1) % 3] * J[2][(k + 2) % 3] - J[1][(k + 2) % 3] * J[2][(k + 1) % 3]);
   for (PetscInt k = 0; k < 3; ++k) {
     const PetscInt l = (k + 1) % 3, m = (k + 2) % 3;
 
     step[k] = 0;
-    for (PetscInt d = 0; d < 3; ++d) step[k] += (J[(d + 1) % 3][l] * J[(d + 2) % 3][m] - J[(d + 1) % 3][m] * J[(d + 2) % 3][l]) * r[d] / det;
+    for (PetscInt d = 0; d < 3; ++d)
+      step[k] += (J[(d + 1) % 3][l] * J[(d + 2) % 3][m] - J[(d + 1) % 3][m] * J[(d + 2) % 3][l]) * r[d] / det;
   }
 }
 
@@ -160,7 +168,8 @@ static void LocateClampTetrahedron(PetscReal xi[3])
   for (PetscInt k = 0; sum > 1 && k < 3; ++k) xi[k] /= sum;
 }
 
-/* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the distance */
+/* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the
+   distance */
 static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
 {
   const PetscBool tetrahedron = MeshIsTetrahedron(n);
@@ -245,11 +254,13 @@ PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const 
   PetscFunctionReturn(0);
 }
 
-/* A place in the cell is taken where it is nearer than any before; where bodies touch, to rounding, that in the first of them */
+/* A place in the cell is taken where it is nearer than any before; where bodies touch, to rounding, that in the first
+   of them */
 static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscReal X[][3])
 {
-  MeshPlace      *nearest  = &locator->places[i];
-  const PetscReal rounding = locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
+  MeshPlace      *nearest = &locator->places[i];
+  const PetscReal rounding =
+    locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
 
   if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return; /* in a cell: none is nearer */
   place.distance = LocateInCell(place.n, X, locator->points[i], place.N);
@@ -271,8 +282,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   Level: developer
 
   Notes:
-  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added first. Cells farther away
-  than a quarter of their size are not looked at.
+  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added
+first. Cells farther away than a quarter of their size are not looked at.
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
@@ -361,7 +372,9 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   for (PetscInt i = 0; i < n; ++i) distance[i] = (double)places[i].distance;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, (PetscMPIInt)n, MPI_DOUBLE, MPI_MIN, comm));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscBool nearest = (PetscBool)(places[i].cell >= 0 && (double)places[i].distance <= distance[i] + locate_rounding * (double)places[i].size);
+    const PetscBool nearest =
+      (PetscBool)(places[i].cell >= 0 &&
+                  (double)places[i].distance <= distance[i] + locate_rounding * (double)places[i].size);
 
     first[i].body = nearest ? (double)places[i].body : PETSC_MAX_REAL;
     first[i].rank = rank;
@@ -387,8 +400,8 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
 - body   - the body in which each is looked for; `PETSC_DECIDE`: any
 
   Output Parameter:
-. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of the point from the cell, is the same
-           on every rank, and `PETSC_MAX_REAL` where no cell is near
+. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of
+the point from the cell, is the same on every rank, and `PETSC_MAX_REAL` where no cell is near
 
   Level: developer
 

@@ -60,7 +60,8 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
 
   PetscFunctionBegin;
   PetscCall(PetscObjectQuery((PetscObject)dm, MESH_NUMBERS, (PetscObject *)&numbers));
-  PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE, "The cells of this mesh have no numbers: it was made without marks");
+  PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE,
+    "The cells of this mesh have no numbers: it was made without marks");
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
@@ -104,7 +105,8 @@ PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
 }
 
 /* Not collective: on the rank that has the marks */
-PetscErrorCode MeshHexesRefineMarks(const MeshMarks *marks, DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
+PetscErrorCode MeshHexesRefineMarks(const MeshMarks *marks, DM dm, const SceneBody bodies[], const MeshCurves *curves,
+  MeshHexes *hexes)
 {
   PetscFunctionBegin;
   for (PetscInt m = 0; m < marks->n; ++m) {

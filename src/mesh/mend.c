@@ -1,13 +1,15 @@
 /*
-   Thin cells along curved surfaces: a vertex that hangs is on the straight edge of the coarser cell, not on the curve, which may turn a fine cell inside out. The
-   coarser cells are refined then, until none of the finer ones loses more than a part of itself.
+   Thin cells along curved surfaces: a vertex that hangs is on the straight edge of the coarser cell, not on the
+   curve, which may turn a fine cell inside out. The coarser cells are refined then, until none of the finer ones
+   loses more than a part of itself.
 */
 #include "meshimpl.h"
 
 #define MEND_LEAST 0.25 /* of the smallest Jacobian that a cell has with all its vertices on the curve */
 
 /* The places of a cell's vertices, those that hang on the curve too */
-static PetscErrorCode MendPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
+static PetscErrorCode MendPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves, const MeshHexes *hexes,
+  PetscInt cell, PetscReal places[8][3])
 {
   const Shape *shape;
   PetscInt     body;
@@ -45,7 +47,8 @@ static PetscErrorCode MendPlace(DM dm, const SceneBody bodies[], const MeshCurve
 }
 
 /* The quality of a cell with its vertices placed; hangs: those that hang are between others, NULL: none does */
-static PetscReal MendQuality(const MeshHexes *hexes, const MeshQualityTable *table, PetscInt cell, const PetscBool hangs[])
+static PetscReal MendQuality(const MeshHexes *hexes, const MeshQualityTable *table, PetscInt cell,
+  const PetscBool hangs[])
 {
   const PetscReal *x = hexes->placed;
   PetscReal        corners[8][3];
@@ -75,7 +78,8 @@ PetscErrorCode MeshHexesMend(DM dm, const SceneBody bodies[], const MeshCurves *
     PetscCall(PetscMalloc2(hexes->nvertices, &hangs, hexes->ncells, &marked));
     PetscCall(MendPlace(dm, bodies, curves, hexes));
     PetscCall(MeshHexesFindHanging(hexes, hangs));
-    for (PetscInt c = 0; c < hexes->ncells; ++c) marked[c] = (PetscBool)(MendQuality(hexes, &table, c, hangs) < MEND_LEAST * MendQuality(hexes, &table, c, NULL));
+    for (PetscInt c = 0; c < hexes->ncells; ++c)
+      marked[c] = (PetscBool)(MendQuality(hexes, &table, c, hangs) < MEND_LEAST * MendQuality(hexes, &table, c, NULL));
     PetscCall(MeshHexesMarkHolders(hexes, marked, &more));
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
     PetscCall(PetscFree2(hangs, marked));

@@ -5,11 +5,13 @@
 
 #define PETSCPARTITIONERMETIS "metis"
 
-/* Above this number of parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section 5.1) */
+/* Above this number of parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section
+   5.1) */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
 /* Calls METIS on a whole graph; part[v] in [0, nparts) */
-PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], const PetscInt weights[], PetscInt part[])
+PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[],
+  const PetscInt weights[], PetscInt part[])
 {
   idx_t n, ncon = 1, np, cut, *xadj, *adjncy, *vwgt = NULL, *where, options[METIS_NOPTIONS];
   int   status;
@@ -26,7 +28,8 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
   np = (idx_t)nparts;
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
-  if (nparts <= METIS_RECURSIVE_MAX_PARTS) status = METIS_PartGraphRecursive(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
+  if (nparts <= METIS_RECURSIVE_MAX_PARTS)
+    status = METIS_PartGraphRecursive(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
   else status = METIS_PartGraphKway(&n, &ncon, xadj, adjncy, vwgt, NULL, NULL, &np, NULL, NULL, options, &cut, where);
   PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with status %d", status);
   for (PetscInt v = 0; v < nv; ++v) part[v] = (PetscInt)where[v];
@@ -36,7 +39,8 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
 }
 
 /* The graph from the degrees of its vertices, and what METIS makes of it; *part is allocated */
-static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const PetscInt degree[], const PetscInt adjacency[], const PetscInt weights[], PetscInt **part)
+static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const PetscInt degree[],
+  const PetscInt adjacency[], const PetscInt weights[], PetscInt **part)
 {
   PetscInt *start;
 
@@ -50,9 +54,10 @@ static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const
   PetscFunctionReturn(0);
 }
 
-/* METIS's index type may be narrower than PetscInt; its graph is bounded here by what MPI can gather at once, which fits either.
-   Concatenates the ranks' arrays on rank 0; *all and *total matter there only */
-static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
+/* METIS's index type may be narrower than PetscInt; its graph is bounded here by what MPI can gather at once, which
+   fits either. Concatenates the ranks' arrays on rank 0; *all and *total matter there only */
+static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[],
+  PetscMPIInt displs[], PetscInt *total, PetscInt **all)
 {
   RankError      error;
   PetscErrorCode ierr = 0;
@@ -63,7 +68,8 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallMPI(MPI_Allreduce(&local64, &sum, 1, MPIU_INT64, MPI_SUM, comm));
-  PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP, "The graph to be gathered for METIS has %" PetscInt64_FMT " entries; distribute a coarser mesh", sum);
+  PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP,
+    "The graph to be gathered for METIS has %" PetscInt64_FMT " entries; distribute a coarser mesh", sum);
   PetscCall(PetscMPIIntCast(n, &count));
   PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
   *total    = (PetscInt)sum;
@@ -73,13 +79,16 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = PetscMalloc1(sum, all);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot gather a graph of %" PetscInt64_FMT " entries for METIS: %s", sum, error.message);
+  PetscCheck(!error.code, comm, error.code,
+    "The first rank cannot gather a graph of %" PetscInt64_FMT " entries for METIS: %s", sum, error.message);
   PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
   PetscFunctionReturn(0);
 }
 
-/* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without vertices though `weighted` */
-static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
+/* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without
+   vertices though `weighted` */
+static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[],
+  const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
 {
   RankError      error;
   PetscErrorCode ierr = 0;
@@ -97,7 +106,9 @@ static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, 
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = MetisPartitionGathered(nparts, nvall, alldegree, alladjacency, allweights, &allpart);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: %s", nvall, nparts, error.message);
+  PetscCheck(!error.code, comm, error.code,
+    "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: %s", nvall,
+    nparts, error.message);
   PetscCall(PetscMPIIntCast(nv, &nvlocal));
   PetscCallMPI(MPI_Scatterv(allpart, counts, displs, MPIU_INT, part, nvlocal, MPIU_INT, 0, comm));
   PetscCall(PetscFree(allpart));
@@ -108,7 +119,9 @@ static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, PetscInt nparts, PetscInt nv, PetscInt start[], PetscInt adjacency[], PetscSection vertexsection, AMGF_EDGE_SECTION PetscSection targetsection, PetscSection partsection, IS *partition)
+static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, PetscInt nparts, PetscInt nv,
+  PetscInt start[], PetscInt adjacency[], PetscSection vertexsection, AMGF_EDGE_SECTION PetscSection targetsection,
+  PetscSection partsection, IS *partition)
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)part);
   PetscInt *assignment, *weights = NULL, *points, *next;
@@ -119,7 +132,8 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
   if (vertexsection) {
     for (PetscInt v = 0; v < nv; ++v) PetscCall(PetscSectionGetDof(vertexsection, v, &weights[v]));
   }
-  PetscCall(MetisPartitionDistributed(comm, nparts, nv, start, adjacency, vertexsection ? PETSC_TRUE : PETSC_FALSE, weights, assignment));
+  PetscCall(MetisPartitionDistributed(comm, nparts, nv, start, adjacency, vertexsection ? PETSC_TRUE : PETSC_FALSE,
+    weights, assignment));
 
   PetscCall(PetscArrayzero(next, nparts));
   for (PetscInt v = 0; v < nv; ++v) ++next[assignment[v]];
@@ -147,7 +161,8 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
   recursive bisection, more by multilevel k-way partitioning.
 
   References:
-. * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci. Comput. 20 (1998)
+. * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci.
+Comput. 20 (1998)
 
 .seealso: `MeshRegisterPartitioner()`, `PetscPartitionerSetType()`
 M*/
@@ -167,7 +182,8 @@ static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
   Level: developer
 
   Notes:
-  `MeshCreate()` calls it; a program that distributes its own DMPlex calls it before `-petscpartitioner_type metis` is read.
+  `MeshCreate()` calls it; a program that distributes its own DMPlex calls it before `-petscpartitioner_type metis` is
+read.
 
 .seealso: `MeshCreate()`, `PetscPartitionerRegister()`
 @*/

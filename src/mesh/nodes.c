@@ -1,13 +1,14 @@
 /*
-   Nodes: the points of the mesh that carry a displacement, with as many places. Those of a body of order 1 are its vertices; those of a
-   body of order 2 also its edges, facets and cells: 27 a hexahedron, in the order i + 3 j + 9 k where vertices have i + 2 j + 4 k; of a
-   tetrahedron its edges: 10.
+   Nodes: the points of the mesh that carry a displacement, with as many places. Those of a body of order 1 are its
+   vertices; those of a body of order 2 also its edges, facets and cells: 27 a hexahedron, in the order i + 3 j + 9 k
+   where vertices have i + 2 j + 4 k; of a tetrahedron its edges: 10.
 */
 #include "meshimpl.h"
 
 #define MESH_PLACES "nodes" /* of the mesh: the nodes' places, where they are not its vertices alone */
 
-/* Three components at every vertex, and at every point of the hexahedra of order 2, every edge of such tetrahedra; none constrained */
+/* Three components at every vertex, and at every point of the hexahedra of order 2, every edge of such tetrahedra;
+   none constrained */
 PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
 {
   PetscSection section;
@@ -30,7 +31,8 @@ PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
     if (orders[b] < 2) continue;
     PetscCall(DMPlexGetConeSize(dm, c, &nfacets));
     PetscCall(DMPlexGetTransitiveClosure(dm, c, PETSC_TRUE, &npoints, &closure));
-    for (PetscInt p = nfacets == 4 ? 1 + nfacets : 0; p < npoints; ++p) PetscCall(PetscSectionSetDof(section, closure[2 * p], 3));
+    for (PetscInt p = nfacets == 4 ? 1 + nfacets : 0; p < npoints; ++p)
+      PetscCall(PetscSectionSetDof(section, closure[2 * p], 3));
     PetscCall(DMPlexRestoreTransitiveClosure(dm, c, PETSC_TRUE, &npoints, &closure));
   }
   for (PetscInt p = pstart; p < pend; ++p) {
@@ -54,8 +56,10 @@ static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex
   return a;
 }
 
-/* Where an edge, facet or cell stands between the cell's vertices, i + 3 j + 9 k: amid its own ones. In a tetrahedron between two, or the same; negative: more */
-static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt vertices[8], PetscInt point, PetscInt *place)
+/* Where an edge, facet or cell stands between the cell's vertices, i + 3 j + 9 k: amid its own ones. In a tetrahedron
+   between two, or the same; negative: more */
+static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt vertices[8], PetscInt point,
+  PetscInt *place)
 {
   PetscInt npoints, n = 0, sum[3] = {0, 0, 0}, ends[2] = {4, -1}, *closure = NULL;
 
@@ -73,7 +77,9 @@ static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt ve
   PetscCall(DMPlexRestoreTransitiveClosure(dm, point, PETSC_TRUE, &npoints, &closure));
   *place = sum[0] / n + 3 * (sum[1] / n) + 9 * (sum[2] / n);
   if (ncorners == 8) PetscFunctionReturn(0);
-  for (*place = n > 2 ? -1 : 9; *place >= 0 && (MeshTetrahedronEnds[*place][0] != ends[0] || MeshTetrahedronEnds[*place][1] != ends[1]);) --*place;
+  for (*place = n > 2 ? -1 : 9;
+       *place >= 0 && (MeshTetrahedronEnds[*place][0] != ends[0] || MeshTetrahedronEnds[*place][1] != ends[1]);)
+    --*place;
   PetscFunctionReturn(0);
 }
 
@@ -92,7 +98,8 @@ static PetscErrorCode NodesHasEdges(DM dm, PetscSection section, PetscInt facet,
 }
 
 /* The points of a cell with values in a section: its vertices, or all that are nodes of order 2 */
-PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, PetscInt *n, PetscInt points[MESH_MAX_NODES])
+PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, PetscInt *n,
+  PetscInt points[MESH_MAX_NODES])
 {
   PetscInt        vertices[8], ncorners, npoints, *closure = NULL;
   const PetscInt *facets;
@@ -129,8 +136,9 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
 
   Output Parameters:
 + n     - their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10
-- nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the reference cube; of
-          order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the vertices, then the edges 01, 12, 02, 03, 13 and 23
+- nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the
+reference cube; of order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron
+the vertices, then the edges 01, 12, 02, 03, 13 and 23
 
   Level: developer
 
@@ -157,8 +165,8 @@ PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt node
 
   Output Parameters:
 + n     - their number: 4, or 9 in a body of order 2; of a triangle 3, or 6
-- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the body; of order 2 then the
-          edges, each between the vertex of its number and the next, and the facet, unless it is a triangle
+- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the body;
+of order 2 then the edges, each between the vertex of its number and the next, and the facet, unless it is a triangle
 
   Level: developer
 
@@ -203,8 +211,8 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
 
   Output Parameters:
 + n      - their number: 1, the facet itself, or 4 in a body of order 2
-- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge, facet, edge. Triangles have
-           their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges
+- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge,
+facet, edge. Triangles have their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges
 
   Level: developer
 
@@ -219,7 +227,8 @@ PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt p
   *n = nnodes > 4 ? 4 : 1;
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscInt quarter[4]  = {nodes[a], nodes[4 + a], nodes[8], nodes[4 + (a + 3) % 4]};
-    const PetscInt triangle[4] = {nodes[a < 3 ? a : 3], nodes[a < 3 ? 3 + a : 4], nodes[3 + (a + 2) % 3], nodes[3 + (a + 2) % 3]};
+    const PetscInt triangle[4] = {nodes[a < 3 ? a : 3], nodes[a < 3 ? 3 + a : 4], nodes[3 + (a + 2) % 3],
+      nodes[3 + (a + 2) % 3]};
 
     if (nnodes <= 4) pieces[0][a] = nodes[a];
     else PetscCall(PetscArraycpy(pieces[a], nnodes == 9 ? quarter : triangle, 4));
@@ -285,7 +294,8 @@ PetscErrorCode MeshGetOrders(DM dm, PetscInt nbodies, PetscInt orders[])
     orders[b] = MeshOrder(n);
     --unknown;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, orders, (PetscMPIInt)nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, orders, (PetscMPIInt)nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 
@@ -306,7 +316,9 @@ PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
 /* The 27 places of a cell whose edges are straight, from its corners: trilinear; or the 10 of a tetrahedron */
 void MeshPlacesSetStraight(PetscInt ncorners, const PetscReal corners[][3], PetscReal places[MESH_MAX_NODES][3])
 {
-  for (PetscInt i = 0; ncorners == 4 && i < 30; ++i) places[i / 3][i % 3] = 0.5 * (corners[MeshTetrahedronEnds[i / 3][0]][i % 3] + corners[MeshTetrahedronEnds[i / 3][1]][i % 3]);
+  for (PetscInt i = 0; ncorners == 4 && i < 30; ++i)
+    places[i / 3][i % 3] =
+      0.5 * (corners[MeshTetrahedronEnds[i / 3][0]][i % 3] + corners[MeshTetrahedronEnds[i / 3][1]][i % 3]);
   for (PetscInt i = 0; ncorners == 8 && i < 27; ++i) {
     const PetscReal at[3] = {0.5 * (PetscReal)(i % 3), 0.5 * (PetscReal)(i / 3 % 3), 0.5 * (PetscReal)(i / 9)};
 

@@ -27,7 +27,8 @@ const char *const *OctantFaces(const SceneBody *body)
   return body->shape == SHAPE_BALL ? ball : shell;
 }
 
-PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, PetscInt64 *ncells, PetscInt64 *nvertices)
+PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
 {
   const PetscInt *n = body->cells;
   PetscInt64      surface, patches, inside;
@@ -37,7 +38,9 @@ PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, 
     const char *const what[] = {"along x (patches)", "along y (patches)", "along z (patches)"};
     const PetscInt    sign   = body->octant.signs[d];
 
-    PetscCheck(sign >= -1 && sign <= 1, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the signs of an octant must be 1 or -1, but that along %c is %" PetscInt_FMT, body->name, "xyz"[d], sign);
+    PetscCheck(sign >= -1 && sign <= 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the signs of an octant must be 1 or -1, but that along %c is %" PetscInt_FMT, body->name, "xyz"[d],
+      sign);
     PetscCall(ShapeCheckCount(comm, body, what[d], n[d]));
     PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   }
@@ -90,7 +93,8 @@ static PetscErrorCode OctantNumberSurface(Octant *o)
   o->nsurface = 0;
   for (PetscInt k = 0; k <= o->n[2]; ++k) {
     for (PetscInt j = 0; j <= o->n[1]; ++j) {
-      for (PetscInt i = 0; i <= o->n[0]; ++i) *number++ = (i == o->n[0] || j == o->n[1] || k == o->n[2]) ? o->nsurface++ : PETSC_DECIDE;
+      for (PetscInt i = 0; i <= o->n[0]; ++i)
+        *number++ = (i == o->n[0] || j == o->n[1] || k == o->n[2]) ? o->nsurface++ : PETSC_DECIDE;
     }
   }
   o->ncore = o->core ? (PetscInt)(number - o->surface) : 0;
@@ -110,7 +114,9 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
           const PetscInt inside = o->surface[i + (o->n[0] + 1) * (j + (o->n[1] + 1) * k)] < 0;
 
           if (inside && (layer || !o->core)) continue;
-          for (PetscInt d = 0; d < 3; ++d) grid->coordinates[3 * OctantVertex(o, layer, at) + d] = m * ShapeGraded(body->grading[d], body->even[d], o->n[d], at[d]);
+          for (PetscInt d = 0; d < 3; ++d)
+            grid->coordinates[3 * OctantVertex(o, layer, at) + d] =
+              m * ShapeGraded(body->grading[d], body->even[d], o->n[d], at[d]);
         }
       }
     }
@@ -129,11 +135,10 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
   PetscCall(OctantNumberSurface(&o));
   for (PetscInt d = 0; d < 3; ++d) {
     const PetscInt   s = (d + 1) % 3, t = (d + 2) % 3;
-    const ShapeBlock block = {
-      {o.layers, o.n[s], o.n[t]},
-      {core ? PETSC_DECIDE : OCTANT_INNER, OCTANT_OUTER, OCTANT_PLANE + s, PETSC_DECIDE, OCTANT_PLANE + t, PETSC_DECIDE},
-      &patches[d],
-      OctantPatchVertex};
+    const ShapeBlock block = {{o.layers, o.n[s], o.n[t]},
+      {core ? PETSC_DECIDE : OCTANT_INNER, OCTANT_OUTER, OCTANT_PLANE + s, PETSC_DECIDE, OCTANT_PLANE + t,
+        PETSC_DECIDE},
+      &patches[d], OctantPatchVertex};
 
     patches[d].octant = &o;
     patches[d].axis   = d;
@@ -141,15 +146,14 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
     if (body->octant.signs[d] < 0) sign = -sign;
   }
   if (core) {
-    const ShapeBlock block = {
-      {o.n[0], o.n[1], o.n[2]},
-      {OCTANT_PLANE, PETSC_DECIDE, OCTANT_PLANE + 1, PETSC_DECIDE, OCTANT_PLANE + 2, PETSC_DECIDE},
-      &patches[0],
+    const ShapeBlock block = {{o.n[0], o.n[1], o.n[2]},
+      {OCTANT_PLANE, PETSC_DECIDE, OCTANT_PLANE + 1, PETSC_DECIDE, OCTANT_PLANE + 2, PETSC_DECIDE}, &patches[0],
       OctantCoreVertex};
 
     blocks[3] = block;
   }
-  PetscCall(ShapeGridCreate(core ? 4 : 3, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface, sign < 0 ? PETSC_TRUE : PETSC_FALSE, grid));
+  PetscCall(ShapeGridCreate(core ? 4 : 3, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface,
+    sign < 0 ? PETSC_TRUE : PETSC_FALSE, grid));
   PetscCall(OctantCoordinates(body, &o, grid));
   PetscCall(PetscFree(o.surface));
   PetscFunctionReturn(0);
@@ -176,5 +180,6 @@ void OctantDirection(const PetscReal q[3], PetscReal direction[3])
 
 void OctantPlace(const SceneBody *body, const PetscReal relative[3], PetscReal x[3])
 {
-  for (PetscInt d = 0; d < 3; ++d) x[d] = body->octant.corner[d] + (body->octant.signs[d] < 0 ? -relative[d] : relative[d]);
+  for (PetscInt d = 0; d < 3; ++d)
+    x[d] = body->octant.corner[d] + (body->octant.signs[d] < 0 ? -relative[d] : relative[d]);
 }

@@ -1,18 +1,24 @@
 /* Where the probes of a scene are in its mesh */
 #include "meshimpl.h"
 
-/* A point this far outside, as a part of the cell's size, is on the surface: facets are not where the curved surface is */
+/* A point this far outside, as a part of the cell's size, is on the surface: facets are not where the curved surface
+   is */
 static const PetscReal probe_tolerance = 0.1;
 
-static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3], const MeshPlace *place)
+static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3],
+  const MeshPlace *place)
 {
-  const char *what = probe->line ? "a point of the line" : "the point", *body = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
+  const char *what   = probe->line ? "a point of the line" : "the point",
+             *body   = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
   const char *advice = probe->line ? ": let the line end before, and another one begin behind" : "";
   MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;
-  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, advice);
-  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
+  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT,
+    "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body,
+    advice);
+  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside%s", probe->name,
+    what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
 }
 
 /*@C
@@ -63,7 +69,8 @@ PetscErrorCode MeshLocateProbes(DM dm, Scene scene, PetscInt *n, PetscReal (*poi
     for (PetscInt i = 0; i < scene->probes[p].n; ++i, ++k) {
       size = (*places)[k].cell >= 0 ? (*places)[k].size : 0.0;
       PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)dm)));
-      if ((*places)[k].distance > probe_tolerance * size) PetscCall(ProbeRaise(dm, scene, &scene->probes[p], (*points)[k], &(*places)[k]));
+      if ((*places)[k].distance > probe_tolerance * size)
+        PetscCall(ProbeRaise(dm, scene, &scene->probes[p], (*points)[k], &(*places)[k]));
     }
   }
   PetscCall(PetscFree(body));

@@ -47,7 +47,8 @@ PetscErrorCode MeshQualityTableCreate(PetscInt n, MeshQualityTable *table)
 
 static PetscReal QualityDeterminant(PetscReal e[3][3])
 {
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
 /* Smallest of the Jacobian's determinants, in units of the longest slope at a node cubed */
@@ -63,7 +64,8 @@ PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
         e[k][d] = 0;
         for (PetscInt a = 0; a < table->nnodes; ++a) e[k][d] += table->dN[q][k][a] * x[a][d];
       }
-      if (q < table->nnodes) longest = PetscMax(longest, PetscSqrtReal(PetscSqr(e[k][0]) + PetscSqr(e[k][1]) + PetscSqr(e[k][2])));
+      if (q < table->nnodes)
+        longest = PetscMax(longest, PetscSqrtReal(PetscSqr(e[k][0]) + PetscSqr(e[k][1]) + PetscSqr(e[k][2])));
     }
     smallest = PetscMin(smallest, QualityDeterminant(e));
   }
@@ -79,8 +81,10 @@ static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
   return PETSC_FALSE;
 }
 
-/* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are this rank's */
-static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[], PetscReal place[][3])
+/* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are
+   this rank's */
+static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[],
+  PetscReal place[][3])
 {
   PetscInt *total;
 
@@ -99,7 +103,10 @@ static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneB
       PetscCallMPI(MPI_Allreduce(&mine, &first[d], 1, MPIU_REAL, MPIU_MIN, comm));
       if (mine > first[d]) candidate = PETSC_FALSE;
     }
-    SETERRQ(comm, PETSC_ERR_USER_INPUT, "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)", bodies[b].name, *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s", (double)first[0], (double)first[1], (double)first[2]);
+    SETERRQ(comm, PETSC_ERR_USER_INPUT,
+      "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)", bodies[b].name,
+      *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s", (double)first[0], (double)first[1],
+      (double)first[2]);
   }
   PetscCall(PetscFree(total));
   PetscFunctionReturn(0);

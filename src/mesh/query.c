@@ -1,7 +1,8 @@
 /* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
 #include "meshimpl.h"
 
-/* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's so that its edges from the first are right-handed */
+/* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's
+   so that its edges from the first are right-handed */
 const PetscInt *MeshPlexCorners(PetscInt ncorners)
 {
   static const PetscInt hexahedron[8] = {0, 3, 1, 2, 4, 5, 7, 6}, tetrahedron[4] = {1, 0, 2, 3};
@@ -119,7 +120,8 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
   PetscInt        n, start, end, nowned = 0, *owned;
 
   PetscFunctionBegin;
-  PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE, "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
+  PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
   PetscCall(DMPlexGetChart(dm, &start, &end));
   PetscCall(MeshGetFacePoints(dm, face, start, end, &points));
   PetscCall(DMGetGlobalSection(dm, &section));
@@ -164,7 +166,8 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
-  PetscCheck(ncells == 1, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a boundary facet: it has %" PetscInt_FMT " cells", facet, ncells);
+  PetscCheck(ncells == 1, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+    "Point %" PetscInt_FMT " is not a boundary facet: it has %" PetscInt_FMT " cells", facet, ncells);
   PetscCall(DMPlexGetSupport(dm, facet, &cells));
   PetscCall(DMPlexGetConeSize(dm, cells[0], &nfacets));
   PetscCall(DMPlexGetCone(dm, cells[0], &cone));
@@ -230,7 +233,8 @@ PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, Pets
     if (q >= vstart && q < vend) plex[n++] = q;
   }
   PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
-  PetscCheck(n == 8 || n == 4, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is neither a hexahedron nor a tetrahedron", cell);
+  PetscCheck(n == 8 || n == 4, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+    "Point %" PetscInt_FMT " is neither a hexahedron nor a tetrahedron", cell);
   order = MeshPlexCorners(n);
   for (PetscInt a = 0; a < n; ++a) vertices[a] = plex[order[a]];
   *ncorners = n;

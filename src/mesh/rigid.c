@@ -2,7 +2,8 @@
 #include "meshimpl.h"
 
 /* boundary: of the facets, from number fstart on */
-static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[], DMLabel whole)
+static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[],
+  DMLabel whole)
 {
   PetscInt n, *closure = NULL;
 

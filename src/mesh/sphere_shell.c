@@ -1,5 +1,6 @@
-/* Octant of a shell between spheres that need not be concentric. The outer surface may be cut by a further sphere, the cap.
-   Every surface is met by rays from the octant's corner, so that all points stay in their coordinate planes. */
+/* Octant of a shell between spheres that need not be concentric. The outer surface may be cut by a further sphere,
+   the cap. Every surface is met by rays from the octant's corner, so that all points stay in their coordinate planes.
+ */
 #include "meshimpl.h"
 
 /* Distance from the corner to the sphere along a direction of the first octant; the corner is inside */
@@ -23,23 +24,31 @@ static void ShellDistances(const SceneBody *body, const PetscReal direction[3], 
   if (body->octant.cap.radius > 0) *outer = PetscMin(*outer, SphereDistance(body, &body->octant.cap, direction));
 }
 
-static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, const char what[], const SceneSphere *sphere)
+static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, const char what[],
+  const SceneSphere *sphere)
 {
   PetscReal square = 0;
 
   PetscFunctionBegin;
-  PetscCheck(sphere->radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the radius of the %s sphere must be positive, but is %g", body->name, what, (double)sphere->radius);
+  PetscCheck(sphere->radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the %s sphere must be positive, but is %g", body->name, what, (double)sphere->radius);
   for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(sphere->center[d] - body->octant.corner[d]);
-  PetscCheck(square < PetscSqr(sphere->radius), comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the octant's corner must lie inside of the %s sphere, but is %g away from its center, and the radius is %g", body->name, what, (double)PetscSqrtReal(square), (double)sphere->radius);
+  PetscCheck(square < PetscSqr(sphere->radius), comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the octant's corner must lie inside of the %s sphere, but is %g away from its center, and the radius "
+    "is %g",
+    body->name, what, (double)PetscSqrtReal(square), (double)sphere->radius);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
+static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
 {
   const PetscInt samples = 8; /* directions along an edge of the cube of parameters */
 
   PetscFunctionBegin;
-  PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the radius of the cap must be positive, or 0 for none, but is %g", body->name, (double)body->octant.cap.radius);
+  PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the cap must be positive, or 0 for none, but is %g", body->name,
+    (double)body->octant.cap.radius);
   PetscCall(ShellCheckCorner(comm, body, "inner", &body->octant.inner));
   PetscCall(ShellCheckCorner(comm, body, "outer", &body->octant.outer));
   if (body->octant.cap.radius > 0) PetscCall(ShellCheckCorner(comm, body, "cap", &body->octant.cap));
@@ -52,7 +61,10 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
     q[(i + 2) % 3] = (PetscReal)row / samples;
     OctantDirection(q, direction);
     ShellDistances(body, direction, &inner, &outer);
-    PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the inner surface must lie inside of the outer one, but in the direction (%g, %g, %g) they are %g and %g away from the corner", body->name, (double)direction[0], (double)direction[1], (double)direction[2], (double)inner, (double)outer);
+    PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the inner surface must lie inside of the outer one, but in the direction (%g, %g, %g) they are %g "
+      "and %g away from the corner",
+      body->name, (double)direction[0], (double)direction[1], (double)direction[2], (double)inner, (double)outer);
   }
   PetscCall(OctantSize(comm, body, PETSC_FALSE, ncells, nvertices));
   PetscFunctionReturn(0);

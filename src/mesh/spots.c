@@ -91,7 +91,9 @@ PetscErrorCode MeshLabelSpots(DM dm, Scene scene)
     if (has) continue;
     PetscCall(SpotLabel(dm, spot, spot_tolerance * size, nearest));
     PetscCall(SpotFindNearest(comm, nearest));
-    PetscCheck(nearest[0] <= spot_tolerance * size, comm, PETSC_ERR_USER_INPUT, "displacement \"%s\": body \"%s\" has no vertex there; the nearest one is at (%g, %g, %g)", spot->name, scene->bodies[spot->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
+    PetscCheck(nearest[0] <= spot_tolerance * size, comm, PETSC_ERR_USER_INPUT,
+      "displacement \"%s\": body \"%s\" has no vertex there; the nearest one is at (%g, %g, %g)", spot->name,
+      scene->bodies[spot->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
   }
   PetscFunctionReturn(0);
 }

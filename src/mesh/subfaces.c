@@ -18,18 +18,22 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
       PetscCall(PetscStrcmp(names[f], subface->of, &same));
       if (same) known = PETSC_TRUE;
       PetscCall(PetscStrcmp(names[f], subface->name, &same));
-      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces of the name \"%s\"", body->name, subface->name);
+      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces of the name \"%s\"", body->name,
+        subface->name);
     }
     PetscCall(NamesJoin(n - body->nsubfaces + s, names, sizeof(choices), choices));
-    PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "The face \"%s.%s\" is to be part of \"%s.%s\", which does not exist; before it, %s has: %s", body->name, subface->name, body->name, subface->of, body->name, choices);
+    PetscCheck(known, comm, PETSC_ERR_USER_INPUT,
+      "The face \"%s.%s\" is to be part of \"%s.%s\", which does not exist; before it, %s has: %s", body->name,
+      subface->name, body->name, subface->of, body->name, choices);
   }
   PetscCall(MeshRestoreFaceNames(&n, &names));
   PetscFunctionReturn(0);
 }
 
-/* Is the centroid of a facet's corners within the bounds, or on them but for rounding? Where the body is curved, its vertices
-   are still parameters */
-static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid, PetscInt facet, PetscBool *inside)
+/* Is the centroid of a facet's corners within the bounds, or on them but for rounding? Where the body is curved, its
+   vertices are still parameters */
+static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid,
+  PetscInt facet, PetscBool *inside)
 {
   const Shape   *shape;
   const PetscInt n = grid->ncorners == 4 ? 3 : 4;
@@ -47,7 +51,8 @@ static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubfac
   for (PetscInt d = 0; d < 3; ++d) size = PetscMax(size, PetscAbsReal(x[0][d] - centroid[d]));
   *inside = PETSC_TRUE;
   for (PetscInt d = 0; d < 3; ++d) {
-    if (centroid[d] < subface->lower[d] - 1e-9 * size || centroid[d] > subface->upper[d] + 1e-9 * size) *inside = PETSC_FALSE;
+    if (centroid[d] < subface->lower[d] - 1e-9 * size || centroid[d] > subface->upper[d] + 1e-9 * size)
+      *inside = PETSC_FALSE;
   }
   PetscFunctionReturn(0);
 }
@@ -88,7 +93,9 @@ PetscErrorCode MeshCheckSubfacesFilled(DM dm, const SceneBody *body)
     PetscCall(MeshFaceLabelName(body->name, body->subfaces[s].name, sizeof(name), name));
     PetscCall(DMGetStratumSize(dm, name, 1, &n));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
-    PetscCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name, whole);
+    PetscCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
+      "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name,
+      whole);
   }
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,8 @@
 /*
    Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
-   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar facets, with friction all of it.
-   A mode outside the span of these rows moves freely, and the stiffness is singular for it.
+   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
+   facets, with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
+   for it.
 */
 #include "meshimpl.h"
 
@@ -47,8 +48,10 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Adds to the row the component along a direction of the body's rigid motion t + r x (x - center)/size at the point x */
-static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
+/* Adds to the row the component along a direction of the body's rigid motion t + r x (x - center)/size at the point x
+ */
+static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign)
 {
   PetscReal arm[3], *row = support->row + 6 * b;
 
@@ -66,7 +69,8 @@ static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < support->n; ++i) {
-    for (PetscInt j = 0; support->row[i] != 0 && j < support->n; ++j) support->gram[i * support->n + j] += weight * support->row[i] * support->row[j];
+    for (PetscInt j = 0; support->row[i] != 0 && j < support->n; ++j)
+      support->gram[i * support->n + j] += weight * support->row[i] * support->row[j];
   }
   PetscCall(PetscArrayzero(support->row, support->n));
   PetscFunctionReturn(0);
@@ -121,7 +125,8 @@ static PetscErrorCode SupportAddSpot(Support *support, const SceneDisplacement *
 }
 
 /* The motions of a rigid body that are not free, where others are; on the first rank */
-static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b, PetscBool *released)
+static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
+  PetscBool *released)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   PetscMPIInt            rank;
@@ -154,7 +159,8 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
     PetscFunctionReturn(0);
   }
   for (PetscInt d = 0; d < 3; ++d) length += PetscSqr(displacement->normal[d]);
-  for (PetscInt d = 0; d < 3; ++d) normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
+  for (PetscInt d = 0; d < 3; ++d)
+    normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
   PetscCall(SupportAddRigid(support, displacement, b, &released));
   PetscCall(ISGetLocalSize(facets, &n));
@@ -212,8 +218,10 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
-/* The relative motion along these axes, at the vertices of the nonmortar face: all of a tie, and of a contact pair with friction */
-static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[], const PetscBool along[3])
+/* The relative motion along these axes, at the vertices of the nonmortar face: all of a tie, and of a contact pair
+   with friction */
+static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
+  const PetscBool along[3])
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   IS                     facets;
@@ -253,15 +261,16 @@ static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal r
   for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
 }
 
-/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram matrix.
-   Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
+/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram
+   matrix. Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
 static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
 {
   const PetscInt n    = support->n;
   PetscReal     *gram = support->gram, first = 0;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)support->dm)));
   for (PetscInt k = 0; k < n; ++k) outside[k] = 1;
   for (PetscInt rank = 0; rank < n; ++rank) {
     PetscReal *pivot = gram + rank * n, largest = 0;
@@ -292,7 +301,8 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
-/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a translation; none: PETSC_DECIDE */
+/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a
+   translation; none: PETSC_DECIDE */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -310,7 +320,8 @@ static PetscInt SupportFindFreest(const PetscReal outside[6])
 
 static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
 {
-  static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z", "a rotation about x", "a rotation about y", "a rotation about z"};
+  static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z",
+    "a rotation about x", "a rotation about y", "a rotation about z"};
   MPI_Comm                 comm    = PetscObjectComm((PetscObject)support->dm);
 
   PetscFunctionBegin;
@@ -319,8 +330,12 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
     PetscInt       nfree = 0;
 
     for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
-    PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT, "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name, scene->bodies[b].name);
-    PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name, scene->bodies[b].name, modes[mode]);
+    PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT,
+      "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name,
+      scene->bodies[b].name);
+    PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name,
+      scene->bodies[b].name, modes[mode]);
   }
   PetscFunctionReturn(0);
 }
@@ -336,11 +351,13 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISDestroy(&facets));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
-  PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
+  PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
+    "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
   PetscFunctionReturn(0);
 }
 
-/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to false before */
+/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to
+   false before */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -348,14 +365,21 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   PetscReal             *outside;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n, &support.gram, support.n, &support.row, support.n, &outside));
+  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n,
+    &support.gram, support.n, &support.row, support.n, &outside));
   PetscCall(SupportMeasureBodies(&support));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     const SceneSpring *spring = &scene->springs[s];
 
-    if (spring->to) PetscCall(SupportAddJoint(&support, spring->to, spring->face, (PetscBool[3]){spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}));
-    else PetscCall(SupportAddDisplacement(&support, &(SceneDisplacement){.face = spring->face, .fixed = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}}));
+    if (spring->to)
+      PetscCall(SupportAddJoint(&support, spring->to, spring->face,
+        (PetscBool[3]){spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}));
+    else
+      PetscCall(SupportAddDisplacement(&support,
+        &(SceneDisplacement){.face = spring->face,
+          .fixed                   = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}}));
   }
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
@@ -363,7 +387,8 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
     if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
     else PetscCall(SupportAddPair(&support, pair));
   }
-  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+  for (PetscInt t = 0; t < scene->nties; ++t)
+    PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
@@ -416,10 +441,13 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   PetscFunctionBegin;
   PetscCall(MeshLabelSpots(dm, scene));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    if (scene->displacements[d].at == DISPLACEMENT_FACE) PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+    if (scene->displacements[d].at == DISPLACEMENT_FACE)
+      PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
   }
-  for (PetscInt p = 0; p < scene->npressures; ++p) PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
-  for (PetscInt t = 0; t < scene->ntractions; ++t) PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
+  for (PetscInt p = 0; p < scene->npressures; ++p)
+    PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t)
+    PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
     if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].to));

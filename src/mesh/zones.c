@@ -1,7 +1,9 @@
-/* Which cells a scene refines: those near a face, near both faces of a contact pair, or in a box, until they are as fine as it says */
+/* Which cells a scene refines: those near a face, near both faces of a contact pair, or in a box, until they are as
+   fine as it says */
 #include "meshimpl.h"
 
-/* Where a zone is: boxes about the facets of up to two faces, and about all of each; a box of its own where there is no face */
+/* Where a zone is: boxes about the facets of up to two faces, and about all of each; a box of its own where there is
+   no face */
 typedef struct {
   PetscInt  nfaces, n[2];
   PetscReal all[2][6], *facets[2];
@@ -113,7 +115,8 @@ static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal
 }
 
 /* The boxes about all cells, 6 numbers each */
-static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshHexes *hexes, PetscInt body[], PetscReal box[])
+static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshHexes *hexes, PetscInt body[],
+  PetscReal box[])
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
@@ -136,12 +139,18 @@ static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefineme
   const char *const body = refinement->body >= 0 ? bodies[refinement->body].name : "";
 
   PetscFunctionBegin;
-  PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name, (double)refinement->distance, refinement->face[0], refinement->face[1]);
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], meets no cell of %s%s%s", refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2], *body ? "body \"" : "any body", body, *body ? "\"" : "");
+  PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name,
+    (double)refinement->distance, refinement->face[0], refinement->face[1]);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], meets no cell of %s%s%s",
+    refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
+    *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }
 
 /* Marks the cells of a zone that are not fine enough, and counts those of any size */
-static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone, const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
+static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone,
+  const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
 {
   PetscInt n = 0;
 
@@ -151,7 +160,9 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     if (!ZoneHolds(zone, refinement->distance, &box[6 * c])) continue;
     ++n;
     if (hexes->place[4 * c + 3] >= refinement->levels) continue;
-    PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP, "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally", refinement->name, bodies[body[c]].name, bodies[body[c]].order);
+    PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      refinement->name, bodies[body[c]].name, bodies[body[c]].order);
     marked[c] = PETSC_TRUE;
     *more     = PETSC_TRUE;
   }
@@ -160,7 +171,8 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
 }
 
 /* Not collective: all zones, each until its cells are fine enough; dm: the mesh that the cells were made of */
-PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n, const SceneRefinement refinements[], MeshHexes *hexes)
+PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n, const SceneRefinement refinements[],
+  MeshHexes *hexes)
 {
   PetscBool more = (PetscBool)(n > 0);
   Zone     *zones;
@@ -177,7 +189,8 @@ PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n,
     PetscCall(PetscCalloc1(hexes->ncells, &marked));
     PetscCall(PetscMalloc2(hexes->ncells, &body, 6 * hexes->ncells, &box));
     PetscCall(ZonesGetBoxes(dm, bodies, hexes, body, box));
-    for (PetscInt z = 0; z < n; ++z) PetscCall(ZoneMark(bodies, &refinements[z], &zones[z], hexes, body, box, marked, &more));
+    for (PetscInt z = 0; z < n; ++z)
+      PetscCall(ZoneMark(bodies, &refinements[z], &zones[z], hexes, body, box, marked, &more));
     PetscCall(PetscFree2(body, box));
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
     PetscCall(PetscFree(marked));

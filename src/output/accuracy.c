@@ -13,9 +13,9 @@
    Level: intermediate
 
    Note:
-   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery; `change` that of the
-   results since the coarser mesh, from which the error of the mesh is extrapolated; where it is `beyond recovery` the two disagree, and
-   the change stands for the error.
+   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery; `change` that
+of the results since the coarser mesh, from which the error of the mesh is extrapolated; where it is `beyond recovery`
+the two disagree, and the change stands for the error.
 
 .seealso: `AccuracyAssess()`, `ReportView()`
 @*/
@@ -28,8 +28,13 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "\nNo accuracy asked for: -accuracy <target>\n"));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nAccuracy %g asked for, of which the solver may leave %g\n", (double)acc->target, (double)(acc->share * acc->target)));
-  if (acc->contact) PetscCall(PetscViewerASCIIPrintf(viewer, "  optimizer's tolerance %g, at most %" PetscInt_FMT " linearizations of the gap, until it changes by less than %g\n", (double)acc->tolerance, acc->updates, (double)acc->update_tolerance));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nAccuracy %g asked for, of which the solver may leave %g\n",
+    (double)acc->target, (double)(acc->share * acc->target)));
+  if (acc->contact)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  optimizer's tolerance %g, at most %" PetscInt_FMT
+      " linearizations of the gap, until it changes by less than %g\n",
+      (double)acc->tolerance, acc->updates, (double)acc->update_tolerance));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
   PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));
   PetscCall(TableViewRows(report, TABLE_LEVELS, &SchemaLevels, acc->nlevels, acc->levels, viewer));
@@ -46,8 +51,11 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
 
   PetscFunctionBegin;
   for (PetscInt l = 0; l < acc->nlevels; ++l) all += acc->levels[l].time;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns leaves %g%s, the solver %g, after %.1f s; ", (double)acc->target, now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
-  if (acc->mesh > now->mesh) PetscCall(PetscViewerASCIIPrintf(viewer, "the next has about %" PetscInt_FMT "\n", (PetscInt)next));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns leaves %g%s, the solver %g, after %.1f s; ", (double)acc->target,
+    now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
+  if (acc->mesh > now->mesh)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "the next has about %" PetscInt_FMT "\n", (PetscInt)next));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "next, a tighter tolerance\n"));
   PetscFunctionReturn(0);
 }
@@ -69,12 +77,19 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
 PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscViewer viewer)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
-  const char          *how = now->unseen ? ", more than stress recovery sees" : PetscIsNanReal(now->change) ? " by stress recovery alone"
-                                                                                                            : "";
+  const char          *how = now->unseen                   ? ", more than stress recovery sees"
+                             : PetscIsNanReal(now->change) ? " by stress recovery alone"
+                                                           : "";
 
   PetscFunctionBegin;
   if (acc->adaptive) PetscCall(AccuracyViewAdapted(acc, how, viewer));
-  else if (acc->order && !now->mesh && acc->mesh) PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, order %" PetscInt_FMT "\n", (double)acc->target, (double)now->error, how, (double)now->algebraic, acc->order));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)acc->target, (double)now->error, how, (double)now->algebraic, refine));
+  else if (acc->order && !now->mesh && acc->mesh)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "Accuracy %g: the mesh leaves %g%s, the solver %g; next, order %" PetscInt_FMT "\n", (double)acc->target,
+      (double)now->error, how, (double)now->algebraic, acc->order));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)acc->target,
+      (double)now->error, how, (double)now->algebraic, refine));
   PetscFunctionReturn(0);
 }

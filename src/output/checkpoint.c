@@ -58,7 +58,9 @@ static PetscErrorCode CheckpointWriteNumbers(const CheckpointContents *contents,
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "step", PETSC_INT, &contents->checkpoint->step));
-  for (size_t i = 0; CheckpointNumbers[i].name; ++i) PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, CheckpointNumber(contents->checkpoint, i)));
+  for (size_t i = 0; CheckpointNumbers[i].name; ++i)
+    PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL,
+      CheckpointNumber(contents->checkpoint, i)));
   for (PetscInt r = 0; r < contents->scene->nramps; ++r) {
     char      name[256];
     PetscReal factor;
@@ -133,8 +135,9 @@ PetscErrorCode CheckpointWriterCreate(Scene scene, DM dm, const char file[], Che
    Level: intermediate
 
    Notes:
-   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name then, while the caller goes on: the one
-   before stays until then, whatever happens. The next call, or CheckpointWriterDestroy(), waits for it.
+   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name then,
+while the caller goes on: the one before stays until then, whatever happens. The next call, or
+CheckpointWriterDestroy(), waits for it.
 
    Errors: PETSC_ERR_FILE_WRITE where there is no room, for this state or the one before.
 

@@ -1,6 +1,6 @@
 /*
-   One run at a time writes the files of a name: its first rank holds a lock of the mesh's file while it lives. It is a record lock, of which HDF5 and those who read know nothing;
-   where the file system has none, nobody is kept out.
+   One run at a time writes the files of a name: its first rank holds a lock of the mesh's file while it lives. It is
+   a record lock, of which HDF5 and those who read know nothing; where the file system has none, nobody is kept out.
 */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
 #include "outputimpl.h"
@@ -35,6 +35,7 @@ PetscErrorCode ClaimBegin(MPI_Comm comm, const char file[], int *descriptor)
   if (rank == 0) taken = ClaimFile(file, descriptor);
   if (taken) ClaimEnd(descriptor);
   PetscCallMPI(MPI_Bcast(&taken, 1, MPI_INT, 0, comm));
-  PetscCheck(!taken, comm, PETSC_ERR_FILE_OPEN, "another run is writing \"%s\": let it end, or give -output another name", file);
+  PetscCheck(!taken, comm, PETSC_ERR_FILE_OPEN,
+    "another run is writing \"%s\": let it end, or give -output another name", file);
   PetscFunctionReturn(0);
 }

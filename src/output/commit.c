@@ -1,6 +1,7 @@
 /*
-   A file that was written under another name takes its own: at once, or, where it must be on the disk before, by a thread of the first rank. A disk
-   takes longer for that than a small load step does; the thread knows neither MPI nor PETSc.
+   A file that was written under another name takes its own: at once, or, where it must be on the disk before, by a
+   thread of the first rank. A disk takes longer for that than a small load step does; the thread knows neither MPI
+   nor PETSc.
 */
 #define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
 #include "outputimpl.h"
@@ -19,7 +20,8 @@ struct _n_FileCommit {
   int       error; /* errno of what went wrong */
 };
 
-/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then PETSC_ERR_FILE_WRITE */
+/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then
+   PETSC_ERR_FILE_WRITE */
 PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
 {
   PetscFunctionBegin;

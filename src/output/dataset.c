@@ -1,8 +1,9 @@
 /*
    One dataset of an HDF5 file, each rank's records behind those of the ranks before it.
 
-   Shaped as VecView() and ISView() do, so that VecLoad() and ISLoad() read it. These bring the whole file to the disk after every dataset, of which a
-   load step has twenty, and write zeros in its place beforehand. Here a file is on the disk when it must be, once.
+   Shaped as VecView() and ISView() do, so that VecLoad() and ISLoad() read it. These bring the whole file to the disk
+   after every dataset, of which a load step has twenty, and write zeros in its place beforehand. Here a file is on
+   the disk when it must be, once.
 */
 #include "outputimpl.h"
 
@@ -28,7 +29,8 @@ static PetscErrorCode DatasetSelect(DatasetPlace *place, int dimensions, const h
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DatasetPlaceCreate(MPI_Comm comm, PetscViewer viewer, const char name[], int dimensions, PetscInt n, PetscInt components, DatasetPlace *place)
+static PetscErrorCode DatasetPlaceCreate(MPI_Comm comm, PetscViewer viewer, const char name[], int dimensions,
+  PetscInt n, PetscInt components, DatasetPlace *place)
 {
   unsigned long long mine = (unsigned long long)n, before = 0, all;
   hsize_t            shape[2];
@@ -60,7 +62,8 @@ static PetscErrorCode DatasetPlaceDestroy(DatasetPlace *place)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DatasetWriteRecords(MPI_Comm comm, PetscViewer viewer, const char name[], PetscDataType type, int dimensions, PetscInt n, PetscInt components, const void *values)
+static PetscErrorCode DatasetWriteRecords(MPI_Comm comm, PetscViewer viewer, const char name[], PetscDataType type,
+  int dimensions, PetscInt n, PetscInt components, const void *values)
 {
   DatasetPlace place;
 
@@ -95,7 +98,8 @@ PetscErrorCode DatasetWrite(Vec *field, PetscViewer viewer)
   PetscCall(VecGetLocalSize(*field, &n));
   PetscCall(VecGetBlockSize(*field, &components));
   PetscCall(VecGetArrayRead(*field, &values));
-  PetscCall(DatasetWriteRecords(PetscObjectComm((PetscObject)*field), viewer, name, PETSC_SCALAR, components > 1 ? 2 : 1, n / components, components, values));
+  PetscCall(DatasetWriteRecords(PetscObjectComm((PetscObject)*field), viewer, name, PETSC_SCALAR,
+    components > 1 ? 2 : 1, n / components, components, values));
   PetscCall(VecRestoreArrayRead(*field, &values));
   PetscCall(VecDestroy(field));
   PetscFunctionReturn(0);
@@ -114,7 +118,8 @@ PetscErrorCode DatasetWriteIndices(IS is, PetscViewer viewer)
   PetscCall(PetscLayoutGetBlockSize(layout, &components));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &indices));
-  PetscCall(DatasetWriteRecords(PetscObjectComm((PetscObject)is), viewer, name, PETSC_INT, 2, n / components, components, indices));
+  PetscCall(DatasetWriteRecords(PetscObjectComm((PetscObject)is), viewer, name, PETSC_INT, 2, n / components,
+    components, indices));
   PetscCall(ISRestoreIndices(is, &indices));
   PetscFunctionReturn(0);
 }

@@ -69,8 +69,10 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive indices. The mesh keeps it for the next file */
-static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt n, PetscInt components, PetscInt *indices)
+/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive
+   indices. The mesh keeps it for the next file */
+static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt n, PetscInt components,
+  PetscInt *indices)
 {
   IS          is;
   PetscLayout layout;
@@ -102,7 +104,8 @@ static PetscErrorCode FieldsNumberCells(Output output)
     PetscCall(OutputGetPieces(output, c, &pieces));
     for (PetscInt p = 0; p < pieces.n; ++p, ++piece) {
       if (output->mixed) cells[at++] = OutputPieceKind(pieces.nnodes);
-      for (PetscInt i = 0; i < pieces.nnodes; ++i, ++at) PetscCall(FieldsGetVertex(global, pieces.nodes[p][i], &cells[at]));
+      for (PetscInt i = 0; i < pieces.nnodes; ++i, ++at)
+        PetscCall(FieldsGetVertex(global, pieces.nodes[p][i], &cells[at]));
       PetscCall(DMLabelGetValue(label, c, &bodies[piece]));
     }
   }
@@ -164,7 +167,8 @@ typedef struct {
   PetscScalar *t, *d, *l;
 } FieldsContact;
 
-static PetscErrorCode FieldsCreateContact(Output output, const char name[], const char suffix[], PetscInt components, PetscReal value, Vec *field, PetscScalar **values)
+static PetscErrorCode FieldsCreateContact(Output output, const char name[], const char suffix[], PetscInt components,
+  PetscReal value, Vec *field, PetscScalar **values)
 {
   char full[256];
 
@@ -184,8 +188,7 @@ static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint
   if (area > 0.0) fields->p[v] = (fields->p[v] * fields->a[v] + point->pressure * point->area) / area;
   fields->a[v] = area;
   if (!(PetscRealPart(fields->g[v]) <= point->gap)) fields->g[v] = point->gap;
-  if (!(PetscRealPart(fields->s[v]) > 0.0)) fields->s[v] = point->slips ? 2.0 : point->closed ? 1.0
-                                                                                              : 0.0;
+  if (!(PetscRealPart(fields->s[v]) > 0.0)) fields->s[v] = point->slips ? 2.0 : point->closed ? 1.0 : 0.0;
   for (PetscInt c = 0; c < 3; ++c) fields->f[3 * v + c] += point->force[c];
   if (!fields->shear) return;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -208,7 +211,8 @@ static PetscErrorCode FieldsFillPair(Output output, const StepState *state, Pets
     if (pair >= 0 && state->points[k].pair != pair) continue;
     PetscCall(FieldsGetVertex(global, state->points[k].vertex, &v));
     v -= output->first;
-    PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Contact point %" PetscInt_FMT " is at a vertex of another rank", k);
+    PetscCheck(v >= 0 && v < output->nowned, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+      "Contact point %" PetscInt_FMT " is at a vertex of another rank", k);
     FieldsAddPoint(fields, v, &state->points[k]);
   }
   PetscFunctionReturn(0);
@@ -237,7 +241,8 @@ static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer vie
 }
 
 /* pair negative: of all; else the name of its fields ends with it */
-static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[], PetscViewer viewer)
+static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[],
+  PetscViewer viewer)
 {
   FieldsContact  fields = {.shear = NULL};
   RankError      error;
@@ -272,7 +277,8 @@ static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, 
 {
   PetscFunctionBegin;
   PetscCall(FieldsWritePair(output, state, -1, NULL, viewer));
-  for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(FieldsWritePair(output, state, p, output->pairnames[p], viewer));
+  for (PetscInt p = 0; p < output->npairs; ++p)
+    PetscCall(FieldsWritePair(output, state, p, output->pairnames[p], viewer));
   PetscFunctionReturn(0);
 }
 

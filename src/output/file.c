@@ -76,14 +76,16 @@ static PetscErrorCode FileRename(MPI_Comm comm, const char file[])
 
 #define FILE_COMPLAINT_LENGTH 256
 
-static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *function, const char *file,
+  PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
 {
   (void)comm, (void)line, (void)function, (void)file;
   if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy((char *)ctx, message, FILE_COMPLAINT_LENGTH);
   return n;
 }
 
-PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx, FileCommit *commit)
+PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx,
+  FileCommit *commit)
 {
   char           part[PETSC_MAX_PATH_LEN], complaint[FILE_COMPLAINT_LENGTH] = "";
   PetscViewer    viewer;
@@ -103,7 +105,8 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscCall(PetscPopErrorHandler());
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
   if (ierr && renamed) (void)remove(part);
-  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, complaint);
+  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file,
+    complaint);
   if (commit && renamed) PetscCall(FileCommitBegin(comm, part, file, commit));
   else PetscCall(FileRename(comm, file));
   PetscFunctionReturn(0);
@@ -120,7 +123,8 @@ static PetscErrorCode FileFill(FILE *stream, PetscErrorCode (*fill)(FILE *, cons
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx)
+PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx)
 {
   PetscMPIInt rank;
   int         error = 0;
@@ -141,7 +145,8 @@ PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx)
+PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx)
 {
   char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;

@@ -1,4 +1,5 @@
-/* The history of a run: a table of comma-separated values, a line a load step, a column for every number of its report. */
+/* The history of a run: a table of comma-separated values, a line a load step, a column for every number of its
+   report. */
 #define _POSIX_C_SOURCE 200809L /* getline() */
 #include "outputimpl.h"
 #include <math.h>
@@ -66,17 +67,18 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
   case FIELD_INT:
   case FIELD_REAL:
   case FIELD_DOUBLE:
-  case FIELD_BOOL:
-    HistoryPut(line, owner, field->name, "", SchemaNumber(field, record));
-    break;
+  case FIELD_BOOL: HistoryPut(line, owner, field->name, "", SchemaNumber(field, record)); break;
   case FIELD_VECTOR:
-    for (int d = 0; d < 3; ++d) HistoryPut(line, owner, field->name, (const char *[]){"x", "y", "z"}[d], (double)((const PetscReal *)value)[d]);
+    for (int d = 0; d < 3; ++d)
+      HistoryPut(line, owner, field->name, (const char *[]){"x", "y", "z"}[d], (double)((const PetscReal *)value)[d]);
     break;
   case FIELD_INTS:
     HistoryPut(line, owner, field->name, "", HistorySum(SchemaCount(field, record), *(const PetscInt *const *)value));
     break;
   case FIELD_BODY_REALS:
-    for (PetscInt b = 0; b < line->output->nbodies; ++b) HistoryPut(line, line->output->bodynames[b], field->name, "", *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
+    for (PetscInt b = 0; b < line->output->nbodies; ++b)
+      HistoryPut(line, line->output->bodynames[b], field->name, "",
+        *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
     break;
   case FIELD_LIST:
     if (field->record == &SchemaLines) break; /* they have files of their own */
@@ -86,11 +88,8 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
       HistoryPutRecord(line, field->record, item, SchemaText(field->record->fields, item));
     }
     break;
-  case FIELD_RECORD:
-    HistoryPutRecord(line, field->record, value, field->name);
-    break;
-  default: /* a text is no number */
-    break;
+  case FIELD_RECORD: HistoryPutRecord(line, field->record, value, field->name); break;
+  default: /* a text is no number */ break;
   }
 }
 
@@ -194,7 +193,8 @@ static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBoo
 }
 
 /* The first step that an output gets begins a new file, unless it goes on with another run's */
-static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[], PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
+static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[],
+  PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
 {
   char      file[PETSC_MAX_PATH_LEN];
   PetscBool goes_on;
@@ -217,7 +217,8 @@ PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
   for (PetscInt k = 0; k < report->nlines; k += line.npoints) {
     line.points  = &report->lines[k];
     line.npoints = 1;
-    while (k + line.npoints < report->nlines && !strcmp(report->lines[k].name, report->lines[k + line.npoints].name)) ++line.npoints;
+    while (k + line.npoints < report->nlines && !strcmp(report->lines[k].name, report->lines[k + line.npoints].name))
+      ++line.npoints;
     PetscCall(HistoryWriteFile(&line, report->lines[k].name, HistoryBeginLine, HistoryAppendLine));
   }
   PetscFunctionReturn(0);

@@ -62,7 +62,8 @@ static void JSONBodies(FILE *stream, const RunReport *run, const PetscInt ints[]
 
 static void JSONRecord(FILE *, const RunReport *, const ReportRecord *, const void *record, int indent);
 
-static void JSONList(FILE *stream, const RunReport *run, const ReportRecord *type, PetscInt n, const char *records, int indent)
+static void JSONList(FILE *stream, const RunReport *run, const ReportRecord *type, PetscInt n, const char *records,
+  int indent)
 {
   fputc('[', stream);
   for (PetscInt i = 0; i < n; ++i) {
@@ -77,44 +78,22 @@ static void JSONValue(FILE *stream, const RunReport *run, const ReportField *fie
   const void *value = SchemaAt(field, record);
 
   switch (field->type) {
-  case FIELD_INT:
-    fprintf(stream, "%" PetscInt_FMT, *(const PetscInt *)value);
-    break;
+  case FIELD_INT: fprintf(stream, "%" PetscInt_FMT, *(const PetscInt *)value); break;
   case FIELD_REAL:
-  case FIELD_DOUBLE:
-    JSONNumber(stream, SchemaNumber(field, record));
-    break;
-  case FIELD_BOOL:
-    fputs(*(const PetscBool *)value ? "true" : "false", stream);
-    break;
+  case FIELD_DOUBLE: JSONNumber(stream, SchemaNumber(field, record)); break;
+  case FIELD_BOOL: fputs(*(const PetscBool *)value ? "true" : "false", stream); break;
   case FIELD_TEXT:
-  case FIELD_CHARS:
-    JSONString(stream, SchemaText(field, record));
-    break;
-  case FIELD_TEXTS:
-    JSONTexts(stream, SchemaCount(field, record), *(const char *const *const *)value);
-    break;
-  case FIELD_VECTOR:
-    JSONVector(stream, (const PetscReal *)value);
-    break;
-  case FIELD_INTS:
-    JSONInts(stream, SchemaCount(field, record), *(const PetscInt *const *)value);
-    break;
-  case FIELD_BODY_INTS:
-    JSONBodies(stream, run, *(const PetscInt *const *)value, NULL);
-    break;
-  case FIELD_BODY_REALS:
-    JSONBodies(stream, run, NULL, *(const PetscReal *const *)value);
-    break;
+  case FIELD_CHARS: JSONString(stream, SchemaText(field, record)); break;
+  case FIELD_TEXTS: JSONTexts(stream, SchemaCount(field, record), *(const char *const *const *)value); break;
+  case FIELD_VECTOR: JSONVector(stream, (const PetscReal *)value); break;
+  case FIELD_INTS: JSONInts(stream, SchemaCount(field, record), *(const PetscInt *const *)value); break;
+  case FIELD_BODY_INTS: JSONBodies(stream, run, *(const PetscInt *const *)value, NULL); break;
+  case FIELD_BODY_REALS: JSONBodies(stream, run, NULL, *(const PetscReal *const *)value); break;
   case FIELD_LIST:
     JSONList(stream, run, field->record, SchemaCount(field, record), *(const char *const *)value, indent);
     break;
-  case FIELD_RECORD:
-    JSONRecord(stream, run, field->record, value, indent);
-    break;
-  case FIELD_POINTER:
-    JSONRecord(stream, run, field->record, *(const void *const *)value, indent);
-    break;
+  case FIELD_RECORD: JSONRecord(stream, run, field->record, value, indent); break;
+  case FIELD_POINTER: JSONRecord(stream, run, field->record, *(const void *const *)value, indent); break;
   }
 }
 
@@ -157,7 +136,8 @@ static PetscErrorCode JSONReport(FILE *stream, const void *ctx)
    Level: intermediate
 
    Note:
-   The keys are the members of RunReport, StepReport and what they hold, as src/output/schema.c lists them. Numbers have full precision; NaN and infinity become null.
+   The keys are the members of RunReport, StepReport and what they hold, as src/output/schema.c lists them. Numbers have
+full precision; NaN and infinity become null.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the file cannot be written.
 

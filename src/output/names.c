@@ -9,7 +9,8 @@ PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
   const PetscBool named = (PetscBool)(last[0] && strcmp(last, ".") && strcmp(last, ".."));
 
   PetscFunctionBegin;
-  PetscCheck(named, comm, PETSC_ERR_FILE_OPEN, "\"%s\" is a folder; -output is what the names of the files begin with, as results/press", base);
+  PetscCheck(named, comm, PETSC_ERR_FILE_OPEN,
+    "\"%s\" is a folder; -output is what the names of the files begin with, as results/press", base);
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,7 @@
 /*
-   The map of src/output: its files in the order in which they build on one another, each with what it offers to those below it. The
-   fields of bodies and surfaces go to HDF5 (output.c), the report of a run to JSON and to the terminal (json.c, view.c).
+   The map of src/output: its files in the order in which they build on one another, each with what it offers to those
+   below it. The fields of bodies and surfaces go to HDF5 (output.c), the report of a run to JSON and to the terminal
+   (json.c, view.c).
 */
 #ifndef OUTPUTIMPL_H
 #define OUTPUTIMPL_H
@@ -19,7 +20,8 @@ typedef struct {
 PETSC_INTERN void MuteBegin(Mute *);
 PETSC_INTERN void MuteEnd(Mute *);
 
-/* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and names the file */
+/* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and
+   names the file */
 typedef struct _n_FileCommit *FileCommit;
 
 PETSC_INTERN PetscErrorCode FileRaise(MPI_Comm, const char file[], PetscErrorCode code, int error);
@@ -27,17 +29,22 @@ PETSC_INTERN PetscErrorCode FileCommitBegin(MPI_Comm, const char part[], const c
 PETSC_INTERN PetscErrorCode FileCommitEnd(FileCommit *);
 
 /*
-   file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective; the error
-   names the file.
+   file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective;
+   the error names the file.
 */
-/* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes its name */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx, FileCommit *commit);
+/* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes
+   its name */
+PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *),
+  void *ctx, FileCommit *commit);
 /* On the first rank fill() writes the stream; the others wait for the outcome */
-PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
+PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx);
 /* The same behind what the file holds; it stays as it was where there is no room for all of it */
-PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *), const void *ctx);
+PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx);
 
-/* claim.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first rank, is closed */
+/* claim.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first rank,
+   is closed */
 PETSC_INTERN PetscErrorCode ClaimBegin(MPI_Comm, const char file[], int *descriptor);
 PETSC_INTERN void           ClaimEnd(int *descriptor);
 
@@ -48,23 +55,25 @@ typedef struct {
 } OutputStep;
 
 struct _n_Output {
-  MPI_Comm    comm;
-  DM          dm;
-  char       *base;  /* of the file names */
-  int         claim; /* of the mesh's file, a descriptor */
-  PetscInt    nbodies;
-  char      **bodynames;
-  PetscInt    npairs; /* of contact, that have fields of their own; of the steps written */
-  char      **pairnames;
-  PetscInt    nvertices, ncells;          /* global */
-  PetscInt    nowned, ncellslocal, first; /* nodes and cells of this rank; number of its first node. A hexahedron of order 2 counts as 8 */
-  PetscBool   mixed;                      /* not all cells are hexahedra */
-  PetscInt    nindices, nindiceslocal;    /* numbers that describe the cells: 8 nodes each, or where they are mixed the kind and its nodes */
-  PetscBool   friction;                   /* the steps have shear and slip */
-  PetscBool   nodes;                      /* the steps have stress at nodes and strain energy */
-  PetscInt    nquadrature;                /* quadrature points of all ranks, of the steps that have stress there */
-  PetscBool   begun;                      /* a step has been written */
-  PetscInt    continued;                  /* load steps of the run that this one goes on with; 0: none */
+  MPI_Comm comm;
+  DM       dm;
+  char    *base;  /* of the file names */
+  int      claim; /* of the mesh's file, a descriptor */
+  PetscInt nbodies;
+  char   **bodynames;
+  PetscInt npairs; /* of contact, that have fields of their own; of the steps written */
+  char   **pairnames;
+  PetscInt nvertices, ncells; /* global */
+  PetscInt nowned, ncellslocal,
+    first;         /* nodes and cells of this rank; number of its first node. A hexahedron of order 2 counts as 8 */
+  PetscBool mixed; /* not all cells are hexahedra */
+  PetscInt  nindices,
+    nindiceslocal; /* numbers that describe the cells: 8 nodes each, or where they are mixed the kind and its nodes */
+  PetscBool   friction;    /* the steps have shear and slip */
+  PetscBool   nodes;       /* the steps have stress at nodes and strain energy */
+  PetscInt    nquadrature; /* quadrature points of all ranks, of the steps that have stress there */
+  PetscBool   begun;       /* a step has been written */
+  PetscInt    continued;   /* load steps of the run that this one goes on with; 0: none */
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };
@@ -74,7 +83,8 @@ PETSC_INTERN PetscErrorCode OutputCheckBase(MPI_Comm, const char base[]);
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 
-/* cells.c: a cell of the mesh as a hexahedron of 8 nodes, or those that the nodes of order 2 cut it into; or as a tetrahedron of 4 or 10 */
+/* cells.c: a cell of the mesh as a hexahedron of 8 nodes, or those that the nodes of order 2 cut it into; or as a
+   tetrahedron of 4 or 10 */
 typedef struct {
   PetscInt n, nnodes, nodes[8][10];
 } OutputPieces;
@@ -195,16 +205,20 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
-PETSC_INTERN const void        *SchemaAt(const ReportField *, const void *record);
-PETSC_INTERN double             SchemaNumber(const ReportField *, const void *record);
-PETSC_INTERN const char        *SchemaText(const ReportField *, const void *record);
-PETSC_INTERN PetscInt           SchemaCount(const ReportField *, const void *record);
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes,
+  SchemaLevels, SchemaEffects, SchemaLines;
+PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
+PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
+PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);
+PETSC_INTERN PetscInt    SchemaCount(const ReportField *, const void *record);
 
 /* table.c */
-PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const ReportRecord *, PetscInt line, PetscViewer);
-PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const ReportRecord *, PetscInt n, const void *records, PetscViewer);
-PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record, char text[], size_t length);
+PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const ReportRecord *, PetscInt line,
+  PetscViewer);
+PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const ReportRecord *, PetscInt n,
+  const void *records, PetscViewer);
+PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record,
+     char text[], size_t length);
 
 /* json.c, accuracy.c, view.c have no more than what output.h offers */
 

@@ -114,7 +114,9 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, "step", PETSC_INT, NULL, &checkpoint->step));
-  for (size_t i = 0; CheckpointNumbers[i].name; ++i) PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL, CheckpointNumber(checkpoint, i)));
+  for (size_t i = 0; CheckpointNumbers[i].name; ++i)
+    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL,
+      CheckpointNumber(checkpoint, i)));
   for (PetscInt k = 0; k < r->scene->nramps; ++k) {
     const char *ramp = r->scene->ramps[k].name;
     char        name[256];
@@ -126,7 +128,9 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
     if (!has) continue;
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, &then));
     PetscCall(SceneGetFactor(r->scene, k, checkpoint->time, &now));
-    PetscCheck(PetscAbsReal(now - then) <= 1e-9 * PetscMax(1, PetscAbsReal(then)), r->comm, PETSC_ERR_USER_INPUT, "at its time %g the factor of ramp \"%s\" was %g, and in the scene it is %g", (double)checkpoint->time, ramp, (double)then, (double)now);
+    PetscCheck(PetscAbsReal(now - then) <= 1e-9 * PetscMax(1, PetscAbsReal(then)), r->comm, PETSC_ERR_USER_INPUT,
+      "at its time %g the factor of ramp \"%s\" was %g, and in the scene it is %g", (double)checkpoint->time, ramp,
+      (double)then, (double)now);
   }
   PetscFunctionReturn(0);
 }
@@ -177,7 +181,8 @@ static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nin
     at += mesh->nnodes[c] ? mesh->nnodes[c] : nindices;
   }
   sound = (PetscBool)(at == nindices);
-  PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED, "its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+  PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+    "its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
   PetscFunctionReturn(0);
 }
 
@@ -221,7 +226,8 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscCall(MeshLocatorGetPlaces(r->locator, &places));
   for (PetscInt i = 0; i < r->output->nowned; ++i) lost += places[i].cell < 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPIU_INT, MPI_SUM, r->comm));
-  PetscCheck(!lost, r->comm, PETSC_ERR_USER_INPUT, "%" PetscInt_FMT " vertices of the mesh are in none of its cells", lost);
+  PetscCheck(!lost, r->comm, PETSC_ERR_USER_INPUT, "%" PetscInt_FMT " vertices of the mesh are in none of its cells",
+    lost);
   PetscFunctionReturn(0);
 }
 
@@ -233,7 +239,8 @@ static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool for
 }
 
 /* As it is, or interpolated in the file's cells */
-static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt components, PetscBool force, Checkpoint checkpoint)
+static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt components, PetscBool force,
+  Checkpoint checkpoint)
 {
   Vec                stored;
   const PetscScalar *s;
@@ -250,7 +257,9 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
     for (PetscInt i = 0; i < r->output->nowned * components; ++i) {
       const MeshPlace *place = &places[i / components];
 
-      for (PetscInt a = 0; a < place->n; ++a) values[i] += RestartWeight(place, a, force) * PetscRealPart(s[components * RestartCellNode(&r->mesh, place->cell, a) + i % components]);
+      for (PetscInt a = 0; a < place->n; ++a)
+        values[i] += RestartWeight(place, a, force) *
+                     PetscRealPart(s[components * RestartCellNode(&r->mesh, place->cell, a) + i % components]);
     }
   } else {
     for (PetscInt i = 0; i < r->output->nowned * components; ++i) values[i] = PetscRealPart(s[i]);
@@ -276,13 +285,16 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
       PetscBool kept;
 
       PetscCall(CheckpointNamePairField(&r->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
-      if (kept) PetscCall(RestartReadField(r, name, CheckpointPairFields[k].components, CheckpointPairFields[k].sum, checkpoint));
+      if (kept)
+        PetscCall(
+          RestartReadField(r, name, CheckpointPairFields[k].components, CheckpointPairFields[k].sum, checkpoint));
     }
   }
   PetscFunctionReturn(0);
 }
 
-/* Is it HDF5, and all of it? The library would print a page of its own. The file's end stands at byte 40 of a superblock of version 0 */
+/* Is it HDF5, and all of it? The library would print a page of its own. The file's end stands at byte 40 of a
+   superblock of version 0 */
 static PetscErrorCode RestartCheckFile(const char file[])
 {
   unsigned char head[48] = {0};
@@ -297,8 +309,10 @@ static PetscErrorCode RestartCheckFile(const char file[])
     if (!fseek(stream, 0, SEEK_END)) length = ftell(stream);
     (void)fclose(stream);
   }
-  PetscCheck(n == sizeof(head) && !memcmp(head, "\211HDF\r\n\032\n", 8), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "it is no HDF5 file");
-  PetscCheck(length >= end, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", end, length);
+  PetscCheck(n == sizeof(head) && !memcmp(head, "\211HDF\r\n\032\n", 8), PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "it is no HDF5 file");
+  PetscCheck(length >= end, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", end, length);
   PetscFunctionReturn(0);
 }
 
@@ -373,8 +387,8 @@ static PetscErrorCode RestartDestroy(Restart *r)
    Level: intermediate
 
    Notes:
-   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks. Every rank holds the vertices of the whole file
-   meanwhile, unless they are the same.
+   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks. Every
+rank holds the vertices of the whole file meanwhile, unless they are the same.
 
    Errors: PETSC_ERR_FILE_OPEN for no file; PETSC_ERR_USER_INPUT for one of another scene, or no checkpoint at all.
 
@@ -395,7 +409,8 @@ PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint 
   PetscCall(RankErrorBegin(&error));
   ierr = RestartReadFile(&r, *checkpoint, same);
   PetscCall(RankErrorEnd(r.comm, ierr, &error));
-  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot go on from the checkpoint \"%s\": %s", file, error.message);
+  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot go on from the checkpoint \"%s\": %s", file,
+    error.message);
   PetscCall(RestartDestroy(&r));
   PetscFunctionReturn(0);
 }

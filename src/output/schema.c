@@ -1,6 +1,6 @@
 /*
-   The fields of a report: their keys, units, places and types, and their columns in the tables for people. The summary has them in
-   this order. A new field is a member in report.h and a line here.
+   The fields of a report: their keys, units, places and types, and their columns in the tables for people. The
+   summary has them in this order. A new field is a member in report.h and a line here.
 */
 #include "outputimpl.h"
 #include <math.h>
@@ -21,12 +21,18 @@
   }
 
 static const ReportField fallback_fields[] = {
-  FIELD(TaoIPFilterFallbacks, refinements, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f refined")}),
-  FIELD(TaoIPFilterFallbacks, amg_rebuilds, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with the AMG rebuilt")}),
-  FIELD(TaoIPFilterFallbacks, filters, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with more filter")}),
-  FIELD(TaoIPFilterFallbacks, direct, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f by MUMPS")}),
-  FIELD(TaoIPFilterFallbacks, failures, FIELD_INT, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f failed")}),
-  FIELD(TaoIPFilterFallbacks, backward_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "backward error at most %.1e")}),
+  FIELD(TaoIPFilterFallbacks, refinements, FIELD_INT, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f refined")}),
+  FIELD(TaoIPFilterFallbacks, amg_rebuilds, FIELD_INT, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with the AMG rebuilt")}),
+  FIELD(TaoIPFilterFallbacks, filters, FIELD_INT, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with more filter")}),
+  FIELD(TaoIPFilterFallbacks, direct, FIELD_INT, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f by MUMPS")}),
+  FIELD(TaoIPFilterFallbacks, failures, FIELD_INT, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f failed")}),
+  FIELD(TaoIPFilterFallbacks, backward_error, FIELD_REAL, "",
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "backward error at most %.1e")}),
   FIELD(TaoIPFilterFallbacks, subspaces, FIELD_INT, ""),
   END,
 };
@@ -34,13 +40,16 @@ const ReportRecord SchemaFallbacks = {sizeof(TaoIPFilterFallbacks), PETSC_TRUE, 
 
 static const ReportField pair_fields[] = {
   FIELD(PairReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_PAIRS, "pair", "", -24)}),
-  FIELD(PairReport, force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_PAIRS, "force on the nonmortar side", "", -41)}),
+  FIELD(PairReport, force, FIELD_VECTOR, "force",
+    .columns = {COLUMN(TABLE_PAIRS, "force on the nonmortar side", "", -41)}),
   FIELD(PairReport, moment, FIELD_VECTOR, "force length"),
   FIELD(PairReport, mortar_force, FIELD_VECTOR, "force"),
   FIELD(PairReport, mortar_moment, FIELD_VECTOR, "force length"),
-  FIELD(PairReport, normal_force, FIELD_REAL, "force", .columns = {COLUMN(TABLE_PAIRS, "normal", "", 12, .format = "%.6e")}),
+  FIELD(PairReport, normal_force, FIELD_REAL, "force",
+    .columns = {COLUMN(TABLE_PAIRS, "normal", "", 12, .format = "%.6e")}),
   FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
-  FIELD(PairReport, pressure, FIELD_REAL, "force/length^2", .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, pressure, FIELD_REAL, "force/length^2",
+    .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
   FIELD(PairReport, shear_force, FIELD_REAL, "force"),
   FIELD(PairReport, stick_area, FIELD_REAL, "length^2"),
   FIELD(PairReport, slip_area, FIELD_REAL, "length^2"),
@@ -65,16 +74,25 @@ static const ReportField ramp_fields[] = {
 static const ReportRecord SchemaRamps = {sizeof(RampReport), PETSC_TRUE, ramp_fields};
 
 #define PROBE_FIELDS \
-  FIELD(ProbeReport, place, FIELD_VECTOR, "length"), FIELD(ProbeReport, displacement, FIELD_VECTOR, "length"), FIELD(ProbeReport, stress_xx, FIELD_REAL, "force/length^2"), \
-    FIELD(ProbeReport, stress_yy, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_zz, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_xy, FIELD_REAL, "force/length^2"), \
-    FIELD(ProbeReport, stress_yz, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, stress_zx, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, von_mises, FIELD_REAL, "force/length^2"), \
-    FIELD(ProbeReport, principal_1, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, principal_2, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, principal_3, FIELD_REAL, "force/length^2"), \
-    FIELD(ProbeReport, contact_pressure, FIELD_REAL, "force/length^2"), FIELD(ProbeReport, contact_gap, FIELD_REAL, "length"), FIELD(ProbeReport, contact_status, FIELD_REAL, "")
+  FIELD(ProbeReport, place, FIELD_VECTOR, "length"), FIELD(ProbeReport, displacement, FIELD_VECTOR, "length"), \
+    FIELD(ProbeReport, stress_xx, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_yy, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_zz, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_xy, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_yz, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, stress_zx, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, von_mises, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, principal_1, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, principal_2, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, principal_3, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, contact_pressure, FIELD_REAL, "force/length^2"), \
+    FIELD(ProbeReport, contact_gap, FIELD_REAL, "length"), FIELD(ProbeReport, contact_status, FIELD_REAL, "")
 
 static const ReportField  probe_fields[] = {FIELD(ProbeReport, name, FIELD_TEXT, ""), PROBE_FIELDS, END};
 static const ReportRecord SchemaProbes   = {sizeof(ProbeReport), PETSC_TRUE, probe_fields};
 
-static const ReportField line_fields[] = {FIELD(ProbeReport, name, FIELD_TEXT, ""), FIELD(ProbeReport, arc, FIELD_REAL, "length"), PROBE_FIELDS, END};
+static const ReportField line_fields[] = {FIELD(ProbeReport, name, FIELD_TEXT, ""),
+  FIELD(ProbeReport, arc, FIELD_REAL, "length"), PROBE_FIELDS, END};
 const ReportRecord       SchemaLines   = {sizeof(ProbeReport), PETSC_TRUE, line_fields};
 
 static const ReportField body_fields[] = {
@@ -98,7 +116,8 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, filter_dofs, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "filter", "dofs", 8)}),
   FIELD(StepReport, ip_iterations, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "ip", "its", 4)}),
   FIELD(StepReport, ksp_iterations, FIELD_INTS, "", .count = offsetof(StepReport, nksp),
-        .columns = {COLUMN(TABLE_WORK, "pcg", "its", 6, .shown = SHOWN_SUM), COLUMN(TABLE_WORK, "pcg/ip", "", 6, .format = "%.1f", .shown = SHOWN_MEAN)}),
+    .columns = {COLUMN(TABLE_WORK, "pcg", "its", 6, .shown = SHOWN_SUM),
+      COLUMN(TABLE_WORK, "pcg/ip", "", 6, .format = "%.1f", .shown = SHOWN_MEAN)}),
   FIELD(StepReport, amg_applications, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "applic", 6)}),
   FIELD(StepReport, amg_setups, FIELD_INT, "", .columns = {COLUMN(TABLE_WORK, "amg", "set-ups", 7)}),
   FIELD(StepReport, factored, FIELD_BOOL, ""),
@@ -109,27 +128,39 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, systems, FIELD_INT, ""),
   FIELD(StepReport, filtered_systems, FIELD_INT, ""),
   FIELD(StepReport, linear, FIELD_RECORD, "", .record = &SchemaFallbacks),
-  FIELD(StepReport, energy, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
+  FIELD(StepReport, energy, FIELD_REAL, "force length",
+    .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, work, FIELD_REAL, "force length"),
   FIELD(StepReport, dissipated, FIELD_REAL, "force length"),
   FIELD(StepReport, contact_work, FIELD_REAL, "force length"),
-  FIELD(StepReport, potential, FIELD_REAL, "force length", .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
+  FIELD(StepReport, potential, FIELD_REAL, "force length",
+    .columns = {COLUMN(TABLE_TRUTH, "potential", "", 15, .format = "%.8e", .blanks = 1)}),
   FIELD(StepReport, equilibrium, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "equilibrium", "residual", 11)}),
   FIELD(StepReport, kkt_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_WORK, "KKT", "error", 9)}),
-  FIELD(StepReport, kkt_error_unscaled, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "unscaled", "KKT error", 10, .behind = PETSC_TRUE)}),
-  FIELD(StepReport, gap_min, FIELD_REAL, "length", .absent = "no contact", .columns = {COLUMN(TABLE_WORK, "smallest", "gap", 10)}),
-  FIELD(StepReport, gap_true, FIELD_REAL, "length", .absent = "no contact", .columns = {COLUMN(TABLE_TRUTH, "true", "gap", 10, .behind = PETSC_TRUE)}),
-  FIELD(StepReport, gap_change, FIELD_REAL, "length", .columns = {COLUMN(TABLE_TRUTH, "gap", "change", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, kkt_error_unscaled, FIELD_REAL, "",
+    .columns = {COLUMN(TABLE_TRUTH, "unscaled", "KKT error", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, gap_min, FIELD_REAL, "length", .absent = "no contact",
+    .columns = {COLUMN(TABLE_WORK, "smallest", "gap", 10)}),
+  FIELD(StepReport, gap_true, FIELD_REAL, "length", .absent = "no contact",
+    .columns = {COLUMN(TABLE_TRUTH, "true", "gap", 10, .behind = PETSC_TRUE)}),
+  FIELD(StepReport, gap_change, FIELD_REAL, "length",
+    .columns = {COLUMN(TABLE_TRUTH, "gap", "change", 10, .behind = PETSC_TRUE)}),
   FIELD(StepReport, gap_untrue, FIELD_BOOL, ""),
   FIELD(StepReport, gap_damped, FIELD_INT, ""),
-  FIELD(StepReport, complementarity, FIELD_REAL, "force/length", .columns = {COLUMN(TABLE_WORK, "complem.", "error", 9)}),
+  FIELD(StepReport, complementarity, FIELD_REAL, "force/length",
+    .columns = {COLUMN(TABLE_WORK, "complem.", "error", 9)}),
   FIELD(StepReport, action_reaction, FIELD_REAL, "", .columns = {COLUMN(TABLE_TRUTH, "action =", "reaction", 9)}),
-  FIELD(StepReport, algebraic_error, FIELD_REAL, "", .columns = {COLUMN(TABLE_ERRORS, "", "of the solver", 13, .blanks = 1)}),
+  FIELD(StepReport, algebraic_error, FIELD_REAL, "",
+    .columns = {COLUMN(TABLE_ERRORS, "", "of the solver", 13, .blanks = 1)}),
   FIELD(StepReport, error_estimate, FIELD_REAL, "", .absent = "",
-        .columns = {COLUMN(TABLE_ERRORS, "", "of the mesh", 13, .shown = SHOWN_SQUARE), COLUMN(TABLE_ERRORS, "", "all", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT, .blanks = 1)}),
-  FIELD(StepReport, body_errors, FIELD_BODY_REALS, "", .columns = {COLUMN(TABLE_ERRORS, "", "", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT)}),
-  FIELD(StepReport, contact_force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "contact force on the nonmortar side", "", -41, .blanks = 1)}),
-  FIELD(StepReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FORCES, "reaction on the driven faces", "", -41, .blanks = 1)}),
+    .columns = {COLUMN(TABLE_ERRORS, "", "of the mesh", 13, .shown = SHOWN_SQUARE),
+      COLUMN(TABLE_ERRORS, "", "all", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT, .blanks = 1)}),
+  FIELD(StepReport, body_errors, FIELD_BODY_REALS, "",
+    .columns = {COLUMN(TABLE_ERRORS, "", "", 10, .format = "%.3f %%", .shown = SHOWN_PERCENT)}),
+  FIELD(StepReport, contact_force, FIELD_VECTOR, "force",
+    .columns = {COLUMN(TABLE_FORCES, "contact force on the nonmortar side", "", -41, .blanks = 1)}),
+  FIELD(StepReport, reaction, FIELD_VECTOR, "force",
+    .columns = {COLUMN(TABLE_FORCES, "reaction on the driven faces", "", -41, .blanks = 1)}),
   FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
@@ -140,7 +171,8 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, lines, FIELD_LIST, "", .count = offsetof(StepReport, nlines), .record = &SchemaLines),
   FIELD(StepReport, solve_time, FIELD_DOUBLE, "s"),
   FIELD(StepReport, step_time, FIELD_DOUBLE, "s"),
-  FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged", .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
+  FIELD(StepReport, converged, FIELD_BOOL, "", .absent = "not converged",
+    .columns = {COLUMN(TABLE_WORK, "", "", 0, .blanks = 1)}),
   FIELD(StepReport, reason, FIELD_TEXT, ""),
   END,
 };
@@ -168,10 +200,12 @@ static const ReportField level_fields[] = {
   FIELD(AccuracyLevel, recovery, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "recovery", "", 10)}),
   FIELD(AccuracyLevel, change, FIELD_REAL, "", .absent = "-", .columns = {COLUMN(TABLE_LEVELS, "change", "", 10)}),
   FIELD(AccuracyLevel, error, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "mesh error", "", 12)}),
-  FIELD(AccuracyLevel, unseen, FIELD_BOOL, "", .absent = "", .columns = {COLUMN(TABLE_LEVELS, "", "", 0, .format = "beyond recovery", .behind = PETSC_TRUE)}),
+  FIELD(AccuracyLevel, unseen, FIELD_BOOL, "", .absent = "",
+    .columns = {COLUMN(TABLE_LEVELS, "", "", 0, .format = "beyond recovery", .behind = PETSC_TRUE)}),
   FIELD(AccuracyLevel, algebraic, FIELD_REAL, "", .columns = {COLUMN(TABLE_LEVELS, "solver error", "", 12)}),
   FIELD(AccuracyLevel, amg_applications, FIELD_INT, "", .columns = {COLUMN(TABLE_LEVELS, "amg", "applic", 8)}),
-  FIELD(AccuracyLevel, time, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_LEVELS, "time", "", 10, .with_unit = PETSC_TRUE)}),
+  FIELD(AccuracyLevel, time, FIELD_DOUBLE, "s",
+    .columns = {COLUMN(TABLE_LEVELS, "time", "", 10, .with_unit = PETSC_TRUE)}),
   END,
 };
 const ReportRecord SchemaLevels = {sizeof(AccuracyLevel), PETSC_TRUE, level_fields};
@@ -190,9 +224,11 @@ static const ReportRecord SchemaAccuracy = {sizeof(Accuracy), PETSC_FALSE, accur
 static const ReportField effect_fields[] = {
   FIELD(RunEffect, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_EFFECTS, "effect", "", -20)}),
   FIELD(RunEffect, on, FIELD_BOOL, "", .absent = "off", .columns = {COLUMN(TABLE_EFFECTS, "", "", -4, .format = "on")}),
-  FIELD(RunEffect, why, FIELD_CHARS, "", .columns = {COLUMN(TABLE_EFFECTS, "why", "", 0, .blanks = 1, .behind = PETSC_TRUE)}),
+  FIELD(RunEffect, why, FIELD_CHARS, "",
+    .columns = {COLUMN(TABLE_EFFECTS, "why", "", 0, .blanks = 1, .behind = PETSC_TRUE)}),
   FIELD(RunEffect, time, FIELD_DOUBLE, "s", .absent = "-",
-        .columns = {COLUMN(TABLE_EFFECTS, "time", "", 10, .with_unit = PETSC_TRUE), COLUMN(TABLE_EFFECTS, "share", "", 6, .format = "%.1f%%", .shown = SHOWN_SHARE)}),
+    .columns = {COLUMN(TABLE_EFFECTS, "time", "", 10, .with_unit = PETSC_TRUE),
+      COLUMN(TABLE_EFFECTS, "share", "", 6, .format = "%.1f%%", .shown = SHOWN_SHARE)}),
   END,
 };
 const ReportRecord SchemaEffects = {sizeof(RunEffect), PETSC_TRUE, effect_fields};
@@ -247,16 +283,11 @@ double SchemaNumber(const ReportField *field, const void *record)
   const void *value = SchemaAt(field, record);
 
   switch (field->type) {
-  case FIELD_INT:
-    return (double)*(const PetscInt *)value;
-  case FIELD_REAL:
-    return (double)*(const PetscReal *)value;
-  case FIELD_DOUBLE:
-    return *(const PetscLogDouble *)value;
-  case FIELD_BOOL:
-    return *(const PetscBool *)value ? 1.0 : 0.0;
-  default:
-    return NAN;
+  case FIELD_INT: return (double)*(const PetscInt *)value;
+  case FIELD_REAL: return (double)*(const PetscReal *)value;
+  case FIELD_DOUBLE: return *(const PetscLogDouble *)value;
+  case FIELD_BOOL: return *(const PetscBool *)value ? 1.0 : 0.0;
+  default: return NAN;
   }
 }
 

@@ -3,7 +3,8 @@
 #include <mesh.h>
 
 /* n values of a record in the dataset's order, from records of `stride` */
-static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
+static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components,
+  const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
   Vec          field;
   PetscScalar *f;
@@ -25,7 +26,8 @@ static const int mises[]    = {6};
 static const int highest[]  = {7, 8, 9};
 
 /* As StressWriteValues(), from records of the mesh's cells, whose pieces all have them */
-static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
+static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[],
+  PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
   PetscReal   *pieces;
   PetscInt     cstart, cend, at = 0;
@@ -36,7 +38,8 @@ static PetscErrorCode StressWritePieces(Output output, const char name[], PetscI
   PetscCall(PetscMalloc1(stride * output->ncellslocal, &pieces));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscCall(OutputGetPieces(output, c, &of));
-    for (PetscInt p = 0; p < of.n; ++p, ++at) PetscCall(PetscArraycpy(pieces + stride * at, values + stride * (c - cstart), stride));
+    for (PetscInt p = 0; p < of.n; ++p, ++at)
+      PetscCall(PetscArraycpy(pieces + stride * at, values + stride * (c - cstart), stride));
   }
   PetscCall(StressWriteValues(output, name, output->ncellslocal, components, order, stride, pieces, viewer));
   PetscCall(PetscFree(pieces));
@@ -48,7 +51,8 @@ PetscErrorCode StressWriteCells(Output output, const StepState *state, PetscView
   PetscFunctionBegin;
   PetscCall(StressWritePieces(output, "stress", 6, tensor6, 7, state->stress, viewer));
   PetscCall(StressWritePieces(output, "von_mises", 1, mises, 7, state->stress, viewer));
-  if (state->density) PetscCall(StressWritePieces(output, "strain_energy_density", 1, identity, 1, state->density, viewer));
+  if (state->density)
+    PetscCall(StressWritePieces(output, "strain_energy_density", 1, identity, 1, state->density, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -57,8 +61,10 @@ PetscErrorCode StressWriteNodes(Output output, const StepState *state, PetscView
   PetscFunctionBegin;
   if (!state->nodal) PetscFunctionReturn(0);
   PetscCall(StressWriteValues(output, "nodal_stress", output->nowned, 6, tensor6, STRESS_VALUES, state->nodal, viewer));
-  PetscCall(StressWriteValues(output, "nodal_von_mises", output->nowned, 1, mises, STRESS_VALUES, state->nodal, viewer));
-  PetscCall(StressWriteValues(output, "principal_stress", output->nowned, 3, highest, STRESS_VALUES, state->nodal, viewer));
+  PetscCall(
+    StressWriteValues(output, "nodal_von_mises", output->nowned, 1, mises, STRESS_VALUES, state->nodal, viewer));
+  PetscCall(
+    StressWriteValues(output, "principal_stress", output->nowned, 3, highest, STRESS_VALUES, state->nodal, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -85,6 +91,7 @@ PetscErrorCode StressWriteQuadrature(Output output, const StepState *state, Pets
   if (!state->quadrature) PetscFunctionReturn(0);
   PetscCall(StressWritePointCells(output, state->nquadrature, viewer));
   PetscCall(StressWriteValues(output, "gauss_points", state->nquadrature, 3, identity, 3, state->quadrature, viewer));
-  PetscCall(StressWriteValues(output, "gauss_stress", state->nquadrature, 6, tensor6, 6, state->quadrature_stress, viewer));
+  PetscCall(
+    StressWriteValues(output, "gauss_stress", state->nquadrature, 6, tensor6, 6, state->quadrature_stress, viewer));
   PetscFunctionReturn(0);
 }

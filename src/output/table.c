@@ -7,31 +7,22 @@ static const char *TableFormat(const ReportField *field, const ReportColumn *col
 {
   if (column->format) return column->format;
   switch (field->type) {
-  case FIELD_BOOL:
-    return "";
+  case FIELD_BOOL: return "";
   case FIELD_INT:
-  case FIELD_INTS:
-    return "%.0f";
-  case FIELD_DOUBLE:
-    return "%.3f";
-  case FIELD_VECTOR:
-    return "%13.6e";
-  default:
-    return "%.2e";
+  case FIELD_INTS: return "%.0f";
+  case FIELD_DOUBLE: return "%.3f";
+  case FIELD_VECTOR: return "%13.6e";
+  default: return "%.2e";
   }
 }
 
 static double TableShown(const RunReport *run, ReportShown shown, double value)
 {
   switch (shown) {
-  case SHOWN_SQUARE:
-    return value * value;
-  case SHOWN_PERCENT:
-    return 100 * value;
-  case SHOWN_SHARE:
-    return run->time.total > 0 ? 100 * value / run->time.total : 0.0;
-  default:
-    return value;
+  case SHOWN_SQUARE: return value * value;
+  case SHOWN_PERCENT: return 100 * value;
+  case SHOWN_SHARE: return run->time.total > 0 ? 100 * value / run->time.total : 0.0;
+  default: return value;
   }
 }
 
@@ -53,25 +44,19 @@ static void TableVector(const char format[], const PetscReal v[3], char text[], 
 }
 
 /* What a cell says, in `text` where it is a number; NULL: nothing at all */
-static const char *TableText(const RunReport *run, const ReportField *field, const ReportColumn *column, const void *record, char text[], size_t length)
+static const char *TableText(const RunReport *run, const ReportField *field, const ReportColumn *column,
+  const void *record, char text[], size_t length)
 {
   const char  *format = TableFormat(field, column);
   const double value  = SchemaNumber(field, record);
 
   switch (field->type) {
   case FIELD_TEXT:
-  case FIELD_CHARS:
-    return SchemaText(field, record);
-  case FIELD_BOOL:
-    return value != 0.0 ? format : field->absent;
-  case FIELD_VECTOR:
-    TableVector(format, (const PetscReal *)SchemaAt(field, record), text, length);
-    return text;
-  case FIELD_INTS:
-    (void)snprintf(text, length, format, TableSum(field, record, column->shown));
-    return text;
-  default:
-    break;
+  case FIELD_CHARS: return SchemaText(field, record);
+  case FIELD_BOOL: return value != 0.0 ? format : field->absent;
+  case FIELD_VECTOR: TableVector(format, (const PetscReal *)SchemaAt(field, record), text, length); return text;
+  case FIELD_INTS: (void)snprintf(text, length, format, TableSum(field, record, column->shown)); return text;
+  default: break;
   }
   if (isnan(value) && field->absent) return field->absent[0] ? field->absent : NULL;
   (void)snprintf(text, length, format, TableShown(run, column->shown, value));
@@ -79,15 +64,18 @@ static const char *TableText(const RunReport *run, const ReportField *field, con
 }
 
 /* A column as wide as what it says leaves no blanks where that is nothing */
-static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int width, const char text[], PetscViewer viewer)
+static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int width, const char text[],
+  PetscViewer viewer)
 {
   PetscFunctionBegin;
-  if (text && (text[0] || width)) PetscCall(PetscViewerASCIIPrintf(viewer, "%*s%*s", first ? 0 : 1 + column->blanks, "", width, text));
+  if (text && (text[0] || width))
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%*s%*s", first ? 0 : 1 + column->blanks, "", width, text));
   PetscFunctionReturn(0);
 }
 
 /* One column a body, headed by its name; record NULL: the heading */
-static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field, const ReportColumn *column, const void *record, PetscViewer viewer)
+static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field, const ReportColumn *column,
+  const void *record, PetscViewer viewer)
 {
   const PetscReal *values = record ? *(const PetscReal *const *)SchemaAt(field, record) : NULL;
   char             text[64];
@@ -97,13 +85,15 @@ static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field
   for (PetscInt b = 0; b < run->nbodies; ++b) {
     const int width = PetscMax(column->width, (int)strlen(run->bodies[b]));
 
-    if (record) (void)snprintf(text, sizeof(text), TableFormat(field, column), TableShown(run, column->shown, (double)values[b]));
+    if (record)
+      (void)snprintf(text, sizeof(text), TableFormat(field, column), TableShown(run, column->shown, (double)values[b]));
     PetscCall(TablePut(column, PETSC_FALSE, width, record ? text : run->bodies[b], viewer));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TableHead(const ReportField *field, const ReportColumn *column, PetscInt line, PetscBool first, PetscViewer viewer)
+static PetscErrorCode TableHead(const ReportField *field, const ReportColumn *column, PetscInt line, PetscBool first,
+  PetscViewer viewer)
 {
   char head[64];
 
@@ -114,7 +104,8 @@ static PetscErrorCode TableHead(const ReportField *field, const ReportColumn *co
 }
 
 /* The row of a record; NULL: a line of the heading */
-static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const ReportField fields[], const void *record, PetscInt line, PetscViewer viewer)
+static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const ReportField fields[], const void *record,
+  PetscInt line, PetscViewer viewer)
 {
   PetscBool first = PETSC_TRUE;
   char      text[128];
@@ -127,7 +118,9 @@ static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const R
 
         if ((column->table != table && column->table != TABLE_EVERY) || column->behind != (PetscBool)behind) continue;
         if (field->type == FIELD_BODY_REALS) PetscCall(TableBodies(run, field, column, record, viewer));
-        else if (record) PetscCall(TablePut(column, first, column->width, TableText(run, field, column, record, text, sizeof(text)), viewer));
+        else if (record)
+          PetscCall(
+            TablePut(column, first, column->width, TableText(run, field, column, record, text, sizeof(text)), viewer));
         else PetscCall(TableHead(field, column, line, first, viewer));
         first = PETSC_FALSE;
       }
@@ -137,22 +130,26 @@ static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const R
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TableViewHead(const RunReport *run, ReportTable table, const ReportRecord *type, PetscInt line, PetscViewer viewer)
+PetscErrorCode TableViewHead(const RunReport *run, ReportTable table, const ReportRecord *type, PetscInt line,
+  PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(TableLine(run, table, type->fields, NULL, line, viewer));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TableViewRows(const RunReport *run, ReportTable table, const ReportRecord *type, PetscInt n, const void *records, PetscViewer viewer)
+PetscErrorCode TableViewRows(const RunReport *run, ReportTable table, const ReportRecord *type, PetscInt n,
+  const void *records, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; ++i) PetscCall(TableLine(run, table, type->fields, (const char *)records + (size_t)i * type->size, 0, viewer));
+  for (PetscInt i = 0; i < n; ++i)
+    PetscCall(TableLine(run, table, type->fields, (const char *)records + (size_t)i * type->size, 0, viewer));
   PetscFunctionReturn(0);
 }
 
 /* The only column that a field has in a table, as text; NULL: it has none there, or says nothing */
-const char *TableGetText(const RunReport *run, ReportTable table, const ReportField *field, const void *record, char text[], size_t length)
+const char *TableGetText(const RunReport *run, ReportTable table, const ReportField *field, const void *record,
+  char text[], size_t length)
 {
   return field->columns[0].table == table ? TableText(run, field, &field->columns[0], record, text, length) : NULL;
 }

@@ -39,7 +39,9 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     const char                 *before = "linear solves: ";
     char                        text[64];
 
-    if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures && !linear->subspaces) continue;
+    if (!linear->refinements && !linear->amg_rebuilds && !linear->filters && !linear->direct && !linear->failures &&
+        !linear->subspaces)
+      continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  ", report->steps[s].step));
     for (const ReportField *field = SchemaFallbacks.fields; field->name; ++field) {
       const char *said = TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text));
@@ -48,7 +50,9 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", said));
       before = ", ";
     }
-    if (linear->subspaces) PetscCall(PetscViewerASCIIPrintf(viewer, "; the filtered subspace left %" PetscInt_FMT " times for the interior point method", linear->subspaces));
+    if (linear->subspaces)
+      PetscCall(PetscViewerASCIIPrintf(viewer,
+        "; the filtered subspace left %" PetscInt_FMT " times for the interior point method", linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
@@ -63,7 +67,11 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     if (report->steps[s].factored && !n++) first = report->steps[s].step;
   }
-  if (n) PetscCall(PetscViewerASCIIPrintf(viewer, "MUMPS in place of AMG, from load step %" PetscInt_FMT " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n", first));
+  if (n)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "MUMPS in place of AMG, from load step %" PetscInt_FMT
+      " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n",
+      first));
   PetscFunctionReturn(0);
 }
 
@@ -71,7 +79,8 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy", "discretization error in the energy norm, and the bodies' parts of it"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy",
+    "discretization error in the energy norm, and the bodies' parts of it"));
   PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
   PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
   PetscFunctionReturn(0);
@@ -87,7 +96,8 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
       const double time = SchemaNumber(field, &report->time);
 
       if (field->columns[0].behind != (PetscBool)behind) continue;
-      PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10.3f %5.1f%%\n", field->columns[0].head[0], time, report->time.total > 0 ? 100 * time / report->time.total : 0.0));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%-15s %10.3f %5.1f%%\n", field->columns[0].head[0], time,
+        report->time.total > 0 ? 100 * time / report->time.total : 0.0));
     }
   }
   PetscFunctionReturn(0);
@@ -102,11 +112,17 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
   PetscFunctionBegin;
   if (!report->contact_free.iterations) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < report->nsteps; ++s) {
-    for (PetscInt i = 0; i < report->steps[s].nksp; ++i) largest = PetscMax(largest, report->steps[s].ksp_iterations[i]);
+    for (PetscInt i = 0; i < report->steps[s].nksp; ++i)
+      largest = PetscMax(largest, report->steps[s].ksp_iterations[i]);
     mean += report->steps[s].solve_time / report->nsteps;
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nWithout contact: %" PetscInt_FMT " PCG iterations to 1e-10, condition number %.4g, %.3f s\n", report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "With contact: at most %" PetscInt_FMT " PCG iterations a Newton system, bound %.0f; a load step costs %.2f solves without contact\n", largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "\nWithout contact: %" PetscInt_FMT " PCG iterations to 1e-10, condition number %.4g, %.3f s\n",
+    report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "With contact: at most %" PetscInt_FMT
+    " PCG iterations a Newton system, bound %.0f; a load step costs %.2f solves without contact\n",
+    largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
   PetscFunctionReturn(0);
 }
 
@@ -116,7 +132,11 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
   const double n = report->dofs ? 1e3 * (double)report->dofs : 1.0;
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n", report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n, (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n, (report->peak_memory_bytes - report->memory.assembly) / n));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n",
+    report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n,
+    (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n,
+    (report->peak_memory_bytes - report->memory.assembly) / n));
   PetscFunctionReturn(0);
 }
 
@@ -161,7 +181,9 @@ PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
 PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n", report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "\nProblem %s: %" PetscInt_FMT " unknowns, refinement %" PetscInt_FMT ", %" PetscInt_FMT " rank%s: %s\n",
+    report->problem, report->dofs, report->refine, report->ranks, report->ranks == 1 ? "" : "s", report->reason));
   if (report->units && report->units[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "Units: %s\n", report->units));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewSteps(report, TABLE_WORK, 2, viewer));

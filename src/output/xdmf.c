@@ -22,9 +22,11 @@ static void XDMFWriteEscaped(FILE *stream, const char text[])
   }
 }
 
-static void XDMFWriteDataItem(FILE *stream, const char file[], const char dataset[], PetscBool integer, PetscInt n, PetscInt components)
+static void XDMFWriteDataItem(FILE *stream, const char file[], const char dataset[], PetscBool integer, PetscInt n,
+  PetscInt components)
 {
-  fprintf(stream, "          <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%" PetscInt_FMT, integer ? "Int" : "Float", integer ? (int)sizeof(PetscInt) : (int)sizeof(PetscReal), n);
+  fprintf(stream, "          <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%" PetscInt_FMT,
+    integer ? "Int" : "Float", integer ? (int)sizeof(PetscInt) : (int)sizeof(PetscReal), n);
   /* PETSc stores index sets with a second dimension, vectors of scalars without */
   if (integer || components > 1) fprintf(stream, " %" PetscInt_FMT, components);
   fputs("\">", stream);
@@ -32,7 +34,8 @@ static void XDMFWriteDataItem(FILE *stream, const char file[], const char datase
   fprintf(stream, ":/%s</DataItem>\n", dataset);
 }
 
-static void XDMFWriteAttribute(FILE *stream, const char file[], const char name[], const char type[], const char center[], PetscBool integer, PetscInt n, PetscInt components)
+static void XDMFWriteAttribute(FILE *stream, const char file[], const char name[], const char type[],
+  const char center[], PetscBool integer, PetscInt n, PetscInt components)
 {
   fprintf(stream, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", name, type, center);
   XDMFWriteDataItem(stream, file, name, integer, n, components);
@@ -41,8 +44,10 @@ static void XDMFWriteAttribute(FILE *stream, const char file[], const char name[
 
 static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
 {
-  fprintf(stream, "        <Topology TopologyType=\"%s\" NumberOfElements=\"%" PetscInt_FMT "\">\n", output->mixed ? "Mixed" : "Hexahedron", output->ncells);
-  XDMFWriteDataItem(stream, file, OutputCellsName(output), PETSC_TRUE, output->mixed ? output->nindices : output->ncells, output->mixed ? 1 : 8);
+  fprintf(stream, "        <Topology TopologyType=\"%s\" NumberOfElements=\"%" PetscInt_FMT "\">\n",
+    output->mixed ? "Mixed" : "Hexahedron", output->ncells);
+  XDMFWriteDataItem(stream, file, OutputCellsName(output), PETSC_TRUE,
+    output->mixed ? output->nindices : output->ncells, output->mixed ? 1 : 8);
   fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
   XDMFWriteDataItem(stream, file, "vertices", PETSC_FALSE, output->nvertices, 3);
   fputs("        </Geometry>\n", stream);
@@ -73,7 +78,8 @@ static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char f
 
     if (fields[i].friction && !output->friction) continue;
     PetscCall(PetscSNPrintf(name, sizeof(name), "%s%s%s", fields[i].name, pair ? "_" : "", pair ? pair : ""));
-    XDMFWriteAttribute(stream, file, name, vector ? "Vector" : "Scalar", "Node", PETSC_FALSE, output->nvertices, vector ? 3 : 1);
+    XDMFWriteAttribute(stream, file, name, vector ? "Vector" : "Scalar", "Node", PETSC_FALSE, output->nvertices,
+      vector ? 3 : 1);
   }
   PetscFunctionReturn(0);
 }
@@ -88,7 +94,9 @@ static void XDMFWriteNodalStress(FILE *stream, Output output, const char file[])
 
 static void XDMFBeginStep(FILE *stream, const OutputStep *step)
 {
-  fprintf(stream, "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", step->step, (double)step->time);
+  fprintf(stream,
+    "      <Grid Name=\"step %" PetscInt_FMT "\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", step->step,
+    (double)step->time);
 }
 
 static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
@@ -111,7 +119,8 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
     XDMFWriteMeshGrid(stream, output, mesh);
     XDMFWriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
     PetscCall(XDMFWriteContact(stream, output, file, NULL));
-    for (PetscInt p = 0; p < output->npairs; ++p) PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
+    for (PetscInt p = 0; p < output->npairs; ++p)
+      PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
     XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
     XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
     if (output->nodes) XDMFWriteNodalStress(stream, output, file);
@@ -128,11 +137,15 @@ static PetscErrorCode XDMFWriteCloud(FILE *stream, const void *ctx)
   char   file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
-  fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
+  fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n    <Grid Name=\"load steps\" "
+        "GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+    stream);
   for (PetscInt s = 0; s < output->nsteps; ++s) {
     PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));
     XDMFBeginStep(stream, &output->steps[s]);
-    fprintf(stream, "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%" PetscInt_FMT "\" NodesPerElement=\"1\">\n", output->nquadrature);
+    fprintf(stream,
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%" PetscInt_FMT "\" NodesPerElement=\"1\">\n",
+      output->nquadrature);
     XDMFWriteDataItem(stream, file, "gauss_cells", PETSC_TRUE, output->nquadrature, 1);
     fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", stream);
     XDMFWriteDataItem(stream, file, "gauss_points", PETSC_FALSE, output->nquadrature, 3);

@@ -101,6 +101,7 @@ PetscErrorCode SceneReadBodyName(SceneKeys keys, Scene scene, const char list[],
     PetscCall(PetscStrcmp(text, scene->bodies[b].name, &same));
     if (same) *body = b;
   }
-  if (*body < 0) PetscCall(SceneKeysComplain(keys, "%s_%s_body is \"%s\", which is no body of the scene", list, name, text));
+  if (*body < 0)
+    PetscCall(SceneKeysComplain(keys, "%s_%s_body is \"%s\", which is no body of the scene", list, name, text));
   PetscFunctionReturn(0);
 }

@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* Top level keys that say how a simulation goes on, and how it is solved */
-static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model", "contact_updates", "displacement_bounds", "solver"};
+static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model",
+  "contact_updates", "displacement_bounds", "solver"};
 
 /*@C
    SceneGetText - The scene as `SceneView()` prints it
@@ -50,17 +51,22 @@ typedef struct {
 static PetscBool SceneLinesAdvance(SceneLines *lines)
 {
   while (*lines->next) {
-    const size_t length = strcspn(lines->next, "\n"), indent = strspn(lines->next, " "), kept = PetscMin(length, sizeof(lines->line) - 1);
-    PetscBool    counts = PETSC_TRUE;
+    const size_t length = strcspn(lines->next, "\n"), indent = strspn(lines->next, " "),
+                 kept = PetscMin(length, sizeof(lines->line) - 1);
+    PetscBool counts  = PETSC_TRUE;
 
     memcpy(lines->line, lines->next, kept);
     lines->line[kept] = 0;
     lines->next += length + (lines->next[length] == '\n');
     if (!indent) {
-      (void)snprintf(lines->top, sizeof(lines->top), "%.*s", (int)PetscMin(strcspn(lines->line, ":"), sizeof(lines->top) - 1), lines->line);
+      (void)snprintf(lines->top, sizeof(lines->top), "%.*s",
+        (int)PetscMin(strcspn(lines->line, ":"), sizeof(lines->top) - 1), lines->line);
       lines->entry[0] = 0;
-    } else if (lines->line[indent] == '-') (void)snprintf(lines->entry, sizeof(lines->entry), " %.*s", (int)PetscMin(strcspn(lines->line + indent + 2, ":"), sizeof(lines->entry) - 2), lines->line + indent + 2);
-    for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(free_keys); ++i) counts = (PetscBool)(counts && strcmp(lines->top, free_keys[i]));
+    } else if (lines->line[indent] == '-')
+      (void)snprintf(lines->entry, sizeof(lines->entry), " %.*s",
+        (int)PetscMin(strcspn(lines->line + indent + 2, ":"), sizeof(lines->entry) - 2), lines->line + indent + 2);
+    for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(free_keys); ++i)
+      counts = (PetscBool)(counts && strcmp(lines->top, free_keys[i]));
     if (counts) return PETSC_TRUE;
   }
   return PETSC_FALSE;
@@ -110,7 +116,8 @@ PetscErrorCode SceneCompare(Scene scene, const char text[], char difference[], s
   if (!same) {
     const SceneLines *where = more[0] ? &here : &there;
 
-    PetscCall(PetscSNPrintf(difference, length, "%s%s: the scene has %s where it had %s", where->top, where->entry, SceneLinesSay(&here, more[0]), SceneLinesSay(&there, more[1])));
+    PetscCall(PetscSNPrintf(difference, length, "%s%s: the scene has %s where it had %s", where->top, where->entry,
+      SceneLinesSay(&here, more[0]), SceneLinesSay(&there, more[1])));
   }
   PetscCall(PetscFree(own));
   PetscFunctionReturn(0);

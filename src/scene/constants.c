@@ -38,20 +38,11 @@ static const MaterialConstant orthotropic[] = {
 static PetscInt MaterialConstants(MaterialType type, const MaterialConstant **constants)
 {
   switch (type) {
-  case MATERIAL_LINEAR:
-    *constants = isotropic;
-    return 3;
-  case MATERIAL_MOONEY_RIVLIN:
-    *constants = mooney_rivlin;
-    return PETSC_STATIC_ARRAY_LENGTH(mooney_rivlin);
-  case MATERIAL_ORTHOTROPIC:
-    *constants = orthotropic;
-    return PETSC_STATIC_ARRAY_LENGTH(orthotropic);
-  case MATERIAL_RIGID:
-    return 0;
-  default:
-    *constants = isotropic;
-    return 2;
+  case MATERIAL_LINEAR: *constants = isotropic; return 3;
+  case MATERIAL_MOONEY_RIVLIN: *constants = mooney_rivlin; return PETSC_STATIC_ARRAY_LENGTH(mooney_rivlin);
+  case MATERIAL_ORTHOTROPIC: *constants = orthotropic; return PETSC_STATIC_ARRAY_LENGTH(orthotropic);
+  case MATERIAL_RIGID: return 0;
+  default: *constants = isotropic; return 2;
   }
 }
 
@@ -82,7 +73,10 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
   PetscFunctionBegin;
   if (!MaterialIsFinite(material)) PetscFunctionReturn(0);
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_expansion", owner));
-  if (text) PetscCall(SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand", owner, MaterialTypes[material->type]));
+  if (text)
+    PetscCall(
+      SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
+        owner, MaterialTypes[material->type]));
   PetscFunctionReturn(0);
 }
 
@@ -102,7 +96,8 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
     PetscCall(SceneKeysGet(keys, (PetscBool)(constants[i].required && !listed), &text, "%s", key));
     if (text && constants[i].n == 1) PetscCall(SceneParseReal(keys, key, text, value));
     else if (text) PetscCall(SceneParseReals(keys, key, text, constants[i].n, value));
-    if (text && MaterialConstantIsAxis(&constants[i]) && !MaterialConstantIsSet(&constants[i], value)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
+    if (text && MaterialConstantIsAxis(&constants[i]) && !MaterialConstantIsSet(&constants[i], value))
+      PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
   PetscCall(SceneReadNoExpansion(keys, owner, material));
   PetscCall(MaterialSetScale(material));
@@ -123,8 +118,7 @@ static PetscErrorCode ConstantView(const MaterialConstant *constant, const Petsc
 
 static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
 {
-  const char *name = constant == &isotropic[0] ? "E" : constant == &isotropic[1] ? "nu"
-                                                                                 : constant->name;
+  const char *name = constant == &isotropic[0] ? "E" : constant == &isotropic[1] ? "nu" : constant->name;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
@@ -133,7 +127,8 @@ static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const P
 }
 
 /* Those that are required or not 0 */
-static PetscErrorCode ConstantsShow(const Material *material, PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
+static PetscErrorCode ConstantsShow(const Material *material,
+  PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
   const MaterialConstant *constants;
   const PetscInt          n    = MaterialConstants(material->type, &constants);
@@ -172,13 +167,19 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 3; ++i) {
-    PetscCheck(m->youngs[i] > 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has Young's modulus young = %g along axis %" PetscInt_FMT ", which must be above 0", file, body->name, (double)m->youngs[i], i + 1);
-    PetscCheck(m->shears[i] > 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has a shear modulus shear = %g, which must be above 0", file, body->name, (double)m->shears[i]);
+    PetscCheck(m->youngs[i] > 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has Young's modulus young = %g along axis %" PetscInt_FMT ", which must be above 0", file,
+      body->name, (double)m->youngs[i], i + 1);
+    PetscCheck(m->shears[i] > 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has a shear modulus shear = %g, which must be above 0", file, body->name, (double)m->shears[i]);
   }
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   ierr = MaterialGetModuli(m, &moduli, NULL);
   PetscCall(PetscPopErrorHandler());
-  PetscCheck(!ierr, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, with which some strain has no positive energy, or its first_axis and second_axis are along one line", file, body->name, (double)m->poissons[0], (double)m->poissons[1], (double)m->poissons[2]);
+  PetscCheck(!ierr, comm, PETSC_ERR_USER_INPUT,
+    "%s: body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, with which some strain "
+    "has no positive energy, or its first_axis and second_axis are along one line",
+    file, body->name, (double)m->poissons[0], (double)m->poissons[1], (double)m->poissons[2]);
   PetscFunctionReturn(0);
 }
 
@@ -189,15 +190,20 @@ PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const Sc
   PetscFunctionBegin;
   switch (m->type) {
   case MATERIAL_MOONEY_RIVLIN:
-    PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has c10 = %g and c01 = %g, of which none may be negative, or its energy has no lower bound, nor both be 0", file, body->name, (double)m->c10, (double)m->c01);
-    PetscCheck(m->bulk > 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has a bulk modulus bulk = %g, which must be above 0", file, body->name, (double)m->bulk);
+    PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has c10 = %g and c01 = %g, of which none may be negative, or its energy has no lower bound, nor "
+      "both be 0",
+      file, body->name, (double)m->c10, (double)m->c01);
+    PetscCheck(m->bulk > 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has a bulk modulus bulk = %g, which must be above 0", file, body->name, (double)m->bulk);
     break;
-  case MATERIAL_ORTHOTROPIC:
-    PetscCall(SceneValidateOrthotropic(comm, file, body));
-    break;
+  case MATERIAL_ORTHOTROPIC: PetscCall(SceneValidateOrthotropic(comm, file, body)); break;
   default:
-    PetscCheck(m->young > 0, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)m->young);
-    PetscCheck(m->poisson > -1 && m->poisson < 0.5, comm, PETSC_ERR_USER_INPUT, "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file, body->name, (double)m->poisson);
+    PetscCheck(m->young > 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)m->young);
+    PetscCheck(m->poisson > -1 && m->poisson < 0.5, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file,
+      body->name, (double)m->poisson);
   }
   PetscFunctionReturn(0);
 }

@@ -14,21 +14,28 @@ static PetscErrorCode SceneReadInterference(SceneKeys keys, Scene scene, SceneCo
   if (ramp) PetscCall(SceneReadRampName(keys, scene, "contact", pair->name, &pair->interference_ramp));
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_interference", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (ramp && !text) PetscCall(SceneKeysComplain(keys, "contact_%s_ramp is what an interference follows, but %s is missing", pair->name, key));
+  if (ramp && !text)
+    PetscCall(
+      SceneKeysComplain(keys, "contact_%s_ramp is what an interference follows, but %s is missing", pair->name, key));
   if (!text) PetscFunctionReturn(0);
   PetscCall(PetscStrcasecmp(text, "true", &any));
   PetscCall(PetscStrcasecmp(text, "false", &none));
-  if (ramp && (any || none)) PetscCall(SceneKeysComplain(keys, "%s is %s; one that follows a ramp is the largest overlap that is meant", key, text));
+  if (ramp && (any || none))
+    PetscCall(
+      SceneKeysComplain(keys, "%s is %s; one that follows a ramp is the largest overlap that is meant", key, text));
   if (any) pair->interference = PETSC_INFINITY;
   else if (!none) {
     PetscCall(SceneParseReal(keys, key, text, &pair->interference));
-    if (pair->interference < 0.0) PetscCall(SceneKeysComplain(keys, "%s is %s; it is true, false, or the largest overlap that is meant", key, text));
+    if (pair->interference < 0.0)
+      PetscCall(
+        SceneKeysComplain(keys, "%s is %s; it is true, false, or the largest overlap that is meant", key, text));
   }
   PetscFunctionReturn(0);
 }
 
 /* A number of a pair that is not negative; *given: the file has it */
-static PetscErrorCode SceneReadNotNegative(SceneKeys keys, const char pair[], const char what[], PetscReal *value, PetscBool *given)
+static PetscErrorCode SceneReadNotNegative(SceneKeys keys, const char pair[], const char what[], PetscReal *value,
+  PetscBool *given)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -58,13 +65,18 @@ static PetscErrorCode SceneReadFriction(SceneKeys keys, Scene scene, SceneContac
   PetscCall(PetscSNPrintf(key, sizeof(key), "contact_%s_stick", pair->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseAnswer(keys, key, text, &sticks));
-  if (sticks && (coefficient || limit)) PetscCall(SceneKeysComplain(keys, "%s is true: a face that sticks whatever the force has no friction or shear_limit beside it", key));
+  if (sticks && (coefficient || limit))
+    PetscCall(SceneKeysComplain(keys,
+      "%s is true: a face that sticks whatever the force has no friction or shear_limit beside it", key));
   if (sticks || (limit && !coefficient)) pair->friction = PETSC_INFINITY;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "contact_%s_friction_ramp", pair->name));
   if (!text) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(key, sizeof(key), "%s_friction", pair->name));
   PetscCall(SceneReadRampName(keys, scene, "contact", key, &pair->friction_ramp));
-  if (!coefficient) PetscCall(SceneKeysComplain(keys, "contact_%s_friction_ramp is what a coefficient follows, but contact_%s_friction is missing", pair->name, pair->name));
+  if (!coefficient)
+    PetscCall(SceneKeysComplain(keys,
+      "contact_%s_friction_ramp is what a coefficient follows, but contact_%s_friction is missing", pair->name,
+      pair->name));
   PetscFunctionReturn(0);
 }
 

@@ -57,7 +57,9 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   const PetscScalar *x;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) meshes[b] = (BodyMesh){0, 0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
+  for (PetscInt b = 0; b < nbodies; ++b)
+    meshes[b] = (BodyMesh){0, 0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
+      {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   PetscCall(DMPlexGetChart(dm, &first, &last));
   PetscCall(PetscBTCreate(last - first, &met));
@@ -96,19 +98,26 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const PetscInt orders[]
     const SceneBody *body = &scene->bodies[b];
     const BodyMesh  *mesh = &meshes[b];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name, BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1], (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name,
+      BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1],
+      (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
     if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
     else {
       PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s", MaterialTypes[body->material.type]));
       PetscCall(SceneDescribeConstants(&body->material, viewer));
       PetscCall(PetscViewerASCIIPrintf(viewer, "; element %s\n", ElementTypes[body->element]));
     }
-    PetscCall(PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", orders[b] > 1 ? " of order 2" : "", mesh->nnodes, orders[b] > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n",
+        mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", orders[b] > 1 ? " of order 2" : "", mesh->nnodes,
+        orders[b] > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
     order = PetscMax(order, orders[b]);
     ncells += mesh->ncells;
     nnodes += mesh->nnodes;
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes, order > 1 ? "nodes" : "vertices", 3 * nnodes));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes,
+    order > 1 ? "nodes" : "vertices", 3 * nnodes));
   PetscCall(PetscFree(meshes));
   PetscFunctionReturn(0);
 }
@@ -156,7 +165,9 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(DescribeMeasureFace(dm, faces[order[i]], &nfacets, &area));
-    if (nfacets) PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets, (double)area));
+    if (nfacets)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets,
+        (double)area));
   }
   PetscCall(PetscFree2(faces, order));
   PetscFunctionReturn(0);
@@ -171,42 +182,61 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
 
     PetscCall(PetscViewerASCIIPrintf(viewer, "  displacement %s: %s", here->name, here->face));
     for (PetscInt i = 0; i < 3; ++i) {
-      if (here->fixed[i] || (SceneIsWholeBody(here->face) && !here->released[i])) PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
+      if (here->fixed[i] || (SceneIsWholeBody(here->face) && !here->released[i]))
+        PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
     }
     for (PetscInt i = 0; i < 6; ++i) {
-      if (here->released[i]) PetscCall(PetscViewerASCIIPrintf(viewer, ", free %s %c", i < 3 ? "along" : "about", "xyz"[i % 3]));
+      if (here->released[i])
+        PetscCall(PetscViewerASCIIPrintf(viewer, ", free %s %c", i < 3 ? "along" : "about", "xyz"[i % 3]));
     }
-    if (here->inclined) PetscCall(PetscViewerASCIIPrintf(viewer, ", no displacement along (%.6g, %.6g, %.6g)", (double)here->normal[0], (double)here->normal[1], (double)here->normal[2]));
-    if (SceneRotates(here)) PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)", (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0], (double)here->center[1], (double)here->center[2]));
+    if (here->inclined)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", no displacement along (%.6g, %.6g, %.6g)", (double)here->normal[0],
+        (double)here->normal[1], (double)here->normal[2]));
+    if (SceneRotates(here))
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)",
+        (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0],
+        (double)here->center[1], (double)here->center[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }
   for (PetscInt p = 0; p < scene->npressures; ++p) {
     const ScenePressure *here = &scene->pressures[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g%s, follows %s\n", here->name, here->face, (double)here->value, here->follows ? " on the deformed face" : "", scene->ramps[here->ramp].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g%s, follows %s\n", here->name, here->face,
+      (double)here->value, here->follows ? " on the deformed face" : "", scene->ramps[here->ramp].name));
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     const SceneTraction *here = &scene->tractions[t];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s %s: %s, (%.6g, %.6g, %.6g)", here->resultant ? "force" : "traction", here->name, here->face, (double)here->value[0], (double)here->value[1], (double)here->value[2]));
-    if (here->placed) PetscCall(PetscViewerASCIIPrintf(viewer, ", at (%.6g, %.6g, %.6g)", (double)here->point[0], (double)here->point[1], (double)here->point[2]));
-    if (here->resultant) PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0], (double)here->moment[1], (double)here->moment[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s %s: %s, (%.6g, %.6g, %.6g)", here->resultant ? "force" : "traction",
+      here->name, here->face, (double)here->value[0], (double)here->value[1], (double)here->value[2]));
+    if (here->placed)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", at (%.6g, %.6g, %.6g)", (double)here->point[0],
+        (double)here->point[1], (double)here->point[2]));
+    if (here->resultant)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0],
+        (double)here->moment[1], (double)here->moment[2]));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
   }
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     const SceneSpring *here = &scene->springs[s];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s%s%s, stiffness (%.6g, %.6g, %.6g) per area\n", here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0], (double)here->value[1], (double)here->value[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s%s%s, stiffness (%.6g, %.6g, %.6g) per area\n",
+      here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0],
+      (double)here->value[1], (double)here->value[2]));
   }
   for (PetscInt f = 0; f < scene->nforces; ++f) {
     const SceneBodyForce *here = &scene->forces[f];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  body force %s: %s, (%.6g, %.6g, %.6g), follows %s\n", here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name, (double)here->value[0], (double)here->value[1], (double)here->value[2], scene->ramps[here->ramp].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  body force %s: %s, (%.6g, %.6g, %.6g), follows %s\n", here->name,
+      here->body < 0 ? "every body" : scene->bodies[here->body].name, (double)here->value[0], (double)here->value[1],
+      (double)here->value[2], scene->ramps[here->ramp].name));
   }
   for (PetscInt t = 0; t < scene->ntemperatures; ++t) {
     const SceneTemperature *here = &scene->temperatures[t];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  temperature %s: %s, %s, follows %s\n", here->name, here->body < 0 ? "every body that expands" : scene->bodies[here->body].name, here->value, scene->ramps[here->ramp].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  temperature %s: %s, %s, follows %s\n", here->name,
+      here->body < 0 ? "every body that expands" : scene->bodies[here->body].name, here->value,
+      scene->ramps[here->ramp].name));
   }
   PetscFunctionReturn(0);
 }
@@ -221,7 +251,9 @@ static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscVi
   PetscCall(DescribeMeasureFace(dm, pair->mortar, &n[0], &area[0]));
   PetscCall(DescribeMeasureFace(dm, pair->nonmortar, &n[1], &area[1]));
   for (PetscInt i = 0; i < 2; ++i) size[i] = n[i] ? area[i] / n[i] : 0.0;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1], size[1] > 4.0 * size[0] ? ": the coarser side has the constraints, the finer one would be better" : ""));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1],
+    size[1] > 4.0 * size[0] ? ": the coarser side has the constraints, the finer one would be better" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -232,7 +264,8 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *here = &scene->pairs[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar, here->nonmortar, GapTypes[here->gap]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar,
+      here->nonmortar, GapTypes[here->gap]));
     if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
     else PetscCall(PetscViewerASCIIPrintf(viewer, "facets within a distance chosen from the size of the faces\n"));
     PetscCall(DescribeSides(dm, here, viewer));
@@ -244,7 +277,9 @@ static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
   if (scene->nties) PetscCall(PetscViewerASCIIPrintf(viewer, "Ties\n"));
-  for (PetscInt t = 0; t < scene->nties; ++t) PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: nonmortar %s to mortar %s\n", scene->ties[t].name, scene->ties[t].nonmortar, scene->ties[t].mortar));
+  for (PetscInt t = 0; t < scene->nties; ++t)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: nonmortar %s to mortar %s\n", scene->ties[t].name,
+      scene->ties[t].nonmortar, scene->ties[t].mortar));
   PetscFunctionReturn(0);
 }
 
@@ -260,12 +295,18 @@ static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer
     const SceneRefinement *here = &scene->refinements[r];
     const char            *both = here->face[1] ? " and " : "";
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " levels within %.6g of ", here->name, here->levels, (double)here->distance));
-    if (here->face[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s\n", here->face[0], both, here->face[1] ? here->face[1] : ""));
-    else PetscCall(PetscViewerASCIIPrintf(viewer, "a box, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", (double)here->lower[0], (double)here->upper[0], (double)here->lower[1], (double)here->upper[1], (double)here->lower[2], (double)here->upper[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " levels within %.6g of ", here->name, here->levels,
+      (double)here->distance));
+    if (here->face[0])
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s\n", here->face[0], both, here->face[1] ? here->face[1] : ""));
+    else
+      PetscCall(PetscViewerASCIIPrintf(viewer, "a box, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n",
+        (double)here->lower[0], (double)here->upper[0], (double)here->lower[1], (double)here->upper[1],
+        (double)here->lower[2], (double)here->upper[2]));
   }
   PetscCall(MeshCountHanging(dm, &nhanging));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  vertices that hang between coarser and finer cells: %" PetscInt_FMT "\n", nhanging));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  vertices that hang between coarser and finer cells: %" PetscInt_FMT "\n",
+    nhanging));
   PetscFunctionReturn(0);
 }
 
@@ -285,9 +326,13 @@ static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
   for (PetscInt p = 0; p < scene->nprobes; ++p) {
     const SceneProbe *here = &scene->probes[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: (%.6g, %.6g, %.6g)", here->name, (double)here->from[0], (double)here->from[1], (double)here->from[2]));
-    if (here->line) PetscCall(PetscViewerASCIIPrintf(viewer, " to (%.6g, %.6g, %.6g), %" PetscInt_FMT " points", (double)here->to[0], (double)here->to[1], (double)here->to[2], here->n));
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", in %s\n", here->body < 0 ? "any body" : scene->bodies[here->body].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: (%.6g, %.6g, %.6g)", here->name, (double)here->from[0],
+      (double)here->from[1], (double)here->from[2]));
+    if (here->line)
+      PetscCall(PetscViewerASCIIPrintf(viewer, " to (%.6g, %.6g, %.6g), %" PetscInt_FMT " points", (double)here->to[0],
+        (double)here->to[1], (double)here->to[2], here->n));
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, ", in %s\n", here->body < 0 ? "any body" : scene->bodies[here->body].name));
   }
   PetscFunctionReturn(0);
 }
@@ -301,14 +346,16 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   for (PetscInt i = 0; i < scene->nsteps; ++i) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %4" PetscInt_FMT, i + 1));
-    for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(PetscViewerASCIIPrintf(viewer, " %12.6g", (double)scene->ramps[r].factor[i]));
+    for (PetscInt r = 0; r < scene->nramps; ++r)
+      PetscCall(PetscViewerASCIIPrintf(viewer, " %12.6g", (double)scene->ramps[r].factor[i]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
 }
 
 /* Bodies that have an effect, as: on, slab block */
-static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[], PetscBool (*has)(const SceneBody *, PetscInt order), const PetscInt orders[], const char off[])
+static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[],
+  PetscBool (*has)(const SceneBody *, PetscInt order), const PetscInt orders[], const char off[])
 {
   PetscBool on = PETSC_FALSE;
 
@@ -361,23 +408,34 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   PetscBool finite  = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) finite = finite || DescribeIsFinite(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    finite = finite || DescribeIsFinite(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
-  PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, "no contact; one linear solve a step where every body is linear"));
-  if (scene->npairs) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations", scene->contact_updates));
+  PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs,
+    "no contact; one linear solve a step where every body is linear"));
+  if (scene->npairs)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations",
+      scene->contact_updates));
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter", scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
+    scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
   PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, orders, "every material is linear"));
-  if (finite) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
+  if (finite)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
   PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, orders, "no element is bbar"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, orders, "no element is incompatible"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, orders,
+    "no element is incompatible"));
   PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, orders, "every body has order 1"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
-  if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds", scene->displacement_bounds));
+  if (scene->displacement_bounds)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds",
+      scene->displacement_bounds));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: no displacement_bounds\n", "displacement bounds"));
-  for (PetscInt o = 0; o < scene->noptions; ++o) PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name, scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file wins)"));
+  for (PetscInt o = 0; o < scene->noptions; ++o)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name,
+      scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file wins)"));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,7 @@
 /*
-   Numbers that follow time or the place: + - * / ^, brackets, functions, pi, and the variables t, time in load steps, and s, the same from 0 to
-   1 over the whole program; or x, y, z. A sum is of products, a product of powers, a power of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
+   Numbers that follow time or the place: + - * / ^, brackets, functions, pi, and the variables t, time in load steps,
+   and s, the same from 0 to 1 over the whole program; or x, y, z. A sum is of products, a product of powers, a power
+   of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
 */
 #include "sceneimpl.h"
 #include <ctype.h>
@@ -50,7 +51,8 @@ static PetscReal ExpressionApply(const char name[], PetscReal x, PetscReal y)
 /* A variable, pi, or a function with its arguments */
 static PetscReal ExpressionWord(Expression *e)
 {
-  static const char *const functions[] = {"min", "max", "sin", "cos", "tan", "tanh", "exp", "log", "sqrt", "abs"}; /* the first two of two arguments */
+  static const char *const functions[] = {"min", "max", "sin", "cos", "tan", "tanh", "exp", "log", "sqrt",
+    "abs"}; /* the first two of two arguments */
   char                     word[8]     = "";
   const char              *begin       = e->at;
   size_t                   n           = 0;
@@ -144,22 +146,27 @@ static PetscReal ExpressionEvaluate(Expression *e)
   return value;
 }
 
-static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const char text[], const char variables[], const Expression *e)
+static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const char text[], const char variables[],
+  const Expression *e)
 {
   PetscFunctionBegin;
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text, *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "", *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text,
+    *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "",
+    *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
   PetscFunctionReturn(0);
 }
 
 /* Of this time in a program of so many load steps; what is no number is complained of */
-PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps, PetscReal *value)
+PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps,
+  PetscReal *value)
 {
   Expression e = {.at = text, .names = "ts", .values = {time, time / (PetscReal)nsteps}};
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);
   if (e.wrong) PetscCall(ExpressionComplain(keys, key, text, "t, s", &e));
-  else if (PetscIsInfOrNanReal(*value)) PetscCall(SceneKeysComplain(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
+  else if (PetscIsInfOrNanReal(*value))
+    PetscCall(SceneKeysComplain(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
   PetscFunctionReturn(0);
 }
 

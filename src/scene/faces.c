@@ -39,7 +39,8 @@ static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const cha
 }
 
 /* Three bounds */
-static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const char which[], PetscReal infinite, PetscReal bounds[3])
+static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const char which[], PetscReal infinite,
+  PetscReal bounds[3])
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -82,7 +83,9 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
     PetscCall(SceneReadBounds(keys, names[f], "upper", PETSC_INFINITY, subface.upper));
     body = text ? SceneFindBody(scene, text, &face) : PETSC_DECIDE;
     if (body < 0) {
-      if (text) PetscCall(SceneKeysComplain(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>", names[f], text));
+      if (text)
+        PetscCall(SceneKeysComplain(keys,
+          "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>", names[f], text));
     } else {
       PetscCall(PetscStrallocpy(names[f], &subface.name));
       PetscCall(PetscStrallocpy(face, &subface.of));
@@ -104,7 +107,8 @@ static PetscBool SceneBoundIsInfinite(PetscReal bound)
 static PetscErrorCode SceneViewBounds(PetscViewer viewer, const char which[], const PetscReal bounds[3])
 {
   PetscFunctionBegin;
-  if (SceneBoundIsInfinite(bounds[0]) && SceneBoundIsInfinite(bounds[1]) && SceneBoundIsInfinite(bounds[2])) PetscFunctionReturn(0);
+  if (SceneBoundIsInfinite(bounds[0]) && SceneBoundIsInfinite(bounds[1]) && SceneBoundIsInfinite(bounds[2]))
+    PetscFunctionReturn(0);
   PetscCall(PetscViewerASCIIPrintf(viewer, ", %s: [", which));
   for (PetscInt d = 0; d < 3; ++d) {
     if (d) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
@@ -141,7 +145,8 @@ PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer)
 }
 
 /* what and owner name the thing that refers to the face, as in: displacement "bottom" */
-PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[], const char name[])
+PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[],
+  const char name[])
 {
   const char    *face;
   const PetscInt b = SceneFindBody(scene, name, &face);
@@ -151,17 +156,21 @@ PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, 
   size_t         used;
 
   PetscFunctionBegin;
-  PetscCheck(b >= 0, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>", file, what, owner, name);
+  PetscCheck(b >= 0, comm, PETSC_ERR_USER_INPUT,
+    "%s: %s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>", file, what, owner, name);
   PetscCall(MeshGetFaceNames(comm, &scene->bodies[b], &n, &names));
   for (PetscInt f = 0; f < n; ++f) {
     PetscCall(PetscStrcmp(names[f], face, &same));
     if (same) found = PETSC_TRUE;
     used = strlen(choices);
-    PetscCall(PetscSNPrintf(choices + used, sizeof(choices) - used, "%s%s", !f ? "" : f + 1 < n ? ", "
-                                                                                                : " and ",
-                            names[f]));
+    PetscCall(PetscSNPrintf(choices + used, sizeof(choices) - used, "%s%s",
+      !f          ? ""
+      : f + 1 < n ? ", "
+                  : " and ",
+      names[f]));
   }
   PetscCall(MeshRestoreFaceNames(&n, &names));
-  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\", which does not exist; %s has %s", file, what, owner, name, scene->bodies[b].name, choices[0] ? choices : "no named faces");
+  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\", which does not exist; %s has %s",
+    file, what, owner, name, scene->bodies[b].name, choices[0] ? choices : "no named faces");
   PetscFunctionReturn(0);
 }

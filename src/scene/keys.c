@@ -14,12 +14,15 @@ static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, c
   PetscCall(PetscTestFile(file, 'r', &exists));
   stream = exists ? fopen(file, "r") : NULL;
   PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "there is no readable scene file \"%s\"", file);
-  PetscCheck(!fseek(stream, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read", file);
+  PetscCheck(!fseek(stream, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read",
+    file);
   *length = (PetscInt64)ftell(stream);
   rewind(stream);
-  PetscCheck(*length >= 0 && *length < PETSC_MPI_INT_MAX, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" is too long", file);
+  PetscCheck(*length >= 0 && *length < PETSC_MPI_INT_MAX, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "the scene file \"%s\" is too long", file);
   PetscCall(PetscCalloc1(*length + 1, text));
-  PetscCheck(fread(*text, 1, (size_t)*length, stream) == (size_t)*length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read", file);
+  PetscCheck(fread(*text, 1, (size_t)*length, stream) == (size_t)*length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "the scene file \"%s\" cannot be read", file);
   (void)fclose(stream);
   PetscFunctionReturn(0);
 }
@@ -62,7 +65,8 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
-  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ, "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
+  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ,
+    "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
   PetscCall(PetscFree(text));
   *keys = k;
   PetscFunctionReturn(0);
@@ -141,11 +145,20 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   }
   if (unknown) {
     PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
-    PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT, "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list symmetry names", keys->file);
-    PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT, "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -", keys->file, unknown);
-    PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT, "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, [1, 2]", keys->file, unknown);
+    PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list "
+      "symmetry names",
+      keys->file);
+    PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -",
+      keys->file, unknown);
+    PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, "
+      "[1, 2]",
+      keys->file, unknown);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
-    SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file, unknown, nearest);
+    SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file,
+      unknown, nearest);
   }
   PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
   PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);

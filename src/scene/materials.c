@@ -1,4 +1,5 @@
-/* Materials by name: of the scene's own list, and of a library, a file with such a list and the units that its numbers are in */
+/* Materials by name: of the scene's own list, and of a library, a file with such a list and the units that its
+   numbers are in */
 #include "sceneimpl.h"
 #include <options.h>
 
@@ -43,7 +44,8 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, PetscBool required, Scen
     }
     for (PetscInt m = 0; m < scene->nmaterials; ++m) {
       PetscCall(PetscStrcasecmp(names[i], scene->materials[m].name, &same));
-      if (same) PetscCall(SceneKeysComplain(keys, "the material \"%s\" stands in the scene and in its library", names[i]));
+      if (same)
+        PetscCall(SceneKeysComplain(keys, "the material \"%s\" stands in the scene and in its library", names[i]));
     }
     ++scene->nmaterials;
   }
@@ -63,12 +65,15 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
   PetscCall(PetscStrallocpy(name, &file));
   PetscCall(SceneResolveFile(keys->file, &file));
   PetscCall(PetscTestFile(file, 'r', &exists));
-  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: there is no library \"%s\" that can be read", keys->file, file);
+  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: there is no library \"%s\" that can be read", keys->file,
+    file);
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));
   PetscCall(MaterialsReadList(library, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
-  if (!same) PetscCall(SceneKeysComplain(keys, "units are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
+  if (!same)
+    PetscCall(
+      SceneKeysComplain(keys, "units are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
   if (units && !scene->units) PetscCall(PetscStrallocpy(units, &scene->units));
   PetscCall(SceneKeysCheck(library));
   PetscCall(SceneKeysDestroy(&library));
@@ -99,13 +104,16 @@ static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const 
   PetscCall(PetscMalloc1(keys->nmaterials, &names));
   for (PetscInt m = 0; m < keys->nmaterials; ++m) names[m] = keys->materials[m].name;
   PetscCall(OptionsNearest(keys->nmaterials, names, name, &nearest));
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", neither a law nor a material of the scene or its library; the nearest one is \"%s\"", key, name, nearest));
+  PetscCall(SceneKeysComplain(keys,
+    "%s is \"%s\", neither a law nor a material of the scene or its library; the nearest one is \"%s\"", key, name,
+    nearest));
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
 
 /* The material of a body by the name of a law, which leaves constants as they are, or of a material */
-PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char name[], PetscBool *listed, Material *material)
+PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char name[], PetscBool *listed,
+  Material *material)
 {
   PetscInt  type = MATERIAL_LINEAR;
   PetscBool law  = PETSC_FALSE;

@@ -23,8 +23,10 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
     divisor = strtod(start, &end);
     if (end == start) end = (char *)text;
   }
-  if (end == text || !SceneParseAtEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
-  else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a finite number", key, text));
+  if (end == text || !SceneParseAtEnd(end))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
+  else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a finite number", key, text));
   else *value = (PetscReal)(number / divisor);
   PetscFunctionReturn(0);
 }
@@ -37,14 +39,17 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   PetscFunctionBegin;
   errno  = 0;
   number = strtoll(text, &end, 10);
-  if (end == text || !SceneParseAtEnd(end)) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
-  else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT) PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
+  if (end == text || !SceneParseAtEnd(end))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
+  else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT)
+    PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);
 }
 
 /* names as PETSc keeps them: values, then the type's name, its prefix and NULL */
-PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[], const char *const names[], PetscInt *value)
+PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[], const char *const names[],
+  PetscInt *value)
 {
   char      choices[SCENE_KEY_LENGTH] = "";
   PetscBool same;
@@ -138,7 +143,9 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
   PetscCall(PetscMalloc1(*n, names));
   for (PetscInt i = 0; i < *n; ++i) {
     PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
-    if (!SceneIsName(words[i])) PetscCall(SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
+    if (!SceneIsName(words[i]))
+      PetscCall(
+        SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
       if (same) PetscCall(SceneKeysComplain(keys, "the name \"%s\" stands twice in %s", words[i], key));

@@ -5,7 +5,8 @@
 #define PROBE_MAX_POINTS 1000000
 
 /* Three coordinates of a key that may be missing */
-static PetscErrorCode SceneReadPlace(SceneKeys keys, const char name[], const char which[], PetscReal place[3], PetscBool *given)
+static PetscErrorCode SceneReadPlace(SceneKeys keys, const char name[], const char which[], PetscReal place[3],
+  PetscBool *given)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -33,11 +34,14 @@ static PetscErrorCode SceneReadProbe(SceneKeys keys, Scene scene, SceneProbe *pr
   PetscCall(SceneReadBodyName(keys, scene, "probes", probe->name, &probe->body));
   probe->n = 1;
   if (point) {
-    if (from || to || count) PetscCall(SceneKeysComplain(keys, "probes_%s is a point, which has neither from, to nor points", probe->name));
+    if (from || to || count)
+      PetscCall(SceneKeysComplain(keys, "probes_%s is a point, which has neither from, to nor points", probe->name));
     PetscFunctionReturn(0);
   }
   if (!from || !to || !count) {
-    PetscCall(SceneKeysComplain(keys, "probes_%s is neither a point, {point: [x, y, z]}, nor a line, {from: [x, y, z], to: [x, y, z], points: N}", probe->name));
+    PetscCall(SceneKeysComplain(keys,
+      "probes_%s is neither a point, {point: [x, y, z]}, nor a line, {from: [x, y, z], to: [x, y, z], points: N}",
+      probe->name));
     PetscFunctionReturn(0);
   }
   probe->line = PETSC_TRUE;

@@ -32,13 +32,15 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
     scene->nsteps = 1;
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
     if (scene->nsteps > SCENE_MAX_STEPS) {
-      PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps, SCENE_MAX_STEPS));
+      PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps,
+        SCENE_MAX_STEPS));
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
     PetscCall(SceneReadProgram(keys, "load", scene->nsteps, ramp->factor, &program));
   }
-  if (scene->nsteps < 1) PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
+  if (scene->nsteps < 1)
+    PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
 }
 
@@ -50,14 +52,20 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *
 
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
-  if (reserved) PetscCall(SceneKeysComplain(keys, "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
+  if (reserved)
+    PetscCall(SceneKeysComplain(keys,
+      "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
   PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
   PetscCall(SceneReadProgram(keys, owner, nsteps, ramp->factor, &program));
-  if (!text && !program) PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values", ramp->name));
-  if (text && program) PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
+  if (!text && !program)
+    PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values",
+      ramp->name));
+  if (text && program)
+    PetscCall(
+      SceneKeysComplain(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
   if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
   PetscFunctionReturn(0);
 }
@@ -114,11 +122,14 @@ PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
     PetscReal *factor;
 
     PetscCall(PetscMalloc1(nsteps, &factor));
-    for (PetscInt i = 0; i < nsteps; ++i) PetscCall(SceneGetFactor(scene, r, (PetscReal)(i + 1) * (PetscReal)scene->nsteps / (PetscReal)nsteps, &factor[i]));
+    for (PetscInt i = 0; i < nsteps; ++i)
+      PetscCall(
+        SceneGetFactor(scene, r, (PetscReal)(i + 1) * (PetscReal)scene->nsteps / (PetscReal)nsteps, &factor[i]));
     PetscCall(PetscFree(scene->ramps[r].factor));
     scene->ramps[r].factor = factor;
   }
-  if (scene->displacement_bounds) scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
+  if (scene->displacement_bounds)
+    scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
   scene->nsteps = nsteps;
   PetscFunctionReturn(0);
 }

@@ -6,7 +6,8 @@
 #define REFINEMENT_MAX_LEVELS 20
 
 /* A value of an entry that may be missing */
-static PetscErrorCode RefinementGet(SceneKeys keys, const SceneRefinement *refinement, const char what[], char key[SCENE_KEY_LENGTH], const char **text)
+static PetscErrorCode RefinementGet(SceneKeys keys, const SceneRefinement *refinement, const char what[],
+  char key[SCENE_KEY_LENGTH], const char **text)
 {
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, SCENE_KEY_LENGTH, "refinements_%s_%s", refinement->name, what));
@@ -15,7 +16,8 @@ static PetscErrorCode RefinementGet(SceneKeys keys, const SceneRefinement *refin
 }
 
 /* A contact pair, both of whose faces are meant, or a face */
-static PetscErrorCode RefinementSetFaces(SceneKeys keys, Scene scene, const char key[], const char near[], SceneRefinement *refinement)
+static PetscErrorCode RefinementSetFaces(SceneKeys keys, Scene scene, const char key[], const char near[],
+  SceneRefinement *refinement)
 {
   const char *face;
 
@@ -27,7 +29,9 @@ static PetscErrorCode RefinementSetFaces(SceneKeys keys, Scene scene, const char
     PetscFunctionReturn(0);
   }
   refinement->body = SceneFindBody(scene, near, &face);
-  if (refinement->body < 0) PetscCall(SceneKeysComplain(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, near));
+  if (refinement->body < 0)
+    PetscCall(
+      SceneKeysComplain(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, near));
   else PetscCall(PetscStrallocpy(near, &refinement->face[0]));
   PetscFunctionReturn(0);
 }
@@ -41,10 +45,16 @@ static PetscErrorCode RefinementReadBox(SceneKeys keys, Scene scene, SceneRefine
   for (PetscInt end = 0; end < 2; ++end) {
     PetscCall(RefinementGet(keys, refinement, end ? "upper" : "lower", key, &text));
     if (text) PetscCall(SceneParseReals(keys, key, text, 3, end ? refinement->upper : refinement->lower));
-    else PetscCall(SceneKeysComplain(keys, "refinements_%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]", refinement->name));
+    else
+      PetscCall(SceneKeysComplain(keys,
+        "refinements_%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and "
+        "upper: [x, y, z]",
+        refinement->name));
   }
   for (PetscInt d = 0; d < 3; ++d) {
-    if (!(refinement->lower[d] <= refinement->upper[d])) PetscCall(SceneKeysComplain(keys, "refinements_%s has lower above upper along %c: %g and %g", refinement->name, "xyz"[d], (double)refinement -> lower[d], (double)refinement -> upper[d]));
+    if (!(refinement->lower[d] <= refinement->upper[d]))
+      PetscCall(SceneKeysComplain(keys, "refinements_%s has lower above upper along %c: %g and %g", refinement->name,
+        "xyz"[d], (double)refinement -> lower[d], (double)refinement -> upper[d]));
   }
   PetscCall(SceneReadBodyName(keys, scene, "refinements", refinement->name, &refinement->body));
   PetscFunctionReturn(0);
@@ -63,7 +73,9 @@ static PetscErrorCode RefinementRead(SceneKeys keys, Scene scene, SceneRefinemen
   else PetscCall(RefinementReadBox(keys, scene, refinement));
   PetscCall(RefinementGet(keys, refinement, "levels", key, &text));
   if (text) PetscCall(SceneParseInt(keys, key, text, &refinement->levels));
-  if (refinement->levels < 1 || refinement->levels > REFINEMENT_MAX_LEVELS) PetscCall(SceneKeysComplain(keys, "%s is %" PetscInt_FMT "; it is a number from 1 to %d", key, refinement->levels, REFINEMENT_MAX_LEVELS));
+  if (refinement->levels < 1 || refinement->levels > REFINEMENT_MAX_LEVELS)
+    PetscCall(SceneKeysComplain(keys, "%s is %" PetscInt_FMT "; it is a number from 1 to %d", key, refinement->levels,
+      REFINEMENT_MAX_LEVELS));
   PetscCall(RefinementGet(keys, refinement, "distance", key, &text));
   if (text) PetscCall(SceneParseReal(keys, key, text, &refinement->distance));
   if (refinement->distance < 0) PetscCall(SceneKeysComplain(keys, "%s is %s, which must not be negative", key, text));
@@ -90,7 +102,8 @@ PetscErrorCode SceneReadRefinements(SceneKeys keys, Scene scene)
 static const char *RefinementNear(Scene scene, const SceneRefinement *refinement)
 {
   for (PetscInt p = 0; refinement->face[1] && p < scene->npairs; ++p) {
-    if (!strcmp(scene->pairs[p].mortar, refinement->face[0]) && !strcmp(scene->pairs[p].nonmortar, refinement->face[1])) return scene->pairs[p].name;
+    if (!strcmp(scene->pairs[p].mortar, refinement->face[0]) && !strcmp(scene->pairs[p].nonmortar, refinement->face[1]))
+      return scene->pairs[p].name;
   }
   return refinement->face[0];
 }
@@ -108,7 +121,8 @@ PetscErrorCode SceneViewRefinement(Scene scene, PetscViewer viewer, PetscInt r)
     PetscCall(SceneViewList(viewer, 3, refinement->lower));
     PetscCall(PetscViewerASCIIPrintf(viewer, ", upper: "));
     PetscCall(SceneViewList(viewer, 3, refinement->upper));
-    if (refinement->body >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", body: %s", scene->bodies[refinement->body].name));
+    if (refinement->body >= 0)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", body: %s", scene->bodies[refinement->body].name));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, ", levels: %" PetscInt_FMT ", distance: ", refinement->levels));
   PetscCall(SceneViewReal(viewer, refinement->distance));
@@ -123,8 +137,12 @@ PetscErrorCode SceneValidateRefinements(MPI_Comm comm, const char file[], Scene 
   for (PetscInt r = 0; r < scene->nrefinements; ++r) {
     const SceneRefinement *refinement = &scene->refinements[r];
 
-    for (PetscInt k = 0; k < 2 && refinement->face[k]; ++k) PetscCall(SceneValidateFace(comm, file, scene, "refinement", refinement->name, refinement->face[k]));
-    PetscCheck(refinement->body < 0 || scene->bodies[refinement->body].order < 2, comm, PETSC_ERR_USER_INPUT, "%s: refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT ": only hexahedra of order 1 are refined locally", file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
+    for (PetscInt k = 0; k < 2 && refinement->face[k]; ++k)
+      PetscCall(SceneValidateFace(comm, file, scene, "refinement", refinement->name, refinement->face[k]));
+    PetscCheck(refinement->body < 0 || scene->bodies[refinement->body].order < 2, comm, PETSC_ERR_USER_INPUT,
+      "%s: refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT
+      ": only hexahedra of order 1 are refined locally",
+      file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
   }
   PetscFunctionReturn(0);
 }

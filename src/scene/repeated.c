@@ -1,6 +1,7 @@
 /*
-   Keys that a scene has twice, of which PETSc would take the last: in one mapping, or once nested and once joined, as outer: {radius: 1} and outer_radius: 2. Each has a path of the
-   keys that it is below, joined as options are, with the numbers of entries in lists, since two entries of one name have a complaint of their own.
+   Keys that a scene has twice, of which PETSc would take the last: in one mapping, or once nested and once joined, as
+   outer: {radius: 1} and outer_radius: 2. Each has a path of the keys that it is below, joined as options are, with
+   the numbers of entries in lists, since two entries of one name have a complaint of their own.
 */
 #include "repeated.h"
 #include <ctype.h>
@@ -48,7 +49,8 @@ static PetscErrorCode RepeatedReadKey(RepeatedKeys *keys, const yaml_event_t *ev
   size_t               start = level->length;
 
   PetscFunctionBegin;
-  PetscCheck(isalnum((unsigned char)name[0]) || !strcmp(name, "<<"), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: \"%s\" is not a name: a letter, then letters, digits, _ or -", event->start_mark.line + 1, name);
+  PetscCheck(isalnum((unsigned char)name[0]) || !strcmp(name, "<<"), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "line %zu: \"%s\" is not a name: a letter, then letters, digits, _ or -", event->start_mark.line + 1, name);
   keys->line = event->start_mark.line + 1;
   if (start) PetscCall(RepeatedSetPath(keys, start++, "_"));
   PetscCall(RepeatedSetPath(keys, start, name));
@@ -86,10 +88,12 @@ static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping)
 
 PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
 {
-  const PetscBool mapping = (PetscBool)(event->type == YAML_MAPPING_START_EVENT), list = (PetscBool)(event->type == YAML_SEQUENCE_START_EVENT);
+  const PetscBool mapping = (PetscBool)(event->type == YAML_MAPPING_START_EVENT),
+                  list    = (PetscBool)(event->type == YAML_SEQUENCE_START_EVENT);
 
   PetscFunctionBegin;
-  if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT) PetscCall(RepeatedBeginNode(keys, event));
+  if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
+    PetscCall(RepeatedBeginNode(keys, event));
   if (mapping || list) PetscCall(RepeatedPush(keys, mapping));
   if (event->type == YAML_MAPPING_END_EVENT || event->type == YAML_SEQUENCE_END_EVENT) --keys->depth;
   PetscFunctionReturn(0);
@@ -123,7 +127,8 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
 
     PetscCall(PetscStrcmp(keys->paths[a], keys->paths[b], &same));
     if (same) RepeatedStrip(keys->paths[a]);
-    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is there already, in line %zu", keys->lines[b], keys->paths[a], keys->lines[a]);
+    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is there already, in line %zu",
+      keys->lines[b], keys->paths[a], keys->lines[a]);
   }
   PetscCall(PetscFree(order));
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
-/* Keys that stand twice in the text of a scene: what repeated.c asks of the events of libyaml, which has them before PETSc reads the text */
+/* Keys that stand twice in the text of a scene: what repeated.c asks of the events of libyaml, which has them before
+   PETSc reads the text */
 #ifndef REPEATED_H
 #define REPEATED_H
 

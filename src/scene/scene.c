@@ -53,14 +53,21 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
 
   PetscFunctionBegin;
   PetscOptionsBegin(comm, NULL, "Scene", NULL);
-  PetscCall(PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
-  PetscCall(PetscOptionsInt("-load_steps", "Load steps: equal parts of the scene's program", "SceneLoad", nsteps, &nsteps, &set));
-  PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
-  PetscCall(PetscOptionsInt("-contact_updates", "Linearizations of the gap a load step", "SceneLoad", scene->contact_updates, &scene->contact_updates, NULL));
-  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step whose displacements are bounded, 0: none", "SceneLoad", bounds, &bounds, &bounded));
+  PetscCall(
+    PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
+  PetscCall(PetscOptionsInt("-load_steps", "Load steps: equal parts of the scene's program", "SceneLoad", nsteps,
+    &nsteps, &set));
+  PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model,
+    (PetscEnum *)&scene->model, NULL));
+  PetscCall(PetscOptionsInt("-contact_updates", "Linearizations of the gap a load step", "SceneLoad",
+    scene->contact_updates, &scene->contact_updates, NULL));
+  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step whose displacements are bounded, 0: none",
+    "SceneLoad", bounds, &bounds, &bounded));
   PetscOptionsEnd();
-  PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1", file, nsteps);
-  PetscCheck(nsteps <= SCENE_MAX_STEPS, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at most %d", file, nsteps, SCENE_MAX_STEPS);
+  PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1",
+    file, nsteps);
+  PetscCheck(nsteps <= SCENE_MAX_STEPS, comm, PETSC_ERR_USER_INPUT,
+    "%s: %" PetscInt_FMT " load steps, which must be at most %d", file, nsteps, SCENE_MAX_STEPS);
   if (set && nsteps != scene->nsteps) PetscCall(SceneResample(scene, nsteps));
   if (bounded) scene->displacement_bounds = bounds;
   PetscFunctionReturn(0);
@@ -80,17 +87,19 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
 
    Options Database Keys, each instead of what the file says:
 +  -refine <n>               - uniform refinements of level 0
-.  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in between
-.  -model <energy,quadratic> - what a load step minimizes
-.  -contact_updates <n>      - linearizations of the gap a load step at most; 1: one, whether its gap is true or not
--  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0: none
+.  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in
+between .  -model <energy,quadratic> - what a load step minimizes .  -contact_updates <n>      - linearizations of the
+gap a load step at most; 1: one, whether its gap is true or not
+-  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0:
+none
 
    Level: beginner
 
    Notes:
    share/scenes/README.md documents the format: every key, its unit and default, and an example of every effect.
 
-   The options under the key solver are set in the options database until `SceneDestroy()`, where it has not got them yet.
+   The options under the key solver are set in the options database until `SceneDestroy()`, where it has not got them
+yet.
 
    Every error is raised on all ranks: PETSC_ERR_FILE_OPEN and PETSC_ERR_FILE_READ for a file that is not there or no
    YAML, PETSC_ERR_USER_INPUT for what it says.

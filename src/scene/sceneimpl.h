@@ -13,8 +13,9 @@
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[]);
 
 /*
-   keys.c: the keys and values of a scene file. Every reader asks by full key (nested keys joined with _), so that what is left
-   over is misspelt. A bad or missing value is kept, not raised: a misspelt key is the better explanation of it.
+   keys.c: the keys and values of a scene file. Every reader asks by full key (nested keys joined with _), so that
+   what is left over is misspelt. A bad or missing value is kept, not raised: a misspelt key is the better explanation
+   of it.
 */
 typedef struct {
   char    *name;
@@ -36,15 +37,18 @@ typedef struct {
 #define SCENE_KEY_LENGTH 256
 
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
-PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
+PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
+  PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 
-/* parse.c: values; key is for the complaint. A list has exactly n entries, or any number where *n is PETSC_DECIDE on entry */
+/* parse.c: values; key is for the complaint. A list has exactly n entries, or any number where *n is PETSC_DECIDE on
+   entry */
 PETSC_INTERN PetscErrorCode SceneParseReal(SceneKeys, const char key[], const char text[], PetscReal *);
 PETSC_INTERN PetscErrorCode SceneParseInt(SceneKeys, const char key[], const char text[], PetscInt *);
-PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const char text[], const char *const names[], PetscInt *);
+PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const char text[], const char *const names[],
+  PetscInt *);
 PETSC_INTERN PetscErrorCode SceneParseAnswer(SceneKeys, const char key[], const char text[], PetscBool *);
 PETSC_INTERN PetscErrorCode SceneParseList(SceneKeys, const char key[], const char text[], PetscInt *n, char ***words);
 PETSC_INTERN PetscErrorCode SceneParseReals(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
@@ -57,12 +61,16 @@ PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 PETSC_INTERN PetscErrorCode SceneViewList(PetscViewer, PetscInt n, const PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
 
-/* expression.c: a number that follows time; whether one that follows the place, which SceneEvaluatePlace() evaluates, makes sense */
-PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscInt nsteps, PetscReal *);
+/* expression.c: a number that follows time; whether one that follows the place, which SceneEvaluatePlace() evaluates,
+   makes sense */
+PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time,
+  PetscInt nsteps, PetscReal *);
 PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
-/* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one or the other below the key */
-PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[], PetscBool *found);
+/* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one
+   or the other below the key */
+PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[],
+  PetscBool *found);
 
 /* ramps.c: the load and the other ramps; which one follows a list's entry; all of them in another number of steps */
 #define SCENE_LOAD_RAMP "load" /* ramp 0: the load itself */
@@ -85,18 +93,21 @@ PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], 
 
 /* materials.c: units, materials by name; that of a body, and whether it is one of them rather than a law */
 PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene);
-PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed, Material *);
+PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed,
+  Material *);
 
 /* bodies.c: the bodies; the one that an entry of a list names */
 PETSC_INTERN PetscErrorCode SceneReadBodies(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneReadBodyName(SceneKeys, Scene, const char list[], const char name[], PetscInt *body);
 
-/* faces.c: the body of a name <body>.<face>, PETSC_DECIDE if there is none, and the face; the faces cut out of others */
+/* faces.c: the body of a name <body>.<face>, PETSC_DECIDE if there is none, and the face; the faces cut out of others
+ */
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
 PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer);
 /* Collective; what and owner name the thing that refers to the face, as in: displacement "bottom" */
-PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[], const char name[]);
+PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[],
+  const char name[]);
 
 /* spots.c: displacements at points and along edges */
 PETSC_INTERN PetscErrorCode SceneReadSpot(SceneKeys, Scene, PetscInt body, SceneDisplacement *);
@@ -111,7 +122,8 @@ PETSC_INTERN PetscErrorCode SceneReadRotation(SceneKeys, SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneViewTarget(PetscViewer, const char face[]);
 PETSC_INTERN PetscErrorCode SceneViewComponents(PetscViewer, const PetscReal value[3], const PetscBool free[3]);
 PETSC_INTERN PetscErrorCode SceneViewMotion(PetscViewer, const SceneDisplacement *);
-PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *, const SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *,
+  const SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);
 
 /* displacements.c */
@@ -131,8 +143,10 @@ PETSC_INTERN PetscErrorCode SceneViewTemperatures(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyTemperatures(Scene);
 
 /* tractions.c: dead loads on faces; what an entry of a list has of three numbers, and a face with a value */
-PETSC_INTERN PetscErrorCode SceneReadTriple(SceneKeys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given);
-PETSC_INTERN PetscErrorCode SceneReadOnFace(SceneKeys, const char list[], const char name[], char **face, PetscReal value[3]);
+PETSC_INTERN PetscErrorCode SceneReadTriple(SceneKeys, const char list[], const char name[], const char what[],
+  PetscReal value[3], PetscBool *given);
+PETSC_INTERN PetscErrorCode SceneReadOnFace(SceneKeys, const char list[], const char name[], char **face,
+  PetscReal value[3]);
 PETSC_INTERN PetscErrorCode SceneReadTractions(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneViewTractions(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDestroyTractions(Scene);

@@ -1,10 +1,12 @@
-/* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer: {radius: 1} */
+/* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
+   {radius: 1} */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <stddef.h>
 #include <string.h>
 
-const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh", "BodyShape", "SHAPE_", NULL};
+const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh",
+  "BodyShape", "SHAPE_", NULL};
 
 static const char *const Axes[]       = {"x", "y", "z", "Axis", "AXIS_", NULL};
 static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direction", "DIRECTION_", NULL};
@@ -67,13 +69,10 @@ static const ShapeKey half_ellipse_keys[] = {
 
 /* What every octant has: where it is, and how it is divided */
 #define OCTANT_PLACE_KEYS \
-  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), \
-    KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
+  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
 #define OCTANT_GRID_KEYS \
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), \
-    KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
-    KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), \
-    KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
+  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
+    KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
     KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
     KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
 
@@ -110,7 +109,8 @@ static const ShapeKey gmsh_keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys, spheroid_shell_keys, ball_keys, gmsh_keys};
+static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys,
+  spheroid_shell_keys, ball_keys, gmsh_keys};
 
 static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
 {
@@ -123,21 +123,11 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
   PetscCall(SceneKeysGet(keys, key->required, &text, "%s", name));
   if (!text) PetscFunctionReturn(0);
   switch (key->type) {
-  case KEY_REALS:
-    PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value));
-    break;
-  case KEY_INTS:
-    PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value));
-    break;
-  case KEY_AXIS:
-    PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value));
-    break;
-  case KEY_DIRECTION:
-    PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value));
-    break;
-  case KEY_TEXT:
-    PetscCall(PetscStrallocpy(text, (char **)value));
-    break;
+  case KEY_REALS: PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value)); break;
+  case KEY_INTS: PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value)); break;
+  case KEY_AXIS: PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value)); break;
+  case KEY_DIRECTION: PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value)); break;
+  case KEY_TEXT: PetscCall(PetscStrallocpy(text, (char **)value)); break;
   }
   PetscFunctionReturn(0);
 }
@@ -239,7 +229,9 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
       else if (k->type == KEY_DIRECTION) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", Directions[*n]));
       else if (k->type == KEY_TEXT) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", *(char *const *)value));
       else if (k->n == 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT, *n));
-      else PetscCall(PetscViewerASCIIPrintf(viewer, "[%" PetscInt_FMT ", %" PetscInt_FMT ", %" PetscInt_FMT "]", n[0], n[1], n[2]));
+      else
+        PetscCall(PetscViewerASCIIPrintf(viewer, "[%" PetscInt_FMT ", %" PetscInt_FMT ", %" PetscInt_FMT "]", n[0],
+          n[1], n[2]));
       PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
       PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
     }

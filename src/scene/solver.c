@@ -1,6 +1,7 @@
 /*
-   solver: PETSc options, as a mapping. They are set while the scene lives, where neither the command line nor an options
-   file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked for in the end.
+   solver: PETSc options, as a mapping. They are set while the scene lives, where neither the command line nor an
+   options file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked
+   for in the end.
 */
 #include "sceneimpl.h"
 
@@ -28,7 +29,9 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "solver"));
-  if (text && text[0]) PetscCall(SceneKeysComplain(keys, "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
+  if (text && text[0])
+    PetscCall(SceneKeysComplain(keys,
+      "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(PetscStrncmp(names[i], SOLVER_PREFIX, sizeof(SOLVER_PREFIX) - 1, &ours));
@@ -83,7 +86,8 @@ PetscErrorCode SceneDestroyOptions(Scene scene)
    Level: intermediate
 
    Note:
-   Such an option is misspelt, or belongs to a solver that did not run. One that the command line overrides is not reported.
+   Such an option is misspelt, or belongs to a solver that did not run. One that the command line overrides is not
+reported.
 
 .seealso: `SceneLoad()`
 @*/
@@ -97,7 +101,11 @@ PetscErrorCode SceneReportUnusedOptions(MPI_Comm comm, Scene scene)
 
     if (!option->set) continue;
     PetscCall(PetscOptionsUsed(NULL, option->name, &used));
-    if (!used) PetscCall(PetscFPrintf(comm, stderr, "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or of a solver that did not run\n", scene->name, option->name));
+    if (!used)
+      PetscCall(PetscFPrintf(comm, stderr,
+        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or of a solver that "
+        "did not run\n",
+        scene->name, option->name));
   }
   PetscFunctionReturn(0);
 }

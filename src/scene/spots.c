@@ -23,8 +23,14 @@ PetscErrorCode SceneReadSpot(SceneKeys keys, Scene scene, PetscInt body, SceneDi
     if (text[i]) PetscCall(SceneParseReals(keys, key, text[i], 3, places[i].place));
   }
   if (!text[0] && !text[1] && !text[2]) PetscFunctionReturn(0);
-  if (text[0] ? text[1] || text[2] : !text[1] || !text[2]) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], to: [x, y, z]}", d->name));
-  if (body == PETSC_DECIDE) PetscCall(SceneKeysComplain(keys, "displacement \"%s\" is at a point or along an edge of no body; the key body says of which", d->name));
+  if (text[0] ? text[1] || text[2] : !text[1] || !text[2])
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], "
+      "to: [x, y, z]}",
+      d->name));
+  if (body == PETSC_DECIDE)
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is at a point or along an edge of no body; the key body says of which", d->name));
   d->at   = text[0] ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
   d->body = body;
   if (text[0]) PetscCall(PetscArraycpy(d->to, d->from, 3));
@@ -36,7 +42,8 @@ PetscErrorCode SceneReadSpot(SceneKeys keys, Scene scene, PetscInt body, SceneDi
 PetscErrorCode SceneViewSpot(Scene scene, PetscViewer viewer, const SceneDisplacement *d)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "body: %s, %s: ", scene->bodies[d->body].name, d->at == DISPLACEMENT_POINT ? "point" : "from"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "body: %s, %s: ", scene->bodies[d->body].name,
+    d->at == DISPLACEMENT_POINT ? "point" : "from"));
   PetscCall(SceneViewList(viewer, 3, d->from));
   if (d->at == DISPLACEMENT_EDGE) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", to: "));

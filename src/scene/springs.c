@@ -14,7 +14,10 @@ static PetscErrorCode SceneParseWeakSprings(SceneKeys keys, const char text[], P
   if (yes) *stiffness = SCENE_WEAK_SPRINGS;
   else if (!no) {
     PetscCall(SceneParseReal(keys, "weak_springs", text, stiffness));
-    if (!(*stiffness > 0 && *stiffness <= 0.01)) PetscCall(SceneKeysComplain(keys, "weak_springs is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01", text));
+    if (!(*stiffness > 0 && *stiffness <= 0.01))
+      PetscCall(SceneKeysComplain(keys,
+        "weak_springs is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01",
+        text));
   }
   PetscFunctionReturn(0);
 }
@@ -33,7 +36,9 @@ static PetscErrorCode SceneReadOtherEnd(SceneKeys keys, SceneSpring *spring)
   if (!text) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, &spring->distance));
   if (!(spring->distance > 0)) PetscCall(SceneKeysComplain(keys, "%s is %s, which must be above 0", key, text));
-  else if (!spring->to) PetscCall(SceneKeysComplain(keys, "%s is how far away the other face of springs may be, and these are to the ground; the key to names one", key));
+  else if (!spring->to)
+    PetscCall(SceneKeysComplain(keys,
+      "%s is how far away the other face of springs may be, and these are to the ground; the key to names one", key));
   PetscFunctionReturn(0);
 }
 
@@ -54,9 +59,13 @@ PetscErrorCode SceneReadSprings(SceneKeys keys, Scene scene)
     PetscCall(SceneReadOnFace(keys, "springs", spring->name, &spring->face, spring->value));
     PetscCall(SceneReadOtherEnd(keys, spring));
     for (PetscInt d = 0; d < 3; ++d) {
-      if (spring->value[d] < 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value has a stiffness of %g along %c, which must not be negative", spring->name, (double)spring->value[d], "xyz"[d]));
+      if (spring->value[d] < 0)
+        PetscCall(SceneKeysComplain(keys, "springs_%s_value has a stiffness of %g along %c, which must not be negative",
+          spring->name, (double)spring->value[d], "xyz"[d]));
     }
-    if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0) PetscCall(SceneKeysComplain(keys, "springs_%s_value is zero along each axis: such springs hold nothing", spring->name));
+    if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0)
+      PetscCall(
+        SceneKeysComplain(keys, "springs_%s_value is zero along each axis: such springs hold nothing", spring->name));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
@@ -71,7 +80,8 @@ PetscErrorCode SceneValidateSprings(MPI_Comm comm, const char file[], Scene scen
     PetscCall(SceneValidateFace(comm, file, scene, "spring", spring->name, spring->face));
     if (!spring->to) continue;
     PetscCall(SceneValidateFace(comm, file, scene, "spring", spring->name, spring->to));
-    PetscCheck(strcmp(spring->face, spring->to), comm, PETSC_ERR_USER_INPUT, "%s: spring \"%s\" has the same face \"%s\" at both ends", file, spring->name, spring->face);
+    PetscCheck(strcmp(spring->face, spring->to), comm, PETSC_ERR_USER_INPUT,
+      "%s: spring \"%s\" has the same face \"%s\" at both ends", file, spring->name, spring->face);
   }
   PetscFunctionReturn(0);
 }

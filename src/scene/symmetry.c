@@ -1,7 +1,7 @@
 /*
-   symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a built-in
-   shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or with a vector as its normal.
-   Symmetry planes become prescribed displacements, after those of the scene.
+   symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a
+   built-in shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or
+   with a vector as its normal. Symmetry planes become prescribed displacements, after those of the scene.
 */
 #include "sceneimpl.h"
 #include <string.h>
@@ -82,7 +82,8 @@ static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
   return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);
 }
 
-/* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis is unknown */
+/* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis
+   is unknown */
 static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
 {
   const PetscInt axis = SymmetryAxisOfFace(scene, face);
@@ -111,14 +112,16 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(name, &displacement->name));
-  if (!SceneIsName(name)) PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
+  if (!SceneIsName(name))
+    PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "symmetry_%s_face", name));
   PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
   PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
   if (text && strchr(text, ',')) {
     PetscCall(SceneParseReals(keys, key, text, 3, normal));
-    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) PetscCall(SceneKeysComplain(keys, "%s is zero; it is x, y, z or a vector", key));
+    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0)
+      PetscCall(SceneKeysComplain(keys, "%s is zero; it is x, y, z or a vector", key));
     SymmetrySetNormal(normal, displacement);
   } else {
     if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
@@ -151,7 +154,9 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
     else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
     for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
       PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
-      if (same) PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is also the name of another displacement or symmetry plane", words[i]));
+      if (same)
+        PetscCall(SceneKeysComplain(keys,
+          "\"%s\" in symmetry is also the name of another displacement or symmetry plane", words[i]));
     }
   }
   PetscCall(PetscStrToArrayDestroy((int)n, words));

@@ -1,7 +1,8 @@
 /* Load programs by expressions and by tables of times and values */
 #include "sceneimpl.h"
 
-static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[], PetscInt *n, PetscReal **values)
+static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
+  PetscInt *n, PetscReal **values)
 {
   char   key[SCENE_KEY_LENGTH];
   char **words;
@@ -26,7 +27,8 @@ static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const Pet
   return values[i - 1] + (values[i] - values[i - 1]) * (time - times[i - 1]) / (times[i] - times[i - 1]);
 }
 
-static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char times[], const char values[], PetscInt nsteps, PetscReal factor[])
+static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char times[], const char values[],
+  PetscInt nsteps, PetscReal factor[])
 {
   PetscInt   n = PETSC_DECIDE;
   PetscReal *time, *value;
@@ -36,7 +38,9 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   PetscCall(TableReadColumn(keys, owner, "values", values, &n, &value));
   if (!n) PetscCall(SceneKeysComplain(keys, "%s_times is empty, or values are not as many", owner));
   for (PetscInt i = 1; i < n; ++i) {
-    if (!(time[i] > time[i - 1])) PetscCall(SceneKeysComplain(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i], (double)time[i - 1]));
+    if (!(time[i] > time[i - 1]))
+      PetscCall(SceneKeysComplain(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i],
+        (double)time[i - 1]));
   }
   for (PetscInt k = 0; n && k < nsteps; ++k) factor[k] = TableInterpolate(n, time, value, (PetscReal)(k + 1));
   PetscCall(PetscFree(time));
@@ -44,7 +48,8 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nsteps, PetscReal factor[], PetscBool *found)
+PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nsteps, PetscReal factor[],
+  PetscBool *found)
 {
   const char *expression, *times, *values;
   char        key[SCENE_KEY_LENGTH];
@@ -55,9 +60,13 @@ PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nst
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &times, "%s_times", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &values, "%s_values", owner));
   *found = (PetscBool)(expression || times || values);
-  if (expression && (times || values)) PetscCall(SceneKeysComplain(keys, "%s has an expression and a table; it is one of the two", owner));
-  else if (!times != !values) PetscCall(SceneKeysComplain(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
+  if (expression && (times || values))
+    PetscCall(SceneKeysComplain(keys, "%s has an expression and a table; it is one of the two", owner));
+  else if (!times != !values)
+    PetscCall(
+      SceneKeysComplain(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
   else if (times) PetscCall(TableRead(keys, owner, times, values, nsteps, factor));
-  for (PetscInt k = 0; expression && k < nsteps; ++k) PetscCall(SceneEvaluate(keys, key, expression, (PetscReal)(k + 1), nsteps, &factor[k]));
+  for (PetscInt k = 0; expression && k < nsteps; ++k)
+    PetscCall(SceneEvaluate(keys, key, expression, (PetscReal)(k + 1), nsteps, &factor[k]));
   PetscFunctionReturn(0);
 }

@@ -58,8 +58,11 @@ PetscErrorCode SceneValidateTies(MPI_Comm comm, const char file[], Scene scene)
     PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->nonmortar));
     nonmortar = SceneFindBody(scene, tie->nonmortar, &face);
-    PetscCheck(strcmp(tie->mortar, tie->nonmortar), comm, PETSC_ERR_USER_INPUT, "%s: tie \"%s\" has the same face \"%s\" on both sides", file, tie->name, tie->mortar);
-    PetscCheck(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT, "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar one; exchange the two", file, tie->name, scene->bodies[nonmortar].name);
+    PetscCheck(strcmp(tie->mortar, tie->nonmortar), comm, PETSC_ERR_USER_INPUT,
+      "%s: tie \"%s\" has the same face \"%s\" on both sides", file, tie->name, tie->mortar);
+    PetscCheck(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
+      "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar one; exchange the two", file, tie->name,
+      scene->bodies[nonmortar].name);
   }
   PetscFunctionReturn(0);
 }

@@ -3,7 +3,8 @@
 #include <petscviewer.h>
 
 /* Three numbers of <list>_<name>_<what>; given, or NULL where they are required: whether they are there */
-PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char name[], const char what[], PetscReal value[3], PetscBool *given)
+PetscErrorCode SceneReadTriple(SceneKeys keys, const char list[], const char name[], const char what[],
+  PetscReal value[3], PetscBool *given)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
@@ -61,9 +62,12 @@ static PetscErrorCode SceneReadForce(SceneKeys keys, Scene scene, SceneTraction 
     PetscCall(SceneReadFaceName(keys, "forces", force->name, &force->face));
     PetscFunctionReturn(0);
   }
-  if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID) PetscCall(SceneKeysComplain(keys, "forces_%s_body is \"%s\", which is not rigid: on an elastic body forces act on faces", force->name, text));
+  if (body >= 0 && scene->bodies[body].material.type != MATERIAL_RIGID)
+    PetscCall(SceneKeysComplain(keys,
+      "forces_%s_body is \"%s\", which is not rigid: on an elastic body forces act on faces", force->name, text));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &face, "forces_%s_face", force->name));
-  if (face) PetscCall(SceneKeysComplain(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
+  if (face)
+    PetscCall(SceneKeysComplain(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, text));
   PetscCall(PetscStrallocpy(whole, &force->face));
   PetscFunctionReturn(0);

@@ -11,15 +11,28 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
     const SceneBody *body = &scene->bodies[b];
 
     for (PetscInt i = 0; i < 3 && body->shape == SHAPE_BOX; ++i) {
-      SceneRequire(body->lower[i] < body->upper[i], "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i], (double)body -> lower[i], "xyz"[i], (double)body -> upper[i]);
-      SceneRequire(body->cells[i] >= 1, "%s: body \"%s\" has %" PetscInt_FMT " cells along %c, it needs at least 1", file, body->name, body->cells[i], "xyz"[i]);
+      SceneRequire(body->lower[i] < body->upper[i],
+        "%s: body \"%s\" is a negative box: lower %c = %g is not below upper %c = %g", file, body->name, "xyz"[i],
+        (double)body -> lower[i], "xyz"[i], (double)body -> upper[i]);
+      SceneRequire(body->cells[i] >= 1, "%s: body \"%s\" has %" PetscInt_FMT " cells along %c, it needs at least 1",
+        file, body->name, body->cells[i], "xyz"[i]);
     }
     PetscCall(MeshCheckBody(comm, body));
     PetscCall(SceneValidateConstants(comm, file, body));
-    SceneRequire(body->order >= 0 && body->order <= 2, "%s: body \"%s\" has order = %" PetscInt_FMT ", which must be 1 or 2", file, body->name, body->order);
-    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->order < 2, "%s: body \"%s\" has element incompatible with order 2; incompatible modes are what cells of order 1 lack, so it takes full or bbar", file, body->name);
-    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || !MaterialIsFinite(&body->material), "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable under compression, so it takes full or bbar", file, body->name, MaterialTypes[body->material.type]);
-    SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT, "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to average; use material neohookean near incompressibility, or element full", file, body->name);
+    SceneRequire(body->order >= 0 && body->order <= 2,
+      "%s: body \"%s\" has order = %" PetscInt_FMT ", which must be 1 or 2", file, body->name, body->order);
+    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->order < 2,
+      "%s: body \"%s\" has element incompatible with order 2; incompatible modes are what cells of order 1 lack, so it "
+      "takes full or bbar",
+      file, body->name);
+    SceneRequire(body->element != ELEMENT_INCOMPATIBLE || !MaterialIsFinite(&body->material),
+      "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable "
+      "under compression, so it takes full or bbar",
+      file, body->name, MaterialTypes[body->material.type]);
+    SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT,
+      "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to "
+      "average; use material neohookean near incompressibility, or element full",
+      file, body->name);
   }
   PetscFunctionReturn(0);
 }
@@ -32,15 +45,22 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     const SceneDisplacement *here = &scene->displacements[d];
 
-    if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE) PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
-    SceneRequire(here->inclined || SceneIsWholeBody(here->face) || here->fixed[0] || here->fixed[1] || here->fixed[2], "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its normal is written - cut: {face: %s, normal: x}", file, here->name, here->face, here->face);
+    if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE)
+      PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
+    SceneRequire(here->inclined || SceneIsWholeBody(here->face) || here->fixed[0] || here->fixed[1] || here->fixed[2],
+      "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its "
+      "normal is written - cut: {face: %s, normal: x}",
+      file, here->name, here->face, here->face);
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 
       PetscCall(PetscStrcmp(here->face, other->face, &same));
       if (same && (here->moves || other->moves)) PetscCall(SceneValidateMotions(comm, file, other, here));
       else
-        for (PetscInt i = 0; i < 3; ++i) SceneRequire(!same || !here->fixed[i] || !other->fixed[i], "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name, "xyz"[i], here -> face);
+        for (PetscInt i = 0; i < 3; ++i)
+          SceneRequire(!same || !here->fixed[i] || !other->fixed[i],
+            "%s: displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", file, other->name, here->name,
+            "xyz"[i], here -> face);
     }
   }
   PetscFunctionReturn(0);
@@ -54,11 +74,19 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
     const char          *face     = NULL;
 
     PetscCall(SceneValidateFace(comm, file, scene, "pressure", pressure->name, pressure->face));
-    SceneRequire(!pressure->follows || MaterialIsFinite(&scene->bodies[SceneFindBody(scene, pressure->face, &face)].material), "%s: pressure \"%s\" follows the face \"%s\" of a body of small strain, whose normals do not turn: take a law of finite strain, as neohookean, or a dead pressure", file, pressure->name, pressure->face);
-    SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY, "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file, pressure->name);
+    SceneRequire(!pressure->follows ||
+                   MaterialIsFinite(&scene->bodies[SceneFindBody(scene, pressure->face, &face)].material),
+      "%s: pressure \"%s\" follows the face \"%s\" of a body of small strain, whose normals do not turn: take a law of "
+      "finite strain, as neohookean, or a dead pressure",
+      file, pressure->name, pressure->face);
+    SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY,
+      "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file,
+      pressure->name);
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
-    if (!SceneIsWholeBody(scene->tractions[t].face)) PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction", scene->tractions[t].name, scene->tractions[t].face));
+    if (!SceneIsWholeBody(scene->tractions[t].face))
+      PetscCall(SceneValidateFace(comm, file, scene, scene->tractions[t].resultant ? "force" : "traction",
+        scene->tractions[t].name, scene->tractions[t].face));
   }
   PetscFunctionReturn(0);
 }
@@ -72,11 +100,21 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
-    SceneRequire(!SceneContactPairRubs(here) || !scene->displacement_bounds, "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
-    for (PetscInt q = 0; q < scene->npressures; ++q) SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows, "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is found by solves that begin where the last one ended, which with friction do not always end; let the pressure be dead, or the pair without friction", file, here->name, scene->pressures[q].name);
-    SceneRequire(here->distance >= 0, "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the faces", file, here->name, (double)here->distance);
+    SceneRequire(!SceneContactPairRubs(here) || !scene->displacement_bounds,
+      "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
+    for (PetscInt q = 0; q < scene->npressures; ++q)
+      SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows,
+        "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
+        "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
+        "be dead, or the pair without friction",
+        file, here->name, scene->pressures[q].name);
+    SceneRequire(here->distance >= 0,
+      "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the "
+      "faces",
+      file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
-    SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name, here->mortar);
+    SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name,
+      here->mortar);
     for (PetscInt q = 0; q < p; ++q) {
       const SceneContactPair *other = &scene->pairs[q];
 
@@ -84,7 +122,8 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
       PetscCall(PetscStrcmp(here->nonmortar, other->nonmortar, &straight[1]));
       PetscCall(PetscStrcmp(here->mortar, other->nonmortar, &crossed[0]));
       PetscCall(PetscStrcmp(here->nonmortar, other->mortar, &crossed[1]));
-      SceneRequire(!(straight[0] && straight[1]) && !(crossed[0] && crossed[1]), "%s: contact pairs \"%s\" and \"%s\" join the same two faces", file, other->name, here->name);
+      SceneRequire(!(straight[0] && straight[1]) && !(crossed[0] && crossed[1]),
+        "%s: contact pairs \"%s\" and \"%s\" join the same two faces", file, other->name, here->name);
     }
   }
   PetscFunctionReturn(0);
@@ -94,8 +133,14 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
   SceneRequire(scene->refine >= 0, "%s: refine = %" PetscInt_FMT ", which must be at least 0", file, scene->refine);
-  SceneRequire(!scene->displacement_bounds || (scene->displacement_bounds >= 2 && scene->displacement_bounds <= scene->nsteps), "%s: displacement_bounds = %" PetscInt_FMT "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and at most the last, %" PetscInt_FMT, file, scene->displacement_bounds, scene->nsteps);
-  SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file, scene->contact_updates);
+  SceneRequire(!scene->displacement_bounds ||
+                 (scene->displacement_bounds >= 2 && scene->displacement_bounds <= scene->nsteps),
+    "%s: displacement_bounds = %" PetscInt_FMT
+    "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and "
+    "at most the last, %" PetscInt_FMT,
+    file, scene->displacement_bounds, scene->nsteps);
+  SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file,
+    scene->contact_updates);
   PetscCall(SceneValidateBodies(comm, file, scene));
   PetscCall(SceneValidateDisplacements(comm, file, scene));
   PetscCall(SceneValidateRigid(comm, file, scene));

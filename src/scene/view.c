@@ -14,7 +14,8 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, PetscInt b)
   PetscCall(SceneViewShape(body, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
   PetscCall(SceneViewConstants(&body->material, viewer));
-  if (body->material.type != MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
+  if (body->material.type != MATERIAL_RIGID)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "element: %s\n", ElementTypes[body->element]));
   if (body->order > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "order: %" PetscInt_FMT "\n", body->order));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
@@ -40,7 +41,8 @@ static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, Pet
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (displacement->at != DISPLACEMENT_FACE) PetscCall(SceneViewSpot(scene, viewer, displacement));
   else PetscCall(SceneViewTarget(viewer, displacement->face));
-  for (PetscInt i = 0; i < 3; ++i) free[i] = SceneIsWholeBody(displacement->face) ? displacement->released[i] : (PetscBool)!displacement->fixed[i];
+  for (PetscInt i = 0; i < 3; ++i)
+    free[i] = SceneIsWholeBody(displacement->face) ? displacement->released[i] : (PetscBool)!displacement->fixed[i];
   PetscCall(PetscViewerASCIIPrintf(viewer, ", value: "));
   PetscCall(SceneViewComponents(viewer, displacement->value, free));
   PetscCall(SceneViewMotion(viewer, displacement));
@@ -81,11 +83,13 @@ static PetscErrorCode SceneViewBodyForce(Scene scene, PetscViewer viewer, PetscI
 static PetscErrorCode SceneViewFriction(Scene scene, PetscViewer viewer, const SceneContactPair *pair)
 {
   PetscFunctionBegin;
-  if (pair->friction >= PETSC_INFINITY && pair->shear_limit >= PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, ", stick: true"));
+  if (pair->friction >= PETSC_INFINITY && pair->shear_limit >= PETSC_INFINITY)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", stick: true"));
   else if (pair->friction > 0.0 && pair->friction < PETSC_INFINITY) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", friction: "));
     PetscCall(SceneViewReal(viewer, pair->friction));
-    if (pair->friction_ramp >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", friction_ramp: %s", scene->ramps[pair->friction_ramp].name));
+    if (pair->friction_ramp >= 0)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", friction_ramp: %s", scene->ramps[pair->friction_ramp].name));
   }
   if (pair->shear_limit < PETSC_INFINITY) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", shear_limit: "));
@@ -99,7 +103,8 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
   const SceneContactPair *pair = &scene->pairs[p];
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {mortar: %s, nonmortar: %s, gap: %s", pair->name, pair->mortar, pair->nonmortar, GapTypes[pair->gap]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {mortar: %s, nonmortar: %s, gap: %s", pair->name, pair->mortar,
+    pair->nonmortar, GapTypes[pair->gap]));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (pair->distance > 0) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", distance: "));
@@ -109,7 +114,8 @@ static PetscErrorCode SceneViewPair(Scene scene, PetscViewer viewer, PetscInt p)
   else if (pair->interference > 0) {
     PetscCall(PetscViewerASCIIPrintf(viewer, ", interference: "));
     PetscCall(SceneViewReal(viewer, pair->interference));
-    if (pair->interference_ramp >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[pair->interference_ramp].name));
+    if (pair->interference_ramp >= 0)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", ramp: %s", scene->ramps[pair->interference_ramp].name));
   }
   PetscCall(SceneViewFriction(scene, viewer, pair));
   if (!pair->smooth) PetscCall(PetscViewerASCIIPrintf(viewer, ", smooth: false"));
@@ -135,13 +141,15 @@ static PetscErrorCode SceneViewOption(Scene scene, PetscViewer viewer, PetscInt 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s: \"", scene->options[o].name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  for (const char *c = scene->options[o].value; *c; ++c) PetscCall(PetscViewerASCIIPrintf(viewer, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c));
+  for (const char *c = scene->options[o].value; *c; ++c)
+    PetscCall(PetscViewerASCIIPrintf(viewer, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\"\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const char key[], PetscInt n, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
+static PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const char key[], PetscInt n,
+  PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
 {
   PetscFunctionBegin;
   if (!n) PetscFunctionReturn(0);
@@ -155,7 +163,8 @@ static PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const ch
 static PetscErrorCode SceneViewPlane(Scene scene, PetscViewer viewer, PetscInt d)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, normal: ", scene->displacements[d].name, scene->displacements[d].face));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {face: %s, normal: ", scene->displacements[d].name,
+    scene->displacements[d].face));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   PetscCall(SceneViewList(viewer, 3, scene->displacements[d].normal));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
@@ -164,7 +173,8 @@ static PetscErrorCode SceneViewPlane(Scene scene, PetscViewer viewer, PetscInt d
 }
 
 /* Those that are symmetry planes along no axis, or those that are not */
-static PetscErrorCode SceneViewDisplacements(Scene scene, PetscViewer viewer, const char key[], PetscBool inclined, PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
+static PetscErrorCode SceneViewDisplacements(Scene scene, PetscViewer viewer, const char key[], PetscBool inclined,
+  PetscErrorCode (*view)(Scene, PetscViewer, PetscInt))
 {
   PetscBool any = PETSC_FALSE;
 
@@ -219,7 +229,8 @@ PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "refine: %" PetscInt_FMT "\n", scene->refine));
   PetscCall(PetscViewerASCIIPrintf(viewer, "model: %s\n", StepModels[scene->model]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "contact_updates: %" PetscInt_FMT "\n", scene->contact_updates));
-  if (scene->displacement_bounds) PetscCall(PetscViewerASCIIPrintf(viewer, "displacement_bounds: %" PetscInt_FMT "\n", scene->displacement_bounds));
+  if (scene->displacement_bounds)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "displacement_bounds: %" PetscInt_FMT "\n", scene->displacement_bounds));
   PetscCall(SceneViewEntries(scene, viewer, "solver", scene->noptions, SceneViewOption));
   PetscFunctionReturn(0);
 }

@@ -1,30 +1,26 @@
 /*
-   Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias where it stands, so that an anchor which holds its own
-   alias never ends, and anchors of aliases of anchors outgrow any memory. Anchored values of a scene therefore hold no aliases.
+   Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias
+   where it stands, so that an anchor which holds its own alias never ends, and anchors of aliases of anchors outgrow
+   any memory. Anchored values of a scene therefore hold no aliases.
 */
 #include "repeated.h"
 #include <string.h>
 
-/* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored values */
+/* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored
+   values */
 static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
 {
   const yaml_char_t *anchor = NULL;
 
   switch (event->type) {
-  case YAML_ALIAS_EVENT:
-    return *anchored ? PETSC_TRUE : PETSC_FALSE;
-  case YAML_MAPPING_START_EVENT:
-    anchor = event->data.mapping_start.anchor;
-    break;
-  case YAML_SEQUENCE_START_EVENT:
-    anchor = event->data.sequence_start.anchor;
-    break;
+  case YAML_ALIAS_EVENT: return *anchored ? PETSC_TRUE : PETSC_FALSE;
+  case YAML_MAPPING_START_EVENT: anchor = event->data.mapping_start.anchor; break;
+  case YAML_SEQUENCE_START_EVENT: anchor = event->data.sequence_start.anchor; break;
   case YAML_MAPPING_END_EVENT:
   case YAML_SEQUENCE_END_EVENT:
     if (*anchored) --*anchored;
     return PETSC_FALSE;
-  default:
-    return PETSC_FALSE;
+  default: return PETSC_FALSE;
   }
   if (*anchored || anchor) ++*anchored;
   return PETSC_FALSE;
@@ -37,11 +33,14 @@ static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
   PetscBool    tab;
 
   PetscFunctionBegin;
-  PetscCheck(parser->error != YAML_READER_ERROR, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "byte %zu: %s", parser->problem_offset + 1, parser->problem);
+  PetscCheck(parser->error != YAML_READER_ERROR, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "byte %zu: %s",
+    parser->problem_offset + 1, parser->problem);
   for (size_t l = 1; l < line && strchr(text, '\n'); ++l) text = strchr(text, '\n') + 1;
   tab = (PetscBool)(text[strspn(text, " ")] == '\t' && strspn(text, " ") == parser->problem_mark.column);
-  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab, where YAML has spaces", line);
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line, parser->problem ? parser->problem : "it cannot be read");
+  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab, where YAML has spaces",
+    line);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line,
+    parser->problem ? parser->problem : "it cannot be read");
 }
 
 static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], RepeatedKeys *keys)
@@ -60,7 +59,8 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
     line   = event.start_mark.line + 1;
     ierr   = nested ? 0 : RepeatedKeysRead(keys, &event);
     yaml_event_delete(&event);
-    PetscCheck(!nested, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", line);
+    PetscCheck(!nested, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+      "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", line);
     PetscCall(ierr);
   }
   PetscCall(RepeatedKeysCheck(keys));

@@ -2,13 +2,23 @@
 #include <accuracy.h>
 #include <math.h>
 
-#define ACCURACY_RATE    4.0  /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth */
-#define ACCURACY_RAISED  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 on a cylinder */
+#define ACCURACY_RATE \
+  4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth \
+       */
+#define ACCURACY_RAISED \
+  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 \
+          on a cylinder */
 #define ACCURACY_UPDATES 20
-#define ACCURACY_REGULAR 1.05 /* times what elements of order 1 have at best for so many unknowns, their power 2/3: recovery that falls by less has something singular left */
-#define ACCURACY_UNSEEN  2.0  /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does not see */
-#define ACCURACY_MINOR   1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
-#define ACCURACY_MARGIN  0.5  /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more than a Newton step */
+#define ACCURACY_REGULAR \
+  1.05 /* times what elements of order 1 have at best for so many unknowns, their power 2/3: recovery that falls by \
+          less has something singular left */
+#define ACCURACY_UNSEEN \
+  2.0 /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does \
+         not see */
+#define ACCURACY_MINOR 1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+#define ACCURACY_MARGIN \
+  0.5 /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more \
+         than a Newton step */
 
 /* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
 typedef enum {
@@ -32,11 +42,11 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
 
    Options Database Keys:
 +  -accuracy <target>         - relative error wanted in energy and contact force
-.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's largest pressure too;
-                                displacement: of energy and the displacements of the scene's probes
-.  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
-.  -accuracy_share <0.1>      - what of it the solver may leave
-.  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's but for that; default: as the scene has it
+.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's
+largest pressure too; displacement: of energy and the displacements of the scene's probes .  -accuracy_adaptive <bool>
+- refine cells where the error is, in place of all of them; default false .  -accuracy_share <0.1>      - what of it the
+solver may leave .  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's
+but for that; default: as the scene has it
 -  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
 
    Level: beginner
@@ -54,20 +64,31 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   acc->comm  = comm;
   acc->share = 0.1;
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
-  PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan", acc->target, &acc->target, &set));
-  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets, ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine cells where the error is", "AccuracyAssess", acc->adaptive, &acc->adaptive, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share, &acc->share, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
-  PetscCall(PetscOptionsInt("-accuracy_order", "Order of all bodies from the second mesh on", "AccuracyAssess", acc->order, &acc->order, &ordered));
+  PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan",
+    acc->target, &acc->target, &set));
+  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets,
+    ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine cells where the error is", "AccuracyAssess", acc->adaptive,
+    &acc->adaptive, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share,
+    &acc->share, NULL));
+  PetscCall(
+    PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
+  PetscCall(PetscOptionsInt("-accuracy_order", "Order of all bodies from the second mesh on", "AccuracyAssess",
+    acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
-  PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT, "-accuracy_order must be 2, not %" PetscInt_FMT ": it raises the order of the first mesh", acc->order);
-  PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP, "-accuracy_order does not go with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
-  PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT, "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
-  PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
+  PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT,
+    "-accuracy_order must be 2, not %" PetscInt_FMT ": it raises the order of the first mesh", acc->order);
+  PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP,
+    "-accuracy_order does not go with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
+  PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT,
+    "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
+  PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT,
+    "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
   PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
-  PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT, "-accuracy needs the error estimate that -error_estimate 0 switches off");
+  PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT,
+    "-accuracy needs the error estimate that -error_estimate 0 switches off");
   acc->adaptive         = (PetscBool)(set && acc->adaptive);
   acc->of               = of;
   acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
@@ -86,14 +107,23 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
     const SceneBody *body = &scene->bodies[b];
 
     if (body->material.type == MATERIAL_RIGID) continue;
-    PetscCheck(body->order < 2, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2 raises the order of the first mesh, and body \"%s\" has order 2 there: leave one of them out", body->name);
-    PetscCheck(body->element != ELEMENT_INCOMPATIBLE, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has element incompatible, which is of order 1: take full or bbar", body->name);
-    PetscCheck(body->order || body->shape != SHAPE_GMSH, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_order 2: body \"%s\" has the order of its mesh file's cells: say order: 1, from which it is raised", body->name);
+    PetscCheck(body->order < 2, acc->comm, PETSC_ERR_USER_INPUT,
+      "-accuracy_order 2 raises the order of the first mesh, and body \"%s\" has order 2 there: leave one of them out",
+      body->name);
+    PetscCheck(body->element != ELEMENT_INCOMPATIBLE, acc->comm, PETSC_ERR_USER_INPUT,
+      "-accuracy_order 2: body \"%s\" has element incompatible, which is of order 1: take full or bbar", body->name);
+    PetscCheck(body->order || body->shape != SHAPE_GMSH, acc->comm, PETSC_ERR_USER_INPUT,
+      "-accuracy_order 2: body \"%s\" has the order of its mesh file's cells: say order: 1, from which it is raised",
+      body->name);
   }
-  PetscCheck(!acc->order || !scene->nrefinements, acc->comm, PETSC_ERR_SUP, "-accuracy_order 2 does not go with refinements, which the scene has: only hexahedra of order 1 are refined locally");
+  PetscCheck(!acc->order || !scene->nrefinements, acc->comm, PETSC_ERR_SUP,
+    "-accuracy_order 2 does not go with refinements, which the scene has: only hexahedra of order 1 are refined "
+    "locally");
   for (PetscInt i = 0; i < scene->nprobes; ++i) npoints += !scene->probes[i].line;
-  PetscCheck(acc->of != ACCURACY_PRESSURE || scene->npairs, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_of pressure is that of the contact pairs, and the scene has none");
-  PetscCheck(acc->of != ACCURACY_DISPLACEMENT || npoints, acc->comm, PETSC_ERR_USER_INPUT, "-accuracy_of displacement is that of the scene's probes, and it has none at a point");
+  PetscCheck(acc->of != ACCURACY_PRESSURE || scene->npairs, acc->comm, PETSC_ERR_USER_INPUT,
+    "-accuracy_of pressure is that of the contact pairs, and the scene has none");
+  PetscCheck(acc->of != ACCURACY_DISPLACEMENT || npoints, acc->comm, PETSC_ERR_USER_INPUT,
+    "-accuracy_of displacement is that of the scene's probes, and it has none at a point");
   PetscFunctionReturn(0);
 }
 
@@ -112,10 +142,10 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Level: developer
 
    Notes:
-   The gap is linearized until it is true, so that load steps of any size end in the same state; with -contact_updates 1 the accuracy is that of the
-   problem with one linearization a load step. The optimizer's tolerance
-   starts at half of share x target and is tightened where that left too much. An option of the user's wins over a tolerance, as
-   over any other of a simulation; `AccuracyAssess()` learns of it after the run.
+   The gap is linearized until it is true, so that load steps of any size end in the same state; with -contact_updates 1
+the accuracy is that of the problem with one linearization a load step. The optimizer's tolerance starts at half of
+share x target and is tightened where that left too much. An option of the user's wins over a tolerance, as over any
+other of a simulation; `AccuracyAssess()` learns of it after the run.
 
 .seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
@@ -139,7 +169,8 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
 }
 
 /* The largest difference of the load steps, relative to the largest value, but not to less than `least` */
-static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[], PetscReal least)
+static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[],
+  PetscReal least)
 {
   PetscReal difference = 0.0, size = least;
 
@@ -151,7 +182,8 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
 }
 
 /* Of each probe, by size */
-static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt nprobes)
+static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
+  PetscInt nprobes)
 {
   PetscReal change = 0.0;
 
@@ -170,23 +202,28 @@ static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const Accu
 }
 
 /* Of the energy, and of each pair's force by its size and by the sum of its rows', where they are asked for */
-static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
+static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
+  PetscInt npairs, PetscInt nprobes)
 {
   PetscReal change = AccuracyLargestChange(nsteps, 1, now->energy, before->energy, 0.0), largest = 0.0;
 
   if (of == ACCURACY_DISPLACEMENT) change = PetscMax(change, AccuracyDisplacementChange(now, before, nsteps, nprobes));
   if (of == ACCURACY_ENERGY || of == ACCURACY_DISPLACEMENT) return change;
   for (PetscInt i = 0; i < 2 * npairs * nsteps; ++i) largest = PetscMax(largest, now->force[i]);
-  for (PetscInt k = 0; k < 2 * npairs; ++k) change = PetscMax(change, AccuracyLargestChange(nsteps, 2 * npairs, now->force + k, before->force + k, k % 2 ? ACCURACY_MINOR * largest : largest));
+  for (PetscInt k = 0; k < 2 * npairs; ++k)
+    change = PetscMax(change, AccuracyLargestChange(nsteps, 2 * npairs, now->force + k, before->force + k,
+                                k % 2 ? ACCURACY_MINOR * largest : largest));
   return change;
 }
 
 /* Of each pair's largest pressure */
-static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs)
+static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
+  PetscInt npairs)
 {
   PetscReal change = 0.0;
 
-  for (PetscInt p = 0; p < npairs; ++p) change = PetscMax(change, AccuracyLargestChange(nsteps, npairs, now->pressure + p, before->pressure + p, 0.0));
+  for (PetscInt p = 0; p < npairs; ++p)
+    change = PetscMax(change, AccuracyLargestChange(nsteps, npairs, now->pressure + p, before->pressure + p, 0.0));
   return change;
 }
 
@@ -201,19 +238,22 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
-/* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the width of uniform cells */
+/* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the
+   width of uniform cells */
 static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now)
 {
   return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
 }
 
 /*
-   Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the results; no faster
-   than they can, though recovery does on meshes that are too coarse for it. Where results hardly differ by chance, a quarter of the recovered error stands, and all of it
-   beside what is singular; where results differ by more than recovery can tell, nothing of their difference is taken off. Pressures err with the stress, whose error is
-   the root of that of the energy
+   Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the
+   results; no faster than they can, though recovery does on meshes that are too coarse for it. Where results hardly
+   differ by chance, a quarter of the recovered error stands, and all of it beside what is singular; where results
+   differ by more than recovery can tell, nothing of their difference is taken off. Pressures err with the stress,
+   whose error is the root of that of the energy
 */
-static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps, PetscInt npairs, PetscInt nprobes)
+static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
+  PetscInt npairs, PetscInt nprobes)
 {
   PetscReal ratio, pressure, least;
 
@@ -225,8 +265,9 @@ static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const Ac
   now->unseen = (PetscBool)(now->change > ACCURACY_UNSEEN * (now->recovery + before->recovery));
   ratio       = now->recovery > 0.0 ? before->recovery / now->recovery : ACCURACY_RATE;
   least       = ratio < ACCURACY_REGULAR * PetscPowReal(now->growth, 2.0 / 3.0) ? now->recovery : 0.25 * now->recovery;
-  ratio       = now->unseen ? 2.0 : PetscClipInterval(ratio, AccuracyLeastRatio(acc, now), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
-  now->error  = PetscMax(now->change / (ratio - 1.0), least);
+  ratio       = PetscClipInterval(ratio, AccuracyLeastRatio(acc, now), now->raised ? ACCURACY_RAISED : ACCURACY_RATE);
+  if (now->unseen) ratio = 2.0;
+  now->error = PetscMax(now->change / (ratio - 1.0), least);
   if (acc->of != ACCURACY_PRESSURE) return;
   pressure    = AccuracyPressureChange(now, before, nsteps, npairs);
   now->change = PetscMax(now->change, pressure);
@@ -239,7 +280,8 @@ static void AccuracyRecordProbes(const StepReport *step, PetscReal displaced[])
 }
 
 /* Of each pair in a load step */
-static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[], PetscReal pressure[])
+static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[],
+  PetscReal pressure[])
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < npairs; ++p) {
@@ -252,7 +294,8 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
   PetscFunctionReturn(0);
 }
 
-/* What the solver leaves in the energy; where one linearization of the gap is asked for, the true gap is another problem's, and no tolerance makes it truer */
+/* What the solver leaves in the energy; where one linearization of the gap is asked for, the true gap is another
+   problem's, and no tolerance makes it truer */
 static PetscReal AccuracySolverError(const Accuracy *acc, const StepReport *step)
 {
   return acc->updates == 1 ? step->algebraic_error - step->gap_error : step->algebraic_error;
@@ -268,7 +311,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscCall(PetscRealloc((acc->nlevels + 1) * sizeof(*acc->levels), &acc->levels));
   level = &acc->levels[acc->nlevels++];
   PetscCall(PetscMemzero(level, sizeof(*level)));
-  PetscCall(PetscMalloc4(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force, npairs * report->nsteps, &level->pressure, 3 * nprobes * report->nsteps, &level->displaced));
+  PetscCall(PetscMalloc4(report->nsteps, &level->energy, 2 * npairs * report->nsteps, &level->force,
+    npairs * report->nsteps, &level->pressure, 3 * nprobes * report->nsteps, &level->displaced));
   level->refine = report->refine;
   level->mesh   = acc->mesh;
   level->raised = (PetscBool)(acc->order && acc->mesh == 1);
@@ -294,7 +338,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refined once more, unless two meshes say that the error is within a factor 2 of the target, or the unknowns do not allow it */
+/* Refined once more, unless two meshes say that the error is within a factor 2 of the target, or the unknowns do not
+   allow it */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
@@ -305,7 +350,10 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   acc->reached = (PetscBool)(!single && now->error <= 2.0 * acc->target);
   *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->max_dofs);
   if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
-  else if (!*refine) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT, single ? "one mesh alone tells no error; " : "", (double)next, acc->max_dofs));
+  else if (!*refine)
+    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
+      "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT,
+      single ? "one mesh alone tells no error; " : "", (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 
@@ -334,7 +382,8 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   if (*tighten) acc->tolerance *= PetscMax(0.01, ACCURACY_MARGIN * allowed / now->algebraic);
   else {
     acc->reached = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the solver leaves %g, more than its share", (double)now->algebraic));
+    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the solver leaves %g, more than its share",
+      (double)now->algebraic));
   }
   PetscFunctionReturn(0);
 }
@@ -366,30 +415,34 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Level: developer
 
    Notes:
-   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where the faces meet:
-   no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated from the change of energy
-   and of each pair's force between two meshes, whichever is largest, with the rate that recovery shows, a factor of 4 at most, as trilinear
-   elements have it; it is taken for a quarter of recovery's at least, and for all of it where that falls by no more than a regular solution's, as
-   beside singular edges. A change beyond what recovery accounts for on both
-   meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first relative to the largest of all pairs.
+   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where
+the faces meet: no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated
+from the change of energy and of each pair's force between two meshes, whichever is largest, with the rate that recovery
+shows, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of recovery's at least, and for
+all of it where that falls by no more than a regular solution's, as beside singular edges. A change beyond what recovery
+accounts for on both meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first
+relative to the largest of all pairs.
 
-   A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as much,
-   so that all the coarser meshes together cost a seventh of the last. A target that the first mesh meets costs 8 times that mesh.
+   A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
+costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. A target that the first mesh
+meets costs 8 times that mesh.
 
-   Load steps of each mesh but the first start from what they ended with on the one before, see `SimulationSetForecast()`.
+   Load steps of each mesh but the first start from what they ended with on the one before, see
+`SimulationSetForecast()`.
 
-   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names; what is extrapolated follows the
-   same rates, of the cube root of the growth of the unknowns at least.
+   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names;
+what is extrapolated follows the same rates, of the cube root of the growth of the unknowns at least.
 
-   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and the error is extrapolated with a factor of 16
-   at most; later ones are refined.
+   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and
+the error is extrapolated with a factor of 16 at most; later ones are refined.
 
-   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest mesh the run is
-   repeated with it.
+   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest
+mesh the run is repeated with it.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/
-PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene, PetscBool *again)
+PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene,
+  PetscBool *again)
 {
   const PetscBool raise = (PetscBool)(acc->order && acc->mesh == 0);
   PetscBool       refine, tighten;
@@ -418,7 +471,9 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 PetscErrorCode AccuracyDestroy(Accuracy *acc)
 {
   PetscFunctionBegin;
-  for (PetscInt l = 0; l < acc->nlevels; ++l) PetscCall(PetscFree4(acc->levels[l].energy, acc->levels[l].force, acc->levels[l].pressure, acc->levels[l].displaced));
+  for (PetscInt l = 0; l < acc->nlevels; ++l)
+    PetscCall(
+      PetscFree4(acc->levels[l].energy, acc->levels[l].force, acc->levels[l].pressure, acc->levels[l].displaced));
   PetscCall(PetscFree(acc->levels));
   acc->nlevels = 0;
   PetscFunctionReturn(0);

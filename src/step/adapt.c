@@ -1,4 +1,5 @@
-/* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at the contact as the last one has it */
+/* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at
+   the contact as the last one has it */
 #include "stepimpl.h"
 
 #define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */
@@ -24,10 +25,17 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
 
-    PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally", body->name, body->order);
-    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: leave the option out", body->name);
+    PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP,
+      "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      body->name, body->order);
+    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX, sim->comm, PETSC_ERR_SUP,
+      "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: "
+      "leave the option out",
+      body->name);
   }
-  PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP, "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out", scene->ties[0].name);
+  PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
+    "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
+    scene->ties[0].name);
   sim->marks = marks;
   PetscFunctionReturn(0);
 }
@@ -55,7 +63,8 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
   PetscFunctionReturn(0);
 }
 
-/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of cells: equal ones by symmetry stay together, on any number of ranks */
+/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of
+   cells: equal ones by symmetry stay together, on any number of ranks */
 static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 {
   const PetscReal step    = PetscPowReal(2.0, -0.125);
@@ -70,7 +79,8 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
     threshold *= step;
     PetscCall(AdaptSum(sim, n, threshold, &sum));
   }
-  for (PetscInt c = 0; c < n; ++c) sim->adapt.marked[c] = (PetscBool)(sim->adapt.errors[c] >= threshold && sim->adapt.errors[c] > 0.0);
+  for (PetscInt c = 0; c < n; ++c)
+    sim->adapt.marked[c] = (PetscBool)(sim->adapt.errors[c] >= threshold && sim->adapt.errors[c] > 0.0);
   PetscFunctionReturn(0);
 }
 
@@ -88,8 +98,9 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
    Level: developer
 
    Notes:
-   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and, on both sides of what was in contact in the
-   last one, what recovery does not see: all facets of curved faces, and of plane ones those at the edge of contact.
+   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and, on
+both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces, and of plane
+ones those at the edge of contact.
 
 .seealso: `SimulationMark()`, `AccuracyAssess()`
 @*/

@@ -1,4 +1,5 @@
-/* Which cells at the contact the next mesh has refined, as the last load step has it: recovery sees neither facets in place of curves nor where the faces meet */
+/* Which cells at the contact the next mesh has refined, as the last load step has it: recovery sees neither facets in
+   place of curves nor where the faces meet */
 #include "stepimpl.h"
 
 /* Of each vertex of a face, in its local vector */
@@ -8,7 +9,8 @@ typedef enum {
   VERTEX_HANGS   /* 1 where it follows others */
 } VertexFact;
 
-#define ADAPT_PLANE  1e-9             /* of a face's area: its facets' area vectors add up to all of it but for this where it is plane */
+#define ADAPT_PLANE \
+  1e-9 /* of a face's area: its facets' area vectors add up to all of it but for this where it is plane */
 #define ADAPT_INSIDE (1.9 * PETSC_PI) /* the angle about a vertex that is not on a face's border */
 
 static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
@@ -121,12 +123,14 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscCall(DMLocalToGlobal(sim->dm, angles, ADD_VALUES, facts));
   PetscCall(DMRestoreLocalVector(sim->dm, &angles));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
-  *plane = (PetscBool)(PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) >= (1.0 - ADAPT_PLANE) * sums[3]);
+  *plane = (PetscBool)(PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) >=
+                       (1.0 - ADAPT_PLANE) * sums[3]);
   PetscFunctionReturn(0);
 }
 
 /* Is a facet in contact, and, of a plane face, at the edge of contact: where it ends, or the face does? */
-static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar facts[], const PetscInt vertices[4], PetscBool plane, PetscBool *errs)
+static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar facts[], const PetscInt vertices[4],
+  PetscBool plane, PetscBool *errs)
 {
   PetscBool any = PETSC_FALSE, edge = (PetscBool)!plane;
 
@@ -171,7 +175,8 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
     PetscCall(AdaptFacetErrs(section, a, vertices, plane, &errs));
     PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
     PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
-    if (errs && sim->scene->bodies[body].material.type != MATERIAL_RIGID) sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
+    if (errs && sim->scene->bodies[body].material.type != MATERIAL_RIGID)
+      sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayRead(local, &a));
   PetscCall(ISRestoreIndices(facets, &f));
@@ -179,7 +184,8 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
   PetscFunctionReturn(0);
 }
 
-/* Both sides of each pair. Under a plane face cells are refined where the error is: refined wherever faces touch, they would be most of all */
+/* Both sides of each pair. Under a plane face cells are refined where the error is: refined wherever faces touch,
+   they would be most of all */
 PetscErrorCode AdaptMarkContact(Simulation sim)
 {
   PetscFunctionBegin;

@@ -1,8 +1,9 @@
 /*
-   Between smooth surfaces J keeps the shape of the patches, so that its forces are those that the facets of a body take evenly. In truth
-   vertices that move turn the normals about them, and the patches bend; that would show at the next linearization only, and die away slowly.
-   So the rows under pressure are asked for another gap g', from which J leads where the gap's derivative B has them closed: with the bodies
-   responding to forces as on the diagonal of their stiffness, D = diag(K)^-1,
+   Between smooth surfaces J keeps the shape of the patches, so that its forces are those that the facets of a body
+   take evenly. In truth vertices that move turn the normals about them, and the patches bend; that would show at the
+   next linearization only, and die away slowly. So the rows under pressure are asked for another gap g', from which J
+   leads where the gap's derivative B has them closed: with the bodies responding to forces as on the diagonal of
+   their stiffness, D = diag(K)^-1,
 
      B D J^T w = g,   g' = J D J^T w.
 
@@ -89,7 +90,8 @@ static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *fou
   PetscFunctionReturn(0);
 }
 
-/* Asks, in p->g as StepProblemSetContact() left it for lin, for that other gap where the last solution had rows under pressure; nothing where no pair is smooth */
+/* Asks, in p->g as StepProblemSetContact() left it for lin, for that other gap where the last solution had rows under
+   pressure; nothing where no pair is smooth */
 PetscErrorCode GapAnticipate(StepProblem *p, ContactLinearization lin)
 {
   GapResponse r = {.J = lin->J, .B = lin->derivative};

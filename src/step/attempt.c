@@ -31,7 +31,8 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   do {
     if (!nsolves) PetscCall(FollowersForget(p));
     if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
-    else if (p->sim->quadratic && !p->J && !p->lower) PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
+    else if (p->sim->quadratic && !p->J && !p->lower)
+      PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
     else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     else PetscCall(OptimizerSolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
@@ -46,8 +47,10 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionReturn(0);
 }
 
-/* The true gap at u; whether the linearized one that u was found with differs from it by more than ends the updates, and by more than is true */
-static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *is_true)
+/* The true gap at u; whether the linearized one that u was found with differs from it by more than ends the updates,
+   and by more than is true */
+static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearization at_u, StepReport *report,
+  PetscBool *is_true)
 {
   PetscReal size;
   PetscInt  nrows;
@@ -58,8 +61,9 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true           = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
-  report->gap_untrue = (PetscBool)(report->gap_change > PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
+  *is_true = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
+  report->gap_untrue =
+    (PetscBool)(report->gap_change > PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
   PetscFunctionReturn(0);
 }
 
@@ -95,11 +99,12 @@ static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 }
 
 /*
-   Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them by more.
-   Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its own (as deep as a
-   penalty lets it), they become sim->linearization.
+   Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them
+   by more. Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its
+   own (as deep as a penalty lets it), they become sim->linearization.
 */
-static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
+static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach,
+  PetscBool *missed)
 {
   Simulation           sim  = p->sim;
   ContactLinearization wide = NULL;
@@ -123,7 +128,10 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
-    if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Faces beyond the search distance went through each other by %g: searched again, to a distance of %g\n", -(double)least, (double)*reach));
+    if (sim->monitor)
+      PetscCall(PetscPrintf(sim->comm,
+        "Faces beyond the search distance went through each other by %g: searched again, to a distance of %g\n",
+        -(double)least, (double)*reach));
     PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = wide;
   } else PetscCall(ContactLinearizationDestroy(&wide));
@@ -131,7 +139,8 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
 }
 
 /* With the gap linearized at u_linearized, of all faces that can meet */
-static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol)
+static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
+  ContactSolution *sol)
 {
   PetscReal reach, depth;
   PetscBool missed = PETSC_FALSE;
@@ -147,25 +156,38 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscFunctionReturn(0);
 }
 
-/* One linearization is what was asked for: the step stands, and says how far it is from true. Of a limit above that it is the failure */
+/* One linearization is what was asked for: the step stands, and says how far it is from true. Of a limit above that
+   it is the failure */
 static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepReport *report)
 {
   char            reason[192];
   const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
 
   PetscFunctionBegin;
-  if (single) PetscCall(PetscSNPrintf(reason, sizeof(reason), "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
-  else if (slid) PetscCall(PetscSNPrintf(reason, sizeof(reason), "contact did not converge: after %" PetscInt_FMT " contact updates contact nodes still slide over the edge of the opposite face", report->contact_updates));
-  else PetscCall(PetscSNPrintf(reason, sizeof(reason), "contact did not converge: after %" PetscInt_FMT " contact updates the gap still changes by %g, more than %g of the largest displacement", report->contact_updates, (double)report->gap_change, (double)sim->tolerances.gap_untrue));
+  if (single)
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
+  else if (slid)
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "contact did not converge: after %" PetscInt_FMT
+      " contact updates contact nodes still slide over the edge of the opposite face",
+      report->contact_updates));
+  else
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "contact did not converge: after %" PetscInt_FMT
+      " contact updates the gap still changes by %g, more than %g of the largest displacement",
+      report->contact_updates, (double)report->gap_change, (double)sim->tolerances.gap_untrue));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
 
 /*
-   A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a step that was
-   too large left it deeper in the other body than the search looks. The second is no solution; the first is one only without it.
+   A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a
+   step that was too large left it deeper in the other body than the search looks. The second is no solution; the
+   first is one only without it.
 */
-static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u, StepReport *report, PetscBool *slid)
+static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
+  StepReport *report, PetscBool *slid)
 {
   Simulation           sim = p->sim;
   ContactLinearization deep;
@@ -187,7 +209,8 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
-    PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
     if (least < -depth) PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   PetscCall(PetscFree(lost));
@@ -201,12 +224,17 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
-  if (!before) PetscCall(ReportWarn(sim->comm, &sim->report, "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load steps, or swap mortar and nonmortar", report->step));
+  if (!before)
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
+      "steps, or swap mortar and nonmortar",
+      report->step));
   PetscFunctionReturn(0);
 }
 
 /* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
-static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants *secants, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
+static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants *secants, Vec u, Vec u_linearized,
+  StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution;
@@ -227,10 +255,12 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants 
 }
 
 /*
-   One linearization: u with the gap of sim->linearization, `at_u` on exit the gap at u. end: u is the last, for its gap is true or it
-   is no solution; slid: vertices under pressure have no row at u, so that its gap is not known there
+   One linearization: u with the gap of sim->linearization, `at_u` on exit the gap at u. end: u is the last, for its
+   gap is true or it is no solution; slid: vertices under pressure have no row at u, so that its gap is not known
+   there
 */
-static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
+static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
 {
   Simulation sim     = p->sim;
   PetscBool  is_true = PETSC_FALSE;
@@ -247,17 +277,22 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
-  if (sim->monitor && sim->scene->contact_updates > 1) PetscCall(PetscPrintf(sim->comm, "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g\n", report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change));
+  if (sim->monitor && sim->scene->contact_updates > 1)
+    PetscCall(PetscPrintf(sim->comm, "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g\n",
+      report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change));
   PetscFunctionReturn(0);
 }
 
 /*
-   Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end. again: the same one is solved further, for what the loose solve
-   left may be all that makes its gap untrue. Where a gap becomes no truer from one to the next, that may be why, too, and with friction what is found last depends the more on what
-   was found first. Weak springs alone would carry what is left. A foreseen start is as near as a loose solve comes. A gap that is to be true to rounding is for answers that repeat, which loose
-   solves alone would leave apart.
+   Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end.
+   again: the same one is solved further, for what the loose solve left may be all that makes its gap untrue. Where a
+   gap becomes no truer from one to the next, that may be why, too, and with friction what is found last depends the
+   more on what was found first. Weak springs alone would carry what is left. A foreseen start is as near as a loose
+   solve comes. A gap that is to be true to rounding is for answers that repeat, which loose solves alone would leave
+   apart.
 */
-static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u, const StepReport *report)
+static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
+  const StepReport *report)
 {
   Simulation      sim   = p->sim;
   const PetscReal first = sim->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5, before = p->tolerance;
@@ -265,30 +300,37 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (end || sim->springs.weak || sim->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON || report->contact_updates + 1 >= sim->scene->contact_updates) PetscFunctionReturn(0);
+  if (end || sim->springs.weak || sim->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON ||
+      report->contact_updates + 1 >= sim->scene->contact_updates)
+    PetscFunctionReturn(0);
   p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   p->tolerance = PetscMin(first, fraction * report->gap_change / size);
   if (again) PetscFunctionReturn(0);
-  if (report->contact_updates > 1 && report->gap_change > fair * p->gap_change) p->tolerance = PetscMin(p->tolerance, fraction * before);
+  if (report->contact_updates > 1 && report->gap_change > fair * p->gap_change)
+    p->tolerance = PetscMin(p->tolerance, fraction * before);
   p->gap_change = report->gap_change;
   PetscFunctionReturn(0);
 }
 
-/* Whether the linearization just solved is to be solved further: it is the last one, or the first, and no more untrue than the solve was loose */
-static PetscErrorCode AttemptIsLoose(const StepProblem *p, PetscBool end, Vec u, const StepReport *report, PetscBool *again)
+/* Whether the linearization just solved is to be solved further: it is the last one, or the first, and no more untrue
+   than the solve was loose */
+static PetscErrorCode AttemptIsLoose(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
+  PetscBool *again)
 {
   PetscReal size;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *again = (PetscBool)(report->converged && p->loose && (end || (report->contact_updates == 1 && report->gap_change <= p->tolerance * size)));
+  *again = (PetscBool)(report->converged && p->loose &&
+                       (end || (report->contact_updates == 1 && report->gap_change <= p->tolerance * size)));
   PetscFunctionReturn(0);
 }
 
 /* Back to the undeformed bodies, where that is the answer: sim->linearization and `at_u` are of them then */
-static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
+static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
+  ContactLinearization *at_u, PetscBool *rests)
 {
   Simulation           sim = p->sim;
   ContactLinearization undeformed;
@@ -313,8 +355,10 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
   PetscFunctionReturn(0);
 }
 
-/* sim->linearization is the one u was found with; `at_u` on exit the one at u. foreseen: it is at u as given, where the solve starts */
-static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol, ContactLinearization *at_u)
+/* sim->linearization is the one u was found with; `at_u` on exit the one at u. foreseen: it is at u as given, where
+   the solve starts */
+static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u)
 {
   Simulation sim          = p->sim;
   GapSecants secants      = {0};
@@ -328,7 +372,8 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
-    PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report, sol, at_u, &end, &slid));
+    PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report,
+      sol, at_u, &end, &slid));
     PetscCall(AttemptIsLoose(p, end, u, report, &again));
     last = (PetscBool)(again && end);
     if (again) {
@@ -343,7 +388,8 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
   PetscCall(GapSecantsDestroy(&secants));
-  report->gap_untrue = (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
+  report->gap_untrue =
+    (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
   if (report->gap_untrue) PetscCall(AttemptSayUntrue(sim, slid, report));
   PetscFunctionReturn(0);
 }
@@ -382,8 +428,8 @@ static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool for
 }
 
 /*
-   The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures and gaps
-   of the last good solve stay with it.
+   The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures
+   and gaps of the last good solve stay with it.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
 {
@@ -402,7 +448,8 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   }
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(VecDuplicate(sim->path.u, &u));
-  if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0) PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
+  if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0)
+    PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
     PetscCall(AttemptBegin(sim, time, foreseen, u));

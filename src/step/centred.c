@@ -1,7 +1,8 @@
 /* Quadratic terms of the energy about a centre of their own */
 #include "stepimpl.h"
 
-/* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this diagonal; force may be NULL */
+/* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this
+   diagonal; force may be NULL */
 PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force)
 {
   Vec         way, product;

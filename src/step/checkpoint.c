@@ -127,7 +127,8 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
    Level: intermediate
 
    Note:
-   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part of the work in the first solve.
+   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part of the
+work in the first solve.
 
 .seealso: `SimulationGetCheckpoint()`, `CheckpointRead()`
 @*/
@@ -136,8 +137,10 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   LoadPath *path = &sim->path;
 
   PetscFunctionBegin;
-  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT, "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT ": the analysis is already complete",
-             (double)checkpoint->time, sim->scene->nsteps);
+  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
+    "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
+    ": the analysis is already complete",
+    (double)checkpoint->time, sim->scene->nsteps);
   *step = sim->first_step = checkpoint->step;
   sim->increment          = checkpoint->increment;
   path->time              = checkpoint->time;

@@ -50,9 +50,9 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 }
 
 /*@C
-   SimulationContactFree - Solves the first load step's elastic problem with its contact pairs replaced by a given pressure
-   on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time, condition number beta and the
-   bound sqrt(2 (beta+3)/beta) iterations into the report.
+   SimulationContactFree - Solves the first load step's elastic problem with its contact pairs replaced by a given
+pressure on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time,
+condition number beta and the bound sqrt(2 (beta+3)/beta) iterations into the report.
 
    Collective
 
@@ -77,7 +77,8 @@ PetscErrorCode SimulationContactFree(Simulation sim)
   PetscLogDouble     t0, t1;
 
   PetscFunctionBegin;
-  PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP, "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
+  PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP,
+    "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
   PetscCall(StepProblemCreate(sim, 1.0, &problem));
   PetscCall(ContactFreeLoad(sim, problem.force));
   PetscCall(ContactFreeKSP(sim, &ksp));
@@ -92,8 +93,8 @@ PetscErrorCode SimulationContactFree(Simulation sim)
     PetscCall(KSPComputeExtremeSingularValues(ksp, &emax, &emin));
     beta = emin > 0.0 ? emax / emin : PETSC_INFINITY;
     PetscCall(KSPGetIterationNumber(ksp, &report->contact_free.iterations));
-    report->contact_free.condition  = beta;
-    report->contact_free.bound      = PetscSqrtReal(2.0 * (1.0 + 3.0 / beta)) * (PetscReal)report->contact_free.iterations;
+    report->contact_free.condition = beta;
+    report->contact_free.bound = PetscSqrtReal(2.0 * (1.0 + 3.0 / beta)) * (PetscReal)report->contact_free.iterations;
     report->contact_free.solve_time = t1 - t0;
   }
   PetscCall(KSPDestroy(&ksp));

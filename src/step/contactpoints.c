@@ -2,20 +2,22 @@
 #include "stepimpl.h"
 
 /*
-   The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of the mortar side.
-   w_A is the area that the mortar side covers about A. Rows of other pairs have w = 0. Over vertices it is shared as the cover is, of which
-   w_A is share_A times the sum, along the normal n_A that the cover has.
+   The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of
+   the mortar side. w_A is the area that the mortar side covers about A. Rows of other pairs have w = 0. Over vertices
+   it is shared as the cover is, of which w_A is share_A times the sum, along the normal n_A that the cover has.
 */
 typedef struct {
   PetscInt   n;
   PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
-  PetscBool  rubs;        /* the pair has friction */
-  PetscReal *slips;       /* 1: its friction gives way */
-  PetscReal *shear, *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
+  PetscBool  rubs;  /* the pair has friction */
+  PetscReal *slips; /* 1: its friction gives way */
+  PetscReal *shear,
+    *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
 } PairRows;
 
-/* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1 nonmortar, closed area, -]; force */
+/* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
+   nonmortar, closed area, -]; force */
 typedef struct {
   Vec carried, sides, force;
   Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
@@ -78,8 +80,8 @@ static PetscReal PairNorm(const PetscReal v[3])
 }
 
 /*
-   A row is in contact where the strain that its pressure is worth is more than that which its gap would be: on the central path
-   their product is the same at all rows, and tends to zero
+   A row is in contact where the strain that its pressure is worth is more than that which its gap would be: on the
+   central path their product is the same at all rows, and tends to zero
 */
 static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
 {
@@ -90,7 +92,8 @@ static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPIU_REAL, MPIU_SUM, sim->comm));
   size = PetscSqrtReal(size);
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) young = PetscMin(young, sim->scene->bodies[b].material.young);
-  for (PetscInt r = 0; r < rows->n; ++r) rows->closed[r] = rows->area[r] > 0.0 && rows->pressure[r] / young > rows->gap[r] / size ? 1.0 : 0.0;
+  for (PetscInt r = 0; r < rows->n; ++r)
+    rows->closed[r] = rows->area[r] > 0.0 && rows->pressure[r] / young > rows->gap[r] / size ? 1.0 : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -111,7 +114,8 @@ static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScal
     rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
     for (PetscInt c = 0; c < 3; ++c) {
       rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / PetscRealPart(mass[r]);
-      rows->way[c * rows->n + r]   = (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
+      rows->way[c * rows->n + r] =
+        (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
     }
   }
   PetscFunctionReturn(0);
@@ -124,8 +128,10 @@ static PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *ro
   PetscReal         *force;
 
   PetscFunctionBegin;
-  *rows = (PairRows){.n = n, .rubs = (PetscBool)(sim->linearization->slip && SceneContactPairRubs(&sim->scene->pairs[pair]))};
-  PetscCall(PetscCalloc6(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n, &rows->closed));
+  *rows =
+    (PairRows){.n = n, .rubs = (PetscBool)(sim->linearization->slip && SceneContactPairRubs(&sim->scene->pairs[pair]))};
+  PetscCall(PetscCalloc6(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
+    &rows->closed));
   PetscCall(PetscMalloc1(3 * n, &force));
   PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
   PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
@@ -156,10 +162,11 @@ static PetscErrorCode PairRowsDestroy(PairRows *rows)
 }
 
 /*
-   v[to] of the vertices B of both sides = sum of |mass_A cover_AB . n_A| share_A value_A, value NULL: 1. That is the integral of the rows' field by
-   B's shape function, and sums to that of w_A value_A over a side
+   v[to] of the vertices B of both sides = sum of |mass_A cover_AB . n_A| share_A value_A, value NULL: 1. That is the
+   integral of the rows' field by B's shape function, and sums to that of w_A value_A over a side
 */
-static PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
+static PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to,
+  Vec v)
 {
   ContactLinearization lin = sim->linearization;
   const PetscScalar   *t, *side, *mass;
@@ -174,7 +181,8 @@ static PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const Pet
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecGetArrayRead(lin->mass, &mass));
     PetscCall(VecGetArrayWrite(weighted, &y));
-    for (PetscInt r = 0; r < rows->n; ++r) y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
+    for (PetscInt r = 0; r < rows->n; ++r)
+      y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
     PetscCall(VecRestoreArrayWrite(weighted, &y));
     PetscCall(VecRestoreArrayRead(lin->mass, &mass));
     PetscCall(MatMultTranspose(PairCover(lin), weighted, spread));
@@ -271,8 +279,10 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionReturn(0);
 }
 
-/* A component of the shear in place of the pressure, handed on and evened out as that is, so that one stays within the other's law */
-static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices, Vec alone, PetscInt component)
+/* A component of the shear in place of the pressure, handed on and evened out as that is, so that one stays within
+   the other's law */
+static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
+  Vec alone, PetscInt component)
 {
   PetscSection       global;
   const PetscScalar *shear, *a;
@@ -306,8 +316,10 @@ static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt fi
   PetscFunctionReturn(0);
 }
 
-/* Shear and slip of the points from number `first` on, slip in the means of what the vertices have of the other side's cover, alone */
-static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices, Vec alone)
+/* Shear and slip of the points from number `first` on, slip in the means of what the vertices have of the other
+   side's cover, alone */
+static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
+  Vec alone)
 {
   PetscSection         global;
   const ContactMemory *m = &sim->memory;
@@ -366,14 +378,17 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
     PetscCall(PetscSectionGetOffset(global, v, &i));
     i -= rstart;
     if (ndofs <= 0 || i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
-    point  = &sim->points[sim->npoints++];
-    *point = (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
+    point = &sim->points[sim->npoints++];
+    *point =
+      (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
     if (point->area > 0.0) {
       point->pressure = PetscRealPart(a[i + 1] / a[i]);
       point->gap      = PetscRealPart(a[i + 2] / a[i]);
     }
     for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
-    point->closed = (PetscBool)(2.0 * PetscRealPart(s[i + 1]) > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * PetscRealPart(b[i])); /* half of it, but for rounding, is not enough */
+    point->closed = (PetscBool)(2.0 * PetscRealPart(s[i + 1]) >
+                                (1.0 + PETSC_SQRT_MACHINE_EPSILON) *
+                                  PetscRealPart(b[i])); /* half of it, but for rounding, is not enough */
   }
   PetscCall(VecRestoreArrayRead(vertices->force, &f));
   PetscCall(VecRestoreArrayRead(vertices->sides, &s));

@@ -1,6 +1,7 @@
 /*
-   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 of the nodes A of one face and the means that a tie has of the other, a_A being the integral of A's
-   shape function. Their stiffness joins nodes that share no cell, and is a matrix of its own.
+   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 of the nodes A of one face and the means
+   that a tie has of the other, a_A being the integral of A's shape function. Their stiffness joins nodes that share
+   no cell, and is a matrix of its own.
 */
 #include "stepimpl.h"
 
@@ -19,7 +20,8 @@ static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch
     longest = PetscMax(longest, n + 1);
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
-  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, stretch));
+  PetscCall(
+    MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, stretch));
   for (PetscInt i = start; i < end; ++i) {
     const PetscInt    *columns;
     const PetscScalar *values;
@@ -28,7 +30,8 @@ static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch
     PetscCall(MatGetRow(means, i, &n, &columns, &values));
     for (PetscInt d = 0; n && d < 3; ++d) {
       PetscCall(MatSetValue(*stretch, 3 * i + d, 3 * i + d, 1.0, ADD_VALUES));
-      for (PetscInt k = 0; k < n; ++k) PetscCall(MatSetValue(*stretch, 3 * i + d, 3 * columns[k] + d, -values[k], ADD_VALUES));
+      for (PetscInt k = 0; k < n; ++k)
+        PetscCall(MatSetValue(*stretch, 3 * i + d, 3 * columns[k] + d, -values[k], ADD_VALUES));
     }
     PetscCall(MatRestoreRow(means, i, &n, &columns, &values));
   }
@@ -40,7 +43,10 @@ static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch
 /* stretch^T (k a) stretch of one entry of the scene */
 static PetscErrorCode CouplingAssemble(Simulation sim, const SceneSpring *spring, Mat *stiffness)
 {
-  const SceneTie tie = {.name = spring->name, .mortar = spring->to, .nonmortar = spring->face, .distance = spring->distance};
+  const SceneTie tie = {.name = spring->name,
+    .mortar                   = spring->to,
+    .nonmortar                = spring->face,
+    .distance                 = spring->distance};
   Mat            means, stretch, stretched;
   Vec            k;
 

@@ -1,9 +1,10 @@
 /*
-   The pressure of a row is its force over the area that the other side covers about its vertex. Where that is a sliver, it is the
-   quotient of two small numbers: such a vertex hands force and area on to the better covered vertices of its facets, in proportion to
-   their areas. And where the other side ends in an edge the pressure is singular, and vertices at and behind the edge over- and
-   undershoot in turn: those within two facets of vertices covered in part exchange force in proportion to what their pressures differ.
-   Both leave the sums over a side as they are, no pressure negative, and vertices elsewhere alone.
+   The pressure of a row is its force over the area that the other side covers about its vertex. Where that is a
+   sliver, it is the quotient of two small numbers: such a vertex hands force and area on to the better covered
+   vertices of its facets, in proportion to their areas. And where the other side ends in an edge the pressure is
+   singular, and vertices at and behind the edge over- and undershoot in turn: those within two facets of vertices
+   covered in part exchange force in proportion to what their pressures differ. Both leave the sums over a side as
+   they are, no pressure negative, and vertices elsewhere alone.
 */
 #include "stepimpl.h"
 
@@ -11,12 +12,14 @@ static const PetscReal cover_ratio     = 0.3; /* of a vertex over a better cover
 static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is covered in part */
 static const PetscInt  cover_rings     = 4;   /* of facets about such vertices in which pressures are evened out */
 static const PetscInt  cover_exchanges = 3;
-static const PetscReal cover_rounding  = 1e-8; /* by which a limit is missed to be missed: meshes of simple fractions meet it to the last digits */
+static const PetscReal cover_rounding =
+  1e-8; /* by which a limit is missed to be missed: meshes of simple fractions meet it to the last digits */
 
-/* The facets of both faces of a pair, those of order 2 cut at their nodes, and what is known of their vertices, in the order of local vectors */
+/* The facets of both faces of a pair, those of order 2 cut at their nodes, and what is known of their vertices, in
+   the order of local vectors */
 typedef struct {
   PetscInt nfacets, *offset; /* [4 nfacets] of each vertex's first value */
-  Vec      cover;            /* cover of the vertex's area; area covered; sum of the areas it hands on to, 0: it does not */
+  Vec      cover; /* cover of the vertex's area; area covered; sum of the areas it hands on to, 0: it does not */
 } CoverFacets;
 
 static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets)
@@ -36,7 +39,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
     PetscInt npieces, pieces[MESH_MAX_FACET_PIECES][4];
 
     PetscCall(MeshGetFacetPieces(dm, points[f], &npieces, pieces));
-    for (PetscInt i = 0; i < 4 * npieces; ++i) PetscCall(PetscSectionGetOffset(section, pieces[i / 4][i % 4], &facets->offset[4 * facets->nfacets + i]));
+    for (PetscInt i = 0; i < 4 * npieces; ++i)
+      PetscCall(PetscSectionGetOffset(section, pieces[i / 4][i % 4], &facets->offset[4 * facets->nfacets + i]));
     facets->nfacets += npieces;
   }
   PetscCall(ISRestoreIndices(is, &points));
@@ -45,8 +49,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
 }
 
 /*
-   Over all facets: each vertex hands what it carries on to the better covered ones, out = their gains; carried NULL: out = the sum
-   of the areas it hands on to
+   Over all facets: each vertex hands what it carries on to the better covered ones, out = their gains; carried NULL:
+   out = the sum of the areas it hands on to
 */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
@@ -104,7 +108,8 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
   PetscCall(VecGetArrayRead(whole, &w));
   PetscCall(VecGetArray(facets->cover, &r));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal size = PetscSqrtReal(PetscSqr(PetscRealPart(w[i])) + PetscSqr(PetscRealPart(w[i + 1])) + PetscSqr(PetscRealPart(w[i + 2])));
+    const PetscReal size = PetscSqrtReal(
+      PetscSqr(PetscRealPart(w[i])) + PetscSqr(PetscRealPart(w[i + 1])) + PetscSqr(PetscRealPart(w[i + 2])));
 
     if (!(size > 0.0)) continue;
     r[i]     = c[i] / size;
@@ -158,7 +163,8 @@ static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gai
   PetscFunctionReturn(0);
 }
 
-/* In `edge` the first value of the vertices covered in part, positive; then those of all vertices of facets that have one, ring by ring */
+/* In `edge` the first value of the vertices covered in part, positive; then those of all vertices of facets that have
+   one, ring by ring */
 static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
 {
   const PetscScalar *r, *e;
@@ -171,7 +177,8 @@ static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
   PetscCall(VecGetLocalSize(edge, &n));
   PetscCall(VecGetArrayRead(facets->cover, &r));
   PetscCall(VecGetArray(edge, &o));
-  for (PetscInt i = 0; i < n; i += 3) o[i] = PetscRealPart(r[i]) > 0.0 && PetscRealPart(r[i]) < (1.0 - cover_rounding) * cover_partial ? 1.0 : 0.0;
+  for (PetscInt i = 0; i < n; i += 3)
+    o[i] = PetscRealPart(r[i]) > 0.0 && PetscRealPart(r[i]) < (1.0 - cover_rounding) * cover_partial ? 1.0 : 0.0;
   PetscCall(VecRestoreArray(edge, &o));
   PetscCall(VecRestoreArrayRead(facets->cover, &r));
   for (PetscInt i = 0; i < 2; ++i) PetscCall(DMGetLocalVector(dm, &local[i]));
@@ -199,16 +206,19 @@ static PetscInt CoverCountVertices(const PetscInt v[4])
   return v[2] == v[3] ? 3 : 4;
 }
 
-/* What the vertices of a facet gain from each other: the off-diagonals of its mass matrix times the differences of their pressures */
+/* What the vertices of a facet gain from each other: the off-diagonals of its mass matrix times the differences of
+   their pressures */
 static void CoverExchangeFacet(const PetscInt v[4], const PetscScalar c[], PetscScalar gain[])
 {
   const PetscInt n = CoverCountVertices(v);
 
   for (PetscInt a = 0; a < n; ++a) {
     for (PetscInt b = a + 1; b < n; ++b) {
-      const PetscReal area_a = PetscRealPart(c[v[a]]), area_b = PetscRealPart(c[v[b]]), part = n == 3 ? 1.0 / 24.0 : b - a == 2 ? 1.0 / 36.0
-                                                                                                                                : 1.0 / 18.0;
-      PetscReal       flow;
+      const PetscReal area_a = PetscRealPart(c[v[a]]), area_b = PetscRealPart(c[v[b]]),
+                      part = n == 3       ? 1.0 / 24.0
+                             : b - a == 2 ? 1.0 / 36.0
+                                          : 1.0 / 18.0;
+      PetscReal flow;
 
       if (!(area_a > 0.0 && area_b > 0.0)) continue;
       flow = part * PetscMin(area_a, area_b) * PetscRealPart(c[v[b] + 1] / area_b - c[v[a] + 1] / area_a);

@@ -74,6 +74,7 @@ PetscErrorCode StepEventsGetTimes(MPI_Comm comm, const RunTimes *start, RunTimes
     sum += *time;
   }
   times->other = PetscMax(0.0, times->total - sum);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, times, (PetscMPIInt)(sizeof(*times) / sizeof(PetscLogDouble)), MPI_DOUBLE, MPI_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, times, (PetscMPIInt)(sizeof(*times) / sizeof(PetscLogDouble)), MPI_DOUBLE,
+    MPI_MAX, comm));
   PetscFunctionReturn(0);
 }

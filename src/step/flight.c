@@ -37,7 +37,8 @@ static PetscErrorCode FlightFindFarthest(Simulation sim, Vec u, PetscInt *farthe
   PetscCall(PetscCalloc1(nbodies, &largest));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(VecGetArrayRead(u, &x));
-  for (PetscInt i = 0; i < n; ++i) largest[sim->places.body[i / 3]] = PetscMax(largest[sim->places.body[i / 3]], PetscAbsScalar(x[i]));
+  for (PetscInt i = 0; i < n; ++i)
+    largest[sim->places.body[i / 3]] = PetscMax(largest[sim->places.body[i / 3]], PetscAbsScalar(x[i]));
   PetscCall(VecRestoreArrayRead(u, &x));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
   *farthest = 0;
@@ -92,12 +93,14 @@ static void FlightFit(FlightSums *sums, Flight *flight)
   }
   FlightCross(sums->place, flight->t, moment);
   for (PetscInt i = 0; i < 3; ++i) moment[i] = sums->moment[i] - moment[i];
-  for (PetscInt k = 0; k < 9; ++k) inertia[k] -= (k % 4 == 0) * FlightDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
+  for (PetscInt k = 0; k < 9; ++k)
+    inertia[k] -= (k % 4 == 0) * FlightDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
   for (PetscInt i = 0; i < 3; ++i) FlightCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
   for (PetscInt i = 0; i < 3; ++i) flight->w[i] = FlightDot(cross[i], moment) / FlightDot(sums->inertia[0], cross[0]);
-  turned           = FlightDot(flight->w, moment) / sums->n; /* w . inertia w */
-  flight->turned   = PetscSqrtReal(PetscMax(turned, 0.0));
-  flight->residual = PetscSqrtReal(PetscMax(1.0 - (turned + FlightDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
+  turned         = FlightDot(flight->w, moment) / sums->n; /* w . inertia w */
+  flight->turned = PetscSqrtReal(PetscMax(turned, 0.0));
+  flight->residual =
+    PetscSqrtReal(PetscMax(1.0 - (turned + FlightDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
 }
 
 /* To a power of ten below the unit, and no minus zero: rounding is not printed */
@@ -130,11 +133,14 @@ static PetscErrorCode FlightDescribe(FlightSums *sums, PetscReal distance, char 
       axis[i]     = FlightRound(arm, 1e-2 * radius);
       flight.w[i] = FlightRound(flight.w[i] / size, 1e-2);
     }
-    PetscCall(PetscSNPrintf(text, length, "turns over about the axis along (%g, %g, %g) through (%g, %g, %g)", (double)flight.w[0], (double)flight.w[1], (double)flight.w[2], (double)axis[0], (double)axis[1], (double)axis[2]));
+    PetscCall(PetscSNPrintf(text, length, "turns over about the axis along (%g, %g, %g) through (%g, %g, %g)",
+      (double)flight.w[0], (double)flight.w[1], (double)flight.w[2], (double)axis[0], (double)axis[1],
+      (double)axis[2]));
   } else {
     size = PetscSqrtReal(FlightDot(flight.t, flight.t));
     for (PetscInt i = 0; i < 3; ++i) flight.t[i] = FlightRound(flight.t[i] / size, 1e-2);
-    PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)flight.t[0], (double)flight.t[1], (double)flight.t[2]));
+    PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)flight.t[0], (double)flight.t[1],
+      (double)flight.t[2]));
   }
   PetscFunctionReturn(0);
 }
@@ -151,7 +157,8 @@ PetscErrorCode FlightReport(Simulation sim, Vec u, StepReport *report)
   PetscCall(FlightFindFarthest(sim, u, &body, &distance));
   PetscCall(FlightSum(sim, u, body, &sums));
   PetscCall(FlightDescribe(&sums, distance, motion, sizeof(motion)));
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: nothing stops it", report->reason, sim->scene->bodies[body].name, motion));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: nothing stops it", report->reason,
+    sim->scene->bodies[body].name, motion));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,7 @@
 /*
-   Pressures that follow the faces they push on. Within a solve their load is linear in the displacement: that about a centre and its slope there, the symmetric part, which has
-   an energy. The centre goes to the solution until the load there is the one it was found with: Newton's method, where the slope is symmetric as a whole.
+   Pressures that follow the faces they push on. Within a solve their load is linear in the displacement: that about a
+   centre and its slope there, the symmetric part, which has an energy. The centre goes to the solution until the load
+   there is the one it was found with: Newton's method, where the slope is symmetric as a whole.
 */
 #include "stepimpl.h"
 
@@ -72,7 +73,8 @@ PetscErrorCode FollowersForget(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they are in p->load */
+/* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they
+   are in p->load */
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
@@ -80,7 +82,8 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve that has converged to u is to be followed by another one, about u. At the end p->load is that at u, where no slope is needed */
+/* Whether a solve that has converged to u is to be followed by another one, about u. At the end p->load is that at u,
+   where no slope is needed */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
@@ -110,6 +113,8 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
     PetscCall(GapSecantsAdvance(&p->secants, off, u, p->followed, &damped));
     *again = PETSC_TRUE;
     PetscCall(FollowersLinearize(p));
-  } else PetscCall(ReportReason(report, PETSC_FALSE, "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
+  } else
+    PetscCall(ReportReason(report, PETSC_FALSE,
+      "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
   PetscFunctionReturn(0);
 }

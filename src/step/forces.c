@@ -45,7 +45,8 @@ static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt share
 }
 
 /* Component by component of a face; sharers: of each row of this rank, NULL: one */
-static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[], const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
+static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
+  const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -57,7 +58,8 @@ static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, c
     PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt k = 0; k < n; ++k) ForceSumAddRow(field, rows[k], sharers ? sharers[rows[k] - field->rstart] : 1, sum);
+    for (PetscInt k = 0; k < n; ++k)
+      ForceSumAddRow(field, rows[k], sharers ? sharers[rows[k] - field->rstart] : 1, sum);
     PetscCall(ISRestoreIndices(is, &rows));
     PetscCall(ISDestroy(&is));
   }
@@ -117,8 +119,10 @@ PetscErrorCode ForcesFree(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows, and of their friction; sides: nonmortar, mortar */
-static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear, ForceSum sides[2])
+/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows, and of their friction; sides:
+   nonmortar, mortar */
+static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
+  ForceSum sides[2])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   Vec                    own, force;
@@ -194,7 +198,8 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Of a symmetry plane along no axis, or of a rigid body that forces drive: the forces at its nodes, which are there no more then */
+/* Of a symmetry plane along no axis, or of a rigid body that forces drive: the forces at its nodes, which are there
+   no more then */
 static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -221,7 +226,8 @@ static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char 
   PetscFunctionReturn(0);
 }
 
-/* reaction: its prescribed rows are; ties: on the bodies, rigid: on rigid bodies, NULL: none. What is left of the ties are the joints' */
+/* reaction: its prescribed rows are; ties: on the bodies, rigid: on rigid bodies, NULL: none. What is left of the
+   ties are the joints' */
 PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum  *sums;
@@ -243,7 +249,8 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties,
     const SceneDisplacement *d = &sim->scene->displacements[i];
 
     if (d->inclined) PetscCall(ForcesTakeAll(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
-    else if (rigid && d->moves) PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
+    else if (rigid && d->moves)
+      PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
   }
   PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {
@@ -291,7 +298,8 @@ static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *repor
   for (PetscInt i = 0; i < n; ++i) sums[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
   PetscCall(VecRestoreArrayRead(load, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(3 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].load, &sums[3 * b]));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].load, &sums[3 * b]));
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
@@ -303,7 +311,8 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
   PetscCall(SpringsMeasure(sim, u, sums, &report->weak_spring_force));
-  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
@@ -315,19 +324,22 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
   PetscCall(TiesMeasure(sim, ties, sums));
-  for (PetscInt b = 0; b < report->nbodies; ++b) PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 
-/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none. Forces below rounding are in balance */
+/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none. Forces
+   below rounding are in balance */
 PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
   PetscReal largest = 0.0;
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
-    BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar), *mortar = ForcesFindBody(report, sim->scene->pairs[p].mortar);
+    BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar),
+               *mortar    = ForcesFindBody(report, sim->scene->pairs[p].mortar);
 
     PetscCall(ForcesAddToBody(nonmortar, nonmortar->contact, report->pairs[p].force));
     PetscCall(ForcesAddToBody(mortar, mortar->contact, report->pairs[p].mortar_force));
@@ -345,7 +357,9 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 
-    body->balance   = body->balance > rounding ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest) : 0.0;
+    body->balance   = body->balance > rounding
+                        ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest)
+                        : 0.0;
     report->balance = PetscMax(report->balance, body->balance);
   }
   PetscFunctionReturn(0);

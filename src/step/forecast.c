@@ -1,6 +1,7 @@
 /*
-   Load steps that were solved on another mesh of the same bodies, as a coarser one that -accuracy began with: the displacements and pressures that each of them ended
-   with are interpolated, and the step starts from there. The gap is linearized there first, so that fewer updates are left.
+   Load steps that were solved on another mesh of the same bodies, as a coarser one that -accuracy began with: the
+   displacements and pressures that each of them ended with are interpolated, and the step starts from there. The gap
+   is linearized there first, so that fewer updates are left.
 */
 #include "stepimpl.h"
 
@@ -13,13 +14,15 @@
 .  sim - the simulation, before SimulationSetUp()
 
    Input/Output Parameter:
-.  forecast - the states on the other mesh, zeros where there was none; those on this one as load steps end. It must outlive the simulation
+.  forecast - the states on the other mesh, zeros where there was none; those on this one as load steps end. It must
+outlive the simulation
 
    Level: developer
 
    Notes:
-   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that fails with it is tried again without.
-   It is left aside where one linearization of the gap is asked for, which is that at the last state, and where displacements are bounded by the last increments.
+   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that fails with
+it is tried again without. It is left aside where one linearization of the gap is asked for, which is that at the last
+state, and where displacements are bounded by the last increments.
 
 .seealso: `SimulationSetMarks()`, `StepForecastDestroy()`, `MeshEvaluate()`
 @*/
@@ -65,7 +68,8 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
   PetscCall(VecGetLocalSize(sim->places.x, &nlocal));
   PetscCall(PetscMalloc1(n * nlocal, &values));
   PetscCall(VecGetArrayRead(sim->places.x, &x));
-  PetscCall(MeshEvaluate(found->dm, n, found->fields, nlocal / 3, (const PetscReal(*)[3])x, sim->places.body, values, &missing));
+  PetscCall(MeshEvaluate(found->dm, n, found->fields, nlocal / 3, (const PetscReal(*)[3])x, sim->places.body, values,
+    &missing));
   PetscCall(VecRestoreArrayRead(sim->places.x, &x));
   if (!missing) {
     here->nsteps  = found->nsteps;
@@ -91,7 +95,8 @@ PetscErrorCode ForecastSetUp(Simulation sim)
 
   PetscFunctionBegin;
   if (!found) PetscFunctionReturn(0);
-  if (sim->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1)) PetscCall(ForecastTransfer(sim, found, &sim->forecast.here));
+  if (sim->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1))
+    PetscCall(ForecastTransfer(sim, found, &sim->forecast.here));
   PetscCall(StepForecastDestroy(found));
   found->nfields = 1 + (sim->contact ? sim->scene->npairs : 0);
   found->dm      = sim->dm;
@@ -139,7 +144,8 @@ PetscErrorCode ForecastRecord(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* u, and the pressures that are remembered, as the forecast has them for the problem's time; *foreseen: whether it has that, and it is of use */
+/* u, and the pressures that are remembered, as the forecast has them for the problem's time; *foreseen: whether it
+   has that, and it is of use */
 PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 {
   Simulation      sim    = p->sim;
@@ -157,7 +163,8 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   PetscCall(TiesFollow(&sim->ties, u));
   if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &energy));
   *foreseen = sim->forecast.used = EnergyIsFinite(energy);
-  for (PetscInt f = 1; *foreseen && f < here->nfields; ++f) PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_TRUE));
+  for (PetscInt f = 1; *foreseen && f < here->nfields; ++f)
+    PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 

@@ -1,9 +1,11 @@
 /*
-   Friction of the pairs that have it: forces tau along the tangents of each row, of the slip since the last state of equilibrium,
+   Friction of the pairs that have it: forces tau along the tangents of each row, of the slip since the last state of
+   equilibrium,
 
      |tau| <= b,   tau = -b slip/|slip| where there is slip,   b = min(limit, coefficient x force of the row),
 
-   as norm terms of the optimization problem. What is remembered between solves stands in the frame of space: tangents are those of one linearization.
+   as norm terms of the optimization problem. What is remembered between solves stands in the frame of space: tangents
+   are those of one linearization.
 */
 #include "stepimpl.h"
 
@@ -22,10 +24,14 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     PetscReal               factor = 1.0;
 
     if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, p->time, &factor));
-    PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must not be negative", pair->name, (double)factor, (double)p->time);
+    PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+      "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
+      "not be negative",
+      pair->name, (double)factor, (double)p->time);
     limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
-    coefficient[r] = !SceneContactPairRubs(pair) ? 0.0 : pair->friction < PETSC_INFINITY ? factor * pair->friction
-                                                                                         : PETSC_INFINITY;
+    coefficient[r] = !SceneContactPairRubs(pair)       ? 0.0
+                     : pair->friction < PETSC_INFINITY ? factor * pair->friction
+                                                       : PETSC_INFINITY;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));
@@ -114,7 +120,9 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(force, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    for (PetscInt c = 0; c < 3; ++c) m->shear[3 * ContactMemoryIndex(m, lin, r) + c] = PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
+    for (PetscInt c = 0; c < 3; ++c)
+      m->shear[3 * ContactMemoryIndex(m, lin, r) + c] =
+        PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
   }
   PetscCall(VecRestoreArrayRead(force, &f));
   PetscFunctionReturn(0);

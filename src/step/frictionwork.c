@@ -2,7 +2,8 @@
 #include "stepimpl.h"
 
 /* Work on the slip of a row, by the mean of the forces before and after */
-static PetscReal FrictionRowWork(const ContactMemory *m, ContactLinearization lin, PetscInt row, const PetscScalar force[2], const PetscScalar slip[2])
+static PetscReal FrictionRowWork(const ContactMemory *m, ContactLinearization lin, PetscInt row,
+  const PetscScalar force[2], const PetscScalar slip[2])
 {
   const PetscReal *before = &m->settled[3 * ContactMemoryIndex(m, lin, row)];
   PetscReal        work   = 0.0;
@@ -10,12 +11,14 @@ static PetscReal FrictionRowWork(const ContactMemory *m, ContactLinearization li
   for (PetscInt a = 0; a < 2; ++a) {
     const PetscReal *t = &lin->tangent[6 * row + 3 * a];
 
-    work -= 0.5 * (t[0] * before[0] + t[1] * before[1] + t[2] * before[2] + PetscRealPart(force[a])) * PetscRealPart(slip[a]);
+    work -=
+      0.5 * (t[0] * before[0] + t[1] * before[1] + t[2] * before[2] + PetscRealPart(force[a])) * PetscRealPart(slip[a]);
   }
   return work;
 }
 
-/* Of every pair: the work since the start, if `sol` stands, and the sum of the sizes of the forces: of a row that is covered in part, that part */
+/* Of every pair: the work since the start, if `sol` stands, and the sum of the sizes of the forces: of a row that is
+   covered in part, that part */
 PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepReport *report)
 {
   ContactLinearization lin = sim->linearization;
@@ -35,7 +38,9 @@ PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepR
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     sums[2 * lin->pair[r]] += FrictionRowWork(m, lin, r, f + 2 * r, s + 2 * r);
-    sums[2 * lin->pair[r] + 1] += PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1]))) * lin->covered[r] / PetscRealPart(mass[r]);
+    sums[2 * lin->pair[r] + 1] +=
+      PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1]))) * lin->covered[r] /
+      PetscRealPart(mass[r]);
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
@@ -50,7 +55,8 @@ PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepR
   PetscFunctionReturn(0);
 }
 
-/* The solution is the new state of equilibrium: what was dissipated and slipped on the way to it counts, and the next slip begins there */
+/* The solution is the new state of equilibrium: what was dissipated and slipped on the way to it counts, and the next
+   slip begins there */
 PetscErrorCode FrictionSettle(Simulation sim, const ContactSolution *sol)
 {
   ContactLinearization lin = sim->linearization;
@@ -65,7 +71,9 @@ PetscErrorCode FrictionSettle(Simulation sim, const ContactSolution *sol)
   PetscCall(VecGetArrayRead(sol->slip, &s));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     m->dissipated[ContactMemoryIndex(m, lin, r)] += FrictionRowWork(m, lin, r, f + 2 * r, s + 2 * r);
-    if (sim->pressure[r] > 0.0) m->slip_path[ContactMemoryIndex(m, lin, r)] += PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
+    if (sim->pressure[r] > 0.0)
+      m->slip_path[ContactMemoryIndex(m, lin, r)] +=
+        PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
     for (PetscInt a = 0; a < 2; ++a) {
       sim->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
       sim->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);

@@ -1,6 +1,7 @@
 /*
-   An overlap that follows a ramp: the faces of its pair count as farther apart than they are by what the ramp has yet to bring, so that an
-   overlap as large as is meant closes from nothing. The gap of a row grows as if its mortar face stood off along the row's normal.
+   An overlap that follows a ramp: the faces of its pair count as farther apart than they are by what the ramp has yet
+   to bring, so that an overlap as large as is meant closes from nothing. The gap of a row grows as if its mortar face
+   stood off along the row's normal.
 */
 #include "stepimpl.h"
 
@@ -62,7 +63,8 @@ PetscErrorCode InterferenceAdd(Simulation sim, PetscReal time, PetscReal times, 
     const SceneContactPair *pair   = &sim->scene->pairs[p];
     PetscReal               factor = 1.0;
 
-    if (pair->interference_ramp >= 0 && pair->interference > 0.0 && pair->interference < PETSC_INFINITY) PetscCall(SceneGetFactor(sim->scene, pair->interference_ramp, time, &factor));
+    if (pair->interference_ramp >= 0 && pair->interference > 0.0 && pair->interference < PETSC_INFINITY)
+      PetscCall(SceneGetFactor(sim->scene, pair->interference_ramp, time, &factor));
     if (factor != 1.0) PetscCall(InterferenceStandOff(sim, p, times * (1.0 - factor) * pair->interference, lin));
   }
   PetscFunctionReturn(0);

@@ -11,16 +11,16 @@ static void InterruptHandle(int sig)
 }
 
 /*@C
-   SimulationCatchSignals - From now on SIGINT, SIGTERM and SIGUSR1 end a simulation after the Newton step under way, with
-   the state of the last load step that converged
+   SimulationCatchSignals - From now on SIGINT, SIGTERM and SIGUSR1 end a simulation after the Newton step under way,
+with the state of the last load step that converged
 
    Not Collective
 
    Level: intermediate
 
    Notes:
-   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves them alone;
-   a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
+   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves them
+alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
 
 .seealso: `SimulationStep()`
 @*/
@@ -29,7 +29,9 @@ PetscErrorCode SimulationCatchSignals(void)
   static const int signals[] = {SIGINT, SIGTERM, SIGUSR1};
 
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(signals); ++i) PetscCheck(signal(signals[i], InterruptHandle) != SIG_ERR, PETSC_COMM_SELF, PETSC_ERR_SYS, "signal() failed for signal %d", signals[i]);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(signals); ++i)
+    PetscCheck(signal(signals[i], InterruptHandle) != SIG_ERR, PETSC_COMM_SELF, PETSC_ERR_SYS,
+      "signal() failed for signal %d", signals[i]);
   PetscFunctionReturn(0);
 }
 
@@ -65,8 +67,10 @@ PetscErrorCode InterruptReport(Simulation sim, StepReport *report)
   char reason[64];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s", sim->interrupted == SIGINT ? "SIGINT" : sim->interrupted == SIGTERM ? "SIGTERM"
-                                                                                                                                              : "SIGUSR1"));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s",
+    sim->interrupted == SIGINT    ? "SIGINT"
+    : sim->interrupted == SIGTERM ? "SIGTERM"
+                                  : "SIGUSR1"));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

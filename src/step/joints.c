@@ -24,7 +24,9 @@ static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
       PetscCall(MatRestoreRow(rows, i, &n, NULL, NULL));
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
-    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT, "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them", sim->scene->ties[twice].name, tie->name);
+    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
+      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them",
+      sim->scene->ties[twice].name, tie->name);
     if (*all) {
       PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
       PetscCall(MatDestroy(&rows));
@@ -54,7 +56,9 @@ static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt 
   }
   PetscCall(VecRestoreArrayRead(held, &h));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties", sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
+  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT,
+    "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties",
+    sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
   PetscCall(VecDestroy(&held));
   PetscFunctionReturn(0);
@@ -78,7 +82,10 @@ static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT, "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange the two faces", sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
+  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT,
+    "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange "
+    "the two faces",
+    sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
   PetscFunctionReturn(0);
 }
 
@@ -99,7 +106,8 @@ static PetscErrorCode JointsLongestRow(Mat all, PetscInt *longest)
 }
 
 /* The matrix of the ties alone, and its rows that follow others; all: of nodes */
-PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C, PetscBool follows[])
+PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
+  PetscBool follows[])
 {
   PetscInt nlocal, rstart, start, longest;
 
@@ -122,7 +130,8 @@ PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], cons
     follows[i] = PETSC_TRUE;
     PetscCall(MatGetRow(all, start + node, &n, &columns, &values));
     for (PetscInt k = 0; k < n; ++k) {
-      if (PetscAbsScalar(values[k]) > 1e-14) PetscCall(MatSetValue(*C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
+      if (PetscAbsScalar(values[k]) > 1e-14)
+        PetscCall(MatSetValue(*C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
     }
     PetscCall(MatRestoreRow(all, start + node, &n, &columns, &values));
   }

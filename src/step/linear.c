@@ -34,14 +34,16 @@ static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConver
   digits = PetscMax(-PetscLog10Real(rtol), gained);
   all    = (PetscReal)it * digits / gained;
   PetscCall(PCAMGFGetFactored(pc, &before, NULL));
-  PetscCall(PCAMGFExpect(pc, all - (PetscReal)it + all * (PetscReal)p->later, factored_iterations * (PetscReal)(1 + p->later)));
+  PetscCall(
+    PCAMGFExpect(pc, all - (PetscReal)it + all * (PetscReal)p->later, factored_iterations * (PetscReal)(1 + p->later)));
   PetscCall(PCAMGFGetFactored(pc, &after, NULL));
   p->left = (PetscBool)(after != before);
   if (p->left) *reason = KSP_CONVERGED_ITS;
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve() from x as it is, or from zero; it goes on from the iterate attained where a factorization takes the place of the AMG; *its: of both together */
+/* KSPSolve() from x as it is, or from zero; it goes on from the iterate attained where a factorization takes the
+   place of the AMG; *its: of both together */
 static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool resume, Vec b, Vec x, PetscInt *its)
 {
   LinearPatience patience = {.left = PETSC_FALSE};
@@ -55,7 +57,8 @@ static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool re
   PetscCall(PathSolvesToCome(sim, &patience.later));
   patience.later--;
   PetscCall(KSPGetAndClearConvergenceTest(ksp, &patience.test, &patience.ctx, &patience.destroy));
-  PetscCall(KSPSetConvergenceTest(ksp, amgf ? LinearTest : patience.test, amgf ? (void *)&patience : patience.ctx, NULL));
+  PetscCall(
+    KSPSetConvergenceTest(ksp, amgf ? LinearTest : patience.test, amgf ? (void *)&patience : patience.ctx, NULL));
   PetscCall(KSPSetInitialGuessNonzero(ksp, resume));
   PetscCall(KSPSolve(ksp, b, x));
   PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_FALSE));
@@ -95,7 +98,8 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   } else PetscCall(KSPGetIterationNumber(sim->ksp, &its));
   PetscCall(KSPGetPC(sim->ksp, &pc));
   PetscCall(PathSolvesToCome(sim, &solves));
-  PetscCall(PCAMGFExpect(pc, (PetscReal)solves * (its ? (PetscReal)its : usual), factored_iterations * (PetscReal)solves));
+  PetscCall(
+    PCAMGFExpect(pc, (PetscReal)solves * (its ? (PetscReal)its : usual), factored_iterations * (PetscReal)solves));
   *ksp = sim->ksp;
   PetscFunctionReturn(0);
 }

@@ -32,7 +32,9 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
     const SceneTraction *traction = &scene->tractions[i];
 
     PetscCall(DeadLoadsGetRamp(dm, loads, traction->ramp, &force));
-    if (traction->resultant) PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment, traction->placed ? traction->point : NULL, force));
+    if (traction->resultant)
+      PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment,
+        traction->placed ? traction->point : NULL, force));
     else PetscCall(ElasticityAddFaceField(elasticity, traction->face, traction->value, force));
   }
   for (PetscInt i = 0; i < scene->nforces; ++i) {

@@ -28,7 +28,8 @@ static PetscErrorCode LooseMeasure(Simulation sim, Vec u, Vec load, PetscReal ca
   PetscCall(VecRestoreArrayRead(load, &f));
   PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
   PetscCall(VecRestoreArrayRead(u, &v));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, carried, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, carried, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }
 
@@ -46,7 +47,10 @@ PetscErrorCode LooseTest(const StepProblem *p, Vec u, StepReport *report)
     const PetscReal *c = &carried[4 * b], force = PetscSqrtReal(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
     char             reason[256];
 
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; add a support, or stiffer springs than weak_springs: %g", scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; add a support, or "
+      "stiffer springs than weak_springs: %g",
+      scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
     if (force > loose_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree(carried));
@@ -79,7 +83,8 @@ static PetscErrorCode LooseMeasureMotion(Simulation sim, Vec u0, Vec u, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Nor has one that follows another linearization of the gap, at u_linearized, and takes such a body farther from there than it is long: faces that tilt have squeezed it out */
+/* Nor has one that follows another linearization of the gap, at u_linearized, and takes such a body farther from
+   there than it is long: faces that tilt have squeezed it out */
 PetscErrorCode LooseTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
   Scene      scene = p->sim->scene;
@@ -94,7 +99,10 @@ PetscErrorCode LooseTestMotion(const StepProblem *p, Vec u_linearized, Vec u, St
     const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);
     char            reason[256];
 
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; friction, something that holds it, or stiffer springs than weak_springs: %g", scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; "
+      "friction, something that holds it, or stiffer springs than weak_springs: %g",
+      scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
     if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree2(volume, moved));

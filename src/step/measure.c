@@ -20,7 +20,8 @@ static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *r
   }
   PetscCall(VecRestoreArrayRead(q, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
-  report->action_reaction = sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
+  report->action_reaction =
+    sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -62,10 +63,12 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
 }
 
 /*
-   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance, and that of
-   the pressures on the difference of the true and the linearized gap; to first order in each, over twice the energy
+   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
+   and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
+   the energy
 */
-static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted, StepReport *report)
+static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
+  StepReport *report)
 {
   PetscScalar work, duality = 0.0;
   PetscReal   press = 0.0;
@@ -91,8 +94,9 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 }
 
 /*
-   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the reaction
-   = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization error
+   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the
+   reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
+   error
 */
 PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {

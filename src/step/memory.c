@@ -2,7 +2,8 @@
 #include "stepimpl.h"
 
 static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
-static const PetscReal open_share          = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is open, and its pressure that of a barrier */
+static const PetscReal open_share = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is
+                                             open, and its pressure that of a barrier */
 
 PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
 {
@@ -18,9 +19,12 @@ PetscErrorCode ContactMemoryCreate(DM dm, Scene scene, ContactMemory *m)
   PetscCall(VecGetOwnershipRange(u, &m->first, &last));
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
-  PetscCall(PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
+  PetscCall(
+    PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
   for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
-  if (rubs) PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
+  if (rubs)
+    PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned,
+      &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
 }
 
@@ -34,7 +38,8 @@ PetscInt ContactMemoryIndex(const ContactMemory *m, ContactLinearization lin, Pe
 }
 
 /* stiffness: of the bodies [force/length] */
-PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack, PetscReal stiffness)
+PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
+  PetscReal stiffness)
 {
   const PetscScalar *z, *s, *mass;
 
@@ -61,7 +66,8 @@ PetscErrorCode ContactMemoryStore(ContactMemory *m, ContactLinearization lin, co
    Start values for the rows of a new linearization: pressures scaled by the growth of the load. A vertex that had no
    row gets zeros, which the optimizer moves off the boundary. `any` is false when nothing is remembered on any rank.
 */
-PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization lin, PetscReal scale, Vec slack, Vec pressure, PetscBool *any)
+PetscErrorCode ContactMemoryRecall(const ContactMemory *m, ContactLinearization lin, PetscReal scale, Vec slack,
+  Vec pressure, PetscBool *any)
 {
   PetscScalar *z, *s;
   PetscBool    found = PETSC_FALSE;
@@ -98,8 +104,8 @@ static PetscErrorCode ContactMemoryLargest(const ContactMemory *m, MPI_Comm comm
 }
 
 /*
-   How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under pressure, and
-   as penetration over the others, whose open gap does not matter.
+   How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under
+   pressure, and as penetration over the others, whose open gap does not matter.
 */
 PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization lin, PetscReal *change)
 {
@@ -114,7 +120,8 @@ PetscErrorCode ContactMemoryChange(const ContactMemory *m, ContactLinearization 
     const PetscInt  k   = ContactMemoryIndex(m, lin, i);
     const PetscReal gap = PetscRealPart(g[i]);
 
-    worst = PetscMax(worst, ContactMemoryPressure(m, k) > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+    worst = PetscMax(worst,
+      ContactMemoryPressure(m, k) > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
   }
   PetscCall(VecRestoreArrayRead(lin->g, &g));
   PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
@@ -130,13 +137,15 @@ PetscErrorCode ContactMemoryFindClosed(const ContactMemory *m, ContactLinearizat
   PetscFunctionBegin;
   PetscCall(ContactMemoryLargest(m, PetscObjectComm((PetscObject)closed), &largest));
   PetscCall(VecGetArrayWrite(closed, &c));
-  for (PetscInt i = 0; i < lin->nlocal; ++i) c[i] = ContactMemoryPressure(m, ContactMemoryIndex(m, lin, i)) > negligible_pressure * largest ? 1.0 : 0.0;
+  for (PetscInt i = 0; i < lin->nlocal; ++i)
+    c[i] = ContactMemoryPressure(m, ContactMemoryIndex(m, lin, i)) > negligible_pressure * largest ? 1.0 : 0.0;
   PetscCall(VecRestoreArrayWrite(closed, &c));
   PetscFunctionReturn(0);
 }
 
 /* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
-PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearization lin, PetscBool **lost, PetscInt *nlost)
+PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearization lin, PetscBool **lost,
+  PetscInt *nlost)
 {
   const PetscInt n    = m->npairs * m->nowned;
   const MPI_Comm comm = PetscObjectComm((PetscObject)lin->g);
@@ -146,7 +155,8 @@ PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearizatio
   *nlost = 0;
   PetscCall(ContactMemoryLargest(m, comm, &largest));
   PetscCall(PetscMalloc1(n, lost));
-  for (PetscInt k = 0; k < n; ++k) (*lost)[k] = (PetscBool)(ContactMemoryPressure(m, k) > negligible_pressure * largest);
+  for (PetscInt k = 0; k < n; ++k)
+    (*lost)[k] = (PetscBool)(ContactMemoryPressure(m, k) > negligible_pressure * largest);
   for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactMemoryIndex(m, lin, i)] = PETSC_FALSE;
   for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
@@ -154,7 +164,8 @@ PetscErrorCode ContactMemoryFindLost(const ContactMemory *m, ContactLinearizatio
 }
 
 /* Smallest gap of those vertices in a linearization that looks deeper; 0 if they have no row there either */
-PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool lost[], ContactLinearization lin, PetscReal *least)
+PetscErrorCode ContactMemoryLeastGap(const ContactMemory *m, const PetscBool lost[], ContactLinearization lin,
+  PetscReal *least)
 {
   const PetscScalar *g;
 

@@ -1,6 +1,6 @@
 /*
-   Rigid motions of faces and bodies: u = t + (R - 1) (X - c), with t and the rotation vector of R the sums over the scene's entries of the same
-   face or body, each times the factor of its ramp.
+   Rigid motions of faces and bodies: u = t + (R - 1) (X - c), with t and the rotation vector of R the sums over the
+   scene's entries of the same face or body, each times the factor of its ramp.
 */
 #include "stepimpl.h"
 #include <string.h>
@@ -14,7 +14,8 @@ PetscInt MotionFindLeader(Scene scene, PetscInt d)
   return leader;
 }
 
-/* R - 1 by Rodrigues' formula, r = |rotation| n: sin r [n] + (1 - cos r) [n]^2, in which small angles keep their digits */
+/* R - 1 by Rodrigues' formula, r = |rotation| n: sin r [n] + (1 - cos r) [n]^2, in which small angles keep their
+   digits */
 static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
 {
   PetscReal r[3], angle = 0.0, sine, versine;
@@ -46,7 +47,8 @@ void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMoti
     for (PetscInt i = 0; i < 3; ++i) {
       motion->t[i] += factor[entry->ramp] * entry->value[i];
       degrees[i] += factor[entry->ramp] * entry->rotation[i];
-      if (entry->rotation[0] != 0.0 || entry->rotation[1] != 0.0 || entry->rotation[2] != 0.0) motion->center[i] = entry->center[i];
+      if (entry->rotation[0] != 0.0 || entry->rotation[1] != 0.0 || entry->rotation[2] != 0.0)
+        motion->center[i] = entry->center[i];
     }
   }
   MotionRotate(degrees, motion->turn);

@@ -2,7 +2,8 @@
 #include "stepimpl.h"
 #include <petsctime.h>
 
-/* share/options/pdipm.opts has an option by the names of all releases, of which each asks for one: the other is no mistake either */
+/* share/options/pdipm.opts has an option by the names of all releases, of which each asks for one: the other is no
+   mistake either */
 static PetscErrorCode OptimizerKnowBothNames(void)
 {
   PetscBool given;
@@ -13,7 +14,8 @@ static PetscErrorCode OptimizerKnowBothNames(void)
   PetscFunctionReturn(0);
 }
 
-/* The filtered subspace method goes on where a loose solve has ended; what the interior point method knows of one is worth nothing to the next */
+/* The filtered subspace method goes on where a loose solve has ended; what the interior point method knows of one is
+   worth nothing to the next */
 static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
 {
   const char *const uses[] = {"false", "true", "auto"};
@@ -21,7 +23,8 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscBool         given, interior;
 
   PetscFunctionBegin;
-  PetscCall(PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
+  PetscCall(
+    PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
   interior = (PetscBool)(!ours || (given && !use && !p->friction.T));
   p->loose = (PetscBool)(p->tolerance > p->sim->tolerances.optimizer && !p->centre && !interior);
   if (p->loose) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -61,12 +64,15 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
-  if (!*ours && !p->lower) PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
+  if (!*ours && !p->lower)
+    PetscCall(
+      StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
-  PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP, "friction is for -tao_type ipfilter, and not for another optimizer");
+  PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
+    "friction is for -tao_type ipfilter, and not for another optimizer");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
@@ -151,12 +157,15 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   char reason[512];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; a body may slide away that friction no longer holds, tip over, or be wedged by a large coefficient", report->reason));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "%s; a body may slide away that friction no longer holds, tip over, or be wedged by a large coefficient",
+    report->reason));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u, StepReport *report)
+static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u,
+  StepReport *report)
 {
   TaoConvergedReason reason;
   const char        *sentence  = NULL;
@@ -195,7 +204,8 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap, p->sim->stiffness)); /* no rows, or another optimizer: no slacks */
+  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap,
+    p->sim->stiffness)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);
 }
 

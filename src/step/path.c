@@ -71,7 +71,8 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
   PetscFunctionReturn(0);
 }
 
-/* Solves with the present stiffness until the end of the load program, this one included: where the gap is updated, one update a load step at least */
+/* Solves with the present stiffness until the end of the load program, this one included: where the gap is updated,
+   one update a load step at least */
 PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
 {
   const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;

@@ -1,8 +1,8 @@
 /*
    The penalty method, to compare with: min E(u) - load^T u + 1/2 sum m rho min(c, 0)^2 by Newton's method with PCG.
 
-   Its pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is a multiple of what the bodies resist with at the row
-   itself, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c < 0, else 0.
+   Its pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is a multiple of what the bodies resist with
+   at the row itself, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c < 0, else 0.
 */
 #include "stepimpl.h"
 #include <petscsnes.h>
@@ -96,7 +96,8 @@ static PetscErrorCode PenaltyProduct(Penalty *penalty, Vec u)
   PetscCall(VecRestoreArray(penalty->force, &d));
   PetscCall(MatCopy(penalty->p->J, penalty->DJ, SAME_NONZERO_PATTERN));
   PetscCall(MatDiagonalScale(penalty->DJ, penalty->force, NULL));
-  PetscCall(MatTransposeMatMult(penalty->p->J, penalty->DJ, penalty->JtDJ ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, PETSC_DEFAULT, &penalty->JtDJ));
+  PetscCall(MatTransposeMatMult(penalty->p->J, penalty->DJ, penalty->JtDJ ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX,
+    PETSC_DEFAULT, &penalty->JtDJ));
   PetscFunctionReturn(0);
 }
 
@@ -114,7 +115,8 @@ static PetscErrorCode PenaltyHessian(SNES snes, Vec u, Mat A, Mat Apre, void *ct
 }
 
 /* PETSc's own test, and an end when a signal has asked for one; counts the iterations of PCG on the way */
-static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, PetscReal gnorm, PetscReal fnorm, SNESConvergedReason *reason, void *ctx)
+static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, PetscReal gnorm, PetscReal fnorm,
+  SNESConvergedReason *reason, void *ctx)
 {
   Penalty  *penalty = (Penalty *)ctx;
   KSP       ksp;
@@ -122,10 +124,12 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(snes, &ksp));
-  if (it > 0 && it <= PENALTY_MAX_NEWTON) PetscCall(KSPGetIterationNumber(ksp, &penalty->iterations[penalty->niterations++]));
+  if (it > 0 && it <= PENALTY_MAX_NEWTON)
+    PetscCall(KSPGetIterationNumber(ksp, &penalty->iterations[penalty->niterations++]));
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
-  if (stop && !*reason) *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for it; InterruptReport() says what it was */
+  if (stop && !*reason)
+    *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for it; InterruptReport() says what it was */
   PetscFunctionReturn(0);
 }
 
@@ -161,8 +165,9 @@ static PetscErrorCode PenaltyDestroy(Penalty *penalty)
 }
 
 /*
-   Full steps: with exact ones the set of penetrated rows settles after a few, as in an active set method. A line search or
-   loosely solved systems keep it from settling: on two_block, mesh 1, five to ten times as many Newton steps
+   Full steps: with exact ones the set of penetrated rows settles after a few, as in an active set method. A line
+   search or loosely solved systems keep it from settling: on two_block, mesh 1, five to ten times as many Newton
+   steps
 */
 static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
 {

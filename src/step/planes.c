@@ -1,6 +1,6 @@
 /*
-   Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow the others, by Gauss-Jordan
-   elimination; those with the largest coefficients, and none that is prescribed.
+   Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
+   the others, by Gauss-Jordan elimination; those with the largest coefficients, and none that is prescribed.
 */
 #include "stepimpl.h"
 
@@ -47,7 +47,9 @@ static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], Pet
     PetscInt k = -1;
 
     for (PetscInt c = 0; c < 3; ++c) {
-      if (!taken[c] && PetscAbsReal(node->a[p][c]) > rounding && (k < 0 || PetscAbsReal(node->a[p][c]) > PetscAbsReal(node->a[p][k]))) k = c;
+      if (!taken[c] && PetscAbsReal(node->a[p][c]) > rounding &&
+          (k < 0 || PetscAbsReal(node->a[p][c]) > PetscAbsReal(node->a[p][k])))
+        k = c;
     }
     pivot[p] = k;
     if (k < 0) continue;
@@ -64,8 +66,10 @@ static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], Pet
   }
 }
 
-/* The matrix u = C x of the planes alone, and its rows that follow others; given: prescribed displacements at the end of the load program */
-static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const PetscBool prescribed[], Vec given, Mat *C, PetscBool follows[])
+/* The matrix u = C x of the planes alone, and its rows that follow others; given: prescribed displacements at the end
+   of the load program */
+static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const PetscBool prescribed[], Vec given, Mat *C,
+  PetscBool follows[])
 {
   PetscInt           nlocal, rstart;
   PetscReal          worst = 0.0, size;
@@ -88,7 +92,8 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
       for (PetscInt c = 0; c < 3; ++c) off += prescribed[i + c] ? nodes[i / 3].a[p][c] * PetscRealPart(u[i + c]) : 0.0;
       if (pivot[p] < 0) worst = PetscMax(worst, PetscAbsReal(off));
       for (PetscInt c = 0; pivot[p] >= 0 && c < 3; ++c) {
-        if (c != pivot[p] && nodes[i / 3].a[p][c] != 0.0) PetscCall(MatSetValue(*C, rstart + i + pivot[p], rstart + i + c, -nodes[i / 3].a[p][c], INSERT_VALUES));
+        if (c != pivot[p] && nodes[i / 3].a[p][c] != 0.0)
+          PetscCall(MatSetValue(*C, rstart + i + pivot[p], rstart + i + c, -nodes[i / 3].a[p][c], INSERT_VALUES));
       }
     }
     for (PetscInt c = 0; c < 3; ++c) {
@@ -97,7 +102,8 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
   }
   PetscCall(VecRestoreArrayRead(given, &u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, sim->comm));
-  PetscCheck(worst <= 1e-9 * size, sim->comm, PETSC_ERR_USER_INPUT, "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
+  PetscCheck(worst <= 1e-9 * size, sim->comm, PETSC_ERR_USER_INPUT,
+    "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
   PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
@@ -113,7 +119,8 @@ PetscErrorCode PlanesCreate(Simulation sim, const PetscBool prescribed[], Mat *C
 
   PetscFunctionBegin;
   *C = NULL;
-  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d) any = (PetscBool)(any || sim->scene->displacements[d].inclined);
+  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d)
+    any = (PetscBool)(any || sim->scene->displacements[d].inclined);
   if (!any) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(sim->path.u, &n));
   PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));

@@ -7,7 +7,8 @@ static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt comp
   const SceneDisplacement *entry  = &scene->displacements[d];
   PetscReal                drives = 0.0;
 
-  if (!entry->moves) return (PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE};
+  if (!entry->moves)
+    return (PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE};
   for (PetscInt e = d; e < scene->ndisplacements; ++e) {
     const SceneDisplacement *other = &scene->displacements[e];
 
@@ -68,7 +69,8 @@ static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal fa
   PetscFunctionReturn(0);
 }
 
-/* Largest difference of what two faces prescribe of one row where all factors are the same; of motions beyond rounding */
+/* Largest difference of what two faces prescribe of one row where all factors are the same; of motions beyond
+   rounding */
 static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
 {
   PetscReal *u, *factor, size = 0.0;
@@ -109,8 +111,10 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
   }
   p->n = unique;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
-  PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT, "displacements: two faces prescribe values that differ by %g on the vertices they share", (double)worst[0]);
-  PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT, "displacements: two faces prescribe the same value by different ramps on the vertices they share");
+  PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT,
+    "displacements: two faces prescribe values that differ by %g on the vertices they share", (double)worst[0]);
+  PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT,
+    "displacements: two faces prescribe the same value by different ramps on the vertices they share");
   PetscFunctionReturn(0);
 }
 

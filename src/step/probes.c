@@ -42,7 +42,8 @@ static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], Pet
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
     i -= rstart;
-    if (area[i] + point->area > 0.0) values[i] = (values[i] * area[i] + point->pressure * point->area) / (area[i] + point->area);
+    if (area[i] + point->area > 0.0)
+      values[i] = (values[i] * area[i] + point->pressure * point->area) / (area[i] + point->area);
     area[i] += point->area;
     if (PetscRealPart(paired[i]) == 0.0 || PetscRealPart(values[i + 1]) > point->gap) values[i + 1] = point->gap;
     if (point->closed) values[i + 2] = 1.0;
@@ -85,7 +86,8 @@ static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
 }
 
 /* Sum over the nodes of a cell; n values a node, which stand at n times its number */
-static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[], PetscReal result[])
+static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[],
+  PetscReal result[])
 {
   for (PetscInt i = 0; i < n; ++i) {
     result[i] = 0.0;
@@ -94,7 +96,8 @@ static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], Pets
 }
 
 /* Fields of contact are those of faces: of a point all of whose nodes are in a pair */
-static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[], ProbeReport *report)
+static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[],
+  ProbeReport *report)
 {
   const PetscScalar *values, *paired;
   PetscReal          v[3], on[3];
@@ -113,7 +116,8 @@ static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPl
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const ProbeContact *contact, const MeshPlace *place, ProbeReport *report)
+static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const ProbeContact *contact,
+  const MeshPlace *place, ProbeReport *report)
 {
   PetscSection section;
   PetscInt     n, points[MESH_MAX_NODES], node[MESH_MAX_NODES];
@@ -146,7 +150,8 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 
     for (PetscInt d = 0; d < 3 && probe->line; ++d) length += PetscSqr(probe->to[d] - probe->from[d]);
     for (PetscInt i = 0; i < probe->n; ++i, ++k) {
-      reports[k]                  = (ProbeReport){.name = probe->name, .arc = PetscSqrtReal(length) * (PetscReal)i / (PetscReal)PetscMax(1, probe->n - 1)};
+      reports[k]                  = (ProbeReport){.name = probe->name};
+      reports[k].arc              = PetscSqrtReal(length) * (PetscReal)i / (PetscReal)PetscMax(1, probe->n - 1);
       reports[k].contact_pressure = reports[k].contact_gap = reports[k].contact_status = NAN;
       PetscCall(PetscArraycpy(reports[k].place, sim->probes.points[k], 3));
     }
@@ -168,7 +173,8 @@ static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
     if (sim->probes.places[k].cell >= 0) PetscCall(PetscArraycpy(all + values * k, reports[k].displacement, values));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * sim->probes.n), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt k = 0; k < sim->probes.n; ++k) PetscCall(PetscArraycpy(reports[k].displacement, all + values * k, values));
+  for (PetscInt k = 0; k < sim->probes.n; ++k)
+    PetscCall(PetscArraycpy(reports[k].displacement, all + values * k, values));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(0);
 }
@@ -182,7 +188,8 @@ static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepRe
   PetscCall(PetscFree(report->probes));
   PetscCall(PetscFree(report->lines));
   report->nprobes = report->nlines = 0;
-  for (PetscInt p = 0; p < sim->scene->nprobes; ++p) *(sim->scene->probes[p].line ? &report->nlines : &report->nprobes) += sim->scene->probes[p].n;
+  for (PetscInt p = 0; p < sim->scene->nprobes; ++p)
+    *(sim->scene->probes[p].line ? &report->nlines : &report->nprobes) += sim->scene->probes[p].n;
   PetscCall(PetscMalloc1(report->nprobes, &report->probes));
   PetscCall(PetscMalloc1(report->nlines, &report->lines));
   report->nprobes = report->nlines = 0;
@@ -213,7 +220,8 @@ PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
   PetscCall(DMGlobalToLocal(sim->dm, sim->path.u, INSERT_VALUES, local));
   PetscCall(VecGetArrayRead(local, &u));
   for (PetscInt k = 0; k < sim->probes.n; ++k) {
-    if (sim->probes.places[k].cell >= 0) PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->probes.places[k], &reports[k]));
+    if (sim->probes.places[k].cell >= 0)
+      PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->probes.places[k], &reports[k]));
   }
   PetscCall(VecRestoreArrayRead(local, &u));
   PetscCall(DMRestoreLocalVector(sim->dm, &local));

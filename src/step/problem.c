@@ -2,8 +2,9 @@
 #include "stepimpl.h"
 
 /*
-   Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does not
-   hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble theirs.
+   Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does
+   not hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble
+   theirs.
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
@@ -68,7 +69,8 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscFunctionReturn(0);
 }
 
-/* |u - base| <= increment, or no bound at all where that is infinite; prescribed rows are held by the problem itself and need none */
+/* |u - base| <= increment, or no bound at all where that is infinite; prescribed rows are held by the problem itself
+   and need none */
 PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 {
   PetscFunctionBegin;

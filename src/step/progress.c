@@ -20,7 +20,8 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
 {
   PetscFunctionBegin;
   PetscCall(PetscTime(now));
-  *due = (PetscBool)(sim->monitor && sim->progress.every > 0.0 && *now - PetscMax(sim->progress.said, sim->start.total) >= sim->progress.every);
+  *due = (PetscBool)(sim->monitor && sim->progress.every > 0.0 &&
+                     *now - PetscMax(sim->progress.said, sim->start.total) >= sim->progress.every);
   if (*due) sim->progress.said = *now;
   PetscFunctionReturn(0);
 }
@@ -32,7 +33,9 @@ static PetscLogDouble ProgressLeft(Simulation sim, PetscLogDouble now)
   const PetscReal      time = sim->path.time, done = time - p->first, all = (PetscReal)sim->scene->nsteps;
   const PetscLogDouble rate = done > 0.0 ? (p->reached - p->begun) / done : 0.0;
 
-  return done > 0.0 ? PetscMax(rate * (all - time) - (now - p->reached), rate * PetscMax(all - PetscFloorReal(time) - 1.0, 0.0)) : -1.0;
+  return done > 0.0
+           ? PetscMax(rate * (all - time) - (now - p->reached), rate * PetscMax(all - PetscFloorReal(time) - 1.0, 0.0))
+           : -1.0;
 }
 
 static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char inside[])
@@ -43,7 +46,9 @@ static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char
   PetscFunctionBegin;
   PetscCall(ProgressDuration(now - sim->start.total, so_far));
   PetscCall(ProgressDuration(PetscMax(left, 0.0), to_come));
-  PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n", PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, sim->scene->nsteps), sim->scene->nsteps, inside, so_far, left < 0.0 ? "" : ", about ", left < 0.0 ? "" : to_come, left < 0.0 ? "" : " left"));
+  PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n",
+    PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, sim->scene->nsteps), sim->scene->nsteps, inside, so_far,
+    left < 0.0 ? "" : ", about ", left < 0.0 ? "" : to_come, left < 0.0 ? "" : " left"));
   PetscFunctionReturn(0);
 }
 
@@ -71,7 +76,8 @@ PetscErrorCode ProgressReach(Simulation sim)
   PetscCall(ProgressIsDue(sim, &now, &due));
   sim->progress.reached = now;
   if (!due || sim->path.time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
-  if (sim->path.time > PetscFloorReal(sim->path.time)) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
+  if (sim->path.time > PetscFloorReal(sim->path.time))
+    PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
   PetscCall(ProgressSay(sim, now, inside));
   PetscFunctionReturn(0);
 }
@@ -86,7 +92,8 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscFunctionBegin;
   PetscCall(ProgressIsDue(sim, &now, &due));
   if (!due) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e, %.0e ends it", iteration, (double)error, (double)goal));
+  PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e, %.0e ends it",
+    iteration, (double)error, (double)goal));
   PetscCall(ProgressSay(sim, now, inside));
   PetscFunctionReturn(0);
 }

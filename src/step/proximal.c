@@ -1,12 +1,15 @@
 /*
-   Free motions of rigid bodies have no stiffness of their own, and solvers ask for some. They are given a small one about a centre, which follows the solutions until no force is
-   left in it: the proximal point method, with 1/2 (x - centre)^T held (x - centre) added to the energy. Its rate is that stiffness by that of what holds the bodies.
+   Free motions of rigid bodies have no stiffness of their own, and solvers ask for some. They are given a small one
+   about a centre, which follows the solutions until no force is left in it: the proximal point method, with 1/2 (x -
+   centre)^T held (x - centre) added to the energy. Its rate is that stiffness by that of what holds the bodies.
 
-   Where friction is all that holds an elastic body, or nearly not, and no solution has been found, all bodies are given such a stiffness: what is left to decide are small motions.
+   Where friction is all that holds an elastic body, or nearly not, and no solution has been found, all bodies are
+   given such a stiffness: what is left to decide are small motions.
 */
 #include "stepimpl.h"
 
-/* As many centres there may be; of the force that is left, once it ought to fall, more than this part is none that contact or springs take up */
+/* As many centres there may be; of the force that is left, once it ought to fall, more than this part is none that
+   contact or springs take up */
 static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
@@ -64,14 +67,16 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* Once, and with friction only: a solve that has found no solution is to be followed by others, about the base, that know small motions alone */
+/* Once, and with friction only: a solve that has found no solution is to be followed by others, about the base, that
+   know small motions alone */
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   const PetscReal share = 1e-4;
   Mat             K;
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->sim->interrupted && EnergyIsFinite(p->energy));
+  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->sim->interrupted &&
+                       EnergyIsFinite(p->energy));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));
@@ -90,7 +95,8 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Solves about one centre after another that move on by the same way each: friction does not hold a body, whichever way the first solve failed */
+/* Solves about one centre after another that move on by the same way each: friction does not hold a body, whichever
+   way the first solve failed */
 static PetscErrorCode ProximalReportFlight(StepProblem *p, Vec u, StepReport *report)
 {
   Vec way;
@@ -129,6 +135,8 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   p->carried = carried;
   if (*again) PetscCall(ProximalCentre(p, u));
   else if (p->failed && !falls) PetscCall(ProximalReportFlight(p, u, report));
-  else PetscCall(ReportReason(report, PETSC_FALSE, p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));
+  else
+    PetscCall(ReportReason(report, PETSC_FALSE,
+      p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));
   PetscFunctionReturn(0);
 }

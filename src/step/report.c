@@ -52,7 +52,8 @@ PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-/* What the preconditioner did since `before`: amgf counts for itself, any other PC is applied once an iteration of the whole step */
+/* What the preconditioner did since `before`: amgf counts for itself, any other PC is applied once an iteration of
+   the whole step */
 PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepReport *report)
 {
   PC           pc;

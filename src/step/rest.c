@@ -1,6 +1,7 @@
 /*
-   A load step back to where nothing is asked for: no load, no temperature, no prescribed displacement, no overlap. The bodies are undeformed then. Every residual
-   would be measured by what is left of forces, energies and displacements: by rounding.
+   A load step back to where nothing is asked for: no load, no temperature, no prescribed displacement, no overlap.
+   The bodies are undeformed then. Every residual would be measured by what is left of forces, energies and
+   displacements: by rounding.
 */
 #include "stepimpl.h"
 
@@ -21,13 +22,15 @@ PetscErrorCode RestIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
-  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
+  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
+    rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
   *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);
 }
 
 /* The undeformed bodies are the solution unless they overlap by more than rounding; undeformed: the gap between them */
-PetscErrorCode RestSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report, ContactSolution *sol, PetscBool *rests)
+PetscErrorCode RestSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
+  ContactSolution *sol, PetscBool *rests)
 {
   const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->sim->path.largest_increment;
   PetscReal       least    = 0.0;

@@ -1,9 +1,11 @@
-/* Fields that a scene's probes or its files call for: stress at the nodes and at the quadrature points, strain energy. */
+/* Fields that a scene's probes or its files call for: stress at the nodes and at the quadrature points, strain
+   energy. */
 #include "stepimpl.h"
 
 static PetscReal ResultsVonMises(const PetscReal s[6])
 {
-  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) +
+                       3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 /* Stress, von Mises stress and principal values */
@@ -37,7 +39,8 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
     PetscCall(PetscSectionGetOffset(global, v, &to));
     if (!ndofs || to < 0) continue;
     PetscCall(PetscSectionGetOffset(local, v, &from));
-    PetscCall(ResultsComplete(results->recovered + 6 * (from / 3), results->nodal + STRESS_VALUES * ((to - rstart) / 3)));
+    PetscCall(
+      ResultsComplete(results->recovered + 6 * (from / 3), results->nodal + STRESS_VALUES * ((to - rstart) / 3)));
   }
   PetscFunctionReturn(0);
 }
@@ -51,12 +54,15 @@ PetscErrorCode ResultsMeasure(Simulation sim)
   PetscCall(ResultsFree(results));
   if (!results->nodes && !results->points && !sim->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  if (results->nodes || sim->probes.n) PetscCall(ElasticityNodalStress(sim->elasticity, sim->path.u, &results->recovered));
+  if (results->nodes || sim->probes.n)
+    PetscCall(ElasticityNodalStress(sim->elasticity, sim->path.u, &results->recovered));
   if (results->nodes) {
     PetscCall(ResultsPickOwned(sim));
     PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path.u, &results->density));
   }
-  if (results->points) PetscCall(ElasticityPointStress(sim->elasticity, sim->path.u, &results->npoints, &results->places, &results->point_stress));
+  if (results->points)
+    PetscCall(
+      ElasticityPointStress(sim->elasticity, sim->path.u, &results->npoints, &results->places, &results->point_stress));
   PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,7 @@
 /*
-   Rigid bodies that forces drive. Where a motion is free the displacements of all nodes follow those of as many rows as there are free motions: u = R x + o, o being what is
-   prescribed of the other motions. Free rotations are those of small angles, u = r x (X - center).
+   Rigid bodies that forces drive. Where a motion is free the displacements of all nodes follow those of as many rows
+   as there are free motions: u = R x + o, o being what is prescribed of the other motions. Free rotations are those
+   of small angles, u = r x (X - center).
 */
 #include "stepimpl.h"
 
@@ -16,7 +17,8 @@ static PetscBool RigidIsReleased(const SceneDisplacement *d)
 }
 
 /* Component c at the place X of the body's free motions; angles times the body's size */
-static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const PetscScalar X[3], PetscInt c, PetscReal row[6])
+static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const PetscScalar X[3], PetscInt c,
+  PetscReal row[6])
 {
   for (PetscInt k = 0; k < body->n; ++k) {
     const PetscInt m = body->motion[k], next = (m + 1) % 3, last = (m + 2) % 3;
@@ -35,19 +37,22 @@ static PetscErrorCode RigidGetNodes(Simulation sim, const RigidBody *body, IS *n
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidMeasure(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n, const PetscInt nodes[], RigidBody *body)
+static PetscErrorCode RigidMeasure(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+  const PetscInt nodes[], RigidBody *body)
 {
   const PetscReal *center = sim->scene->displacements[body->leader].center;
 
   PetscFunctionBegin;
   body->size = 0.0;
-  for (PetscInt i = 0; i < 3 * n; ++i) body->size = PetscMax(body->size, PetscAbsReal(PetscRealPart(x[nodes[i / 3] - rstart + i % 3]) - center[i % 3]));
+  for (PetscInt i = 0; i < 3 * n; ++i)
+    body->size = PetscMax(body->size, PetscAbsReal(PetscRealPart(x[nodes[i / 3] - rstart + i % 3]) - center[i % 3]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &body->size, 1, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscFunctionReturn(0);
 }
 
 /* The row with the largest component across those that carry motions already, unit[]; which becomes the next of them */
-static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n, const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
+static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+  const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
 {
   struct {
     double value;
@@ -72,7 +77,8 @@ static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const Pe
     if (square <= best.value) continue;
     best.value       = square;
     body->row[found] = nodes[i / 3] + i % 3;
-    for (PetscInt m = 0; m < body->n; ++m) unit[found][m] = across[m] / PetscSqrtReal(PetscMax(square, PETSC_MACHINE_EPSILON));
+    for (PetscInt m = 0; m < body->n; ++m)
+      unit[found][m] = across[m] / PetscSqrtReal(PetscMax(square, PETSC_MACHINE_EPSILON));
     PetscCall(PetscArraycpy(carriers[found], row, 6));
   }
   PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
@@ -118,7 +124,8 @@ static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
 }
 
 /* Rows of R: those that carry the motions have a 1, which is put there exactly */
-static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscInt rstart, const PetscScalar x[], PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
+static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
+  PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 3 * n; ++i) {
@@ -142,7 +149,8 @@ static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscI
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidCreateBody(Simulation sim, PetscInt leader, const PetscBool prescribed[], PetscBool mine[], PetscBool follows[], RigidBody *body)
+static PetscErrorCode RigidCreateBody(Simulation sim, PetscInt leader, const PetscBool prescribed[], PetscBool mine[],
+  PetscBool follows[], RigidBody *body)
 {
   const SceneDisplacement *d = &sim->scene->displacements[leader];
   IS                       is;
@@ -182,7 +190,8 @@ PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBo
   PetscScalar *elastic;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
   if (!rigid->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
   PetscCall(VecDuplicate(sim->path.u, &rigid->elastic));
@@ -194,7 +203,8 @@ PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBo
   PetscCall(MatCreateAIJ(sim->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 6, NULL, 6, NULL, &rigid->R));
   rigid->n = 0;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    if (RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d) PetscCall(RigidCreateBody(sim, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
+    if (RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d)
+      PetscCall(RigidCreateBody(sim, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
   }
   PetscCall(VecGetArrayWrite(rigid->elastic, &elastic));
   for (PetscInt i = 0; i < n; ++i) {
@@ -234,7 +244,8 @@ PetscErrorCode RigidMove(Simulation sim, PetscReal time, Vec o)
     PetscCall(RigidGetNodes(sim, &rigid->bodies[b], &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &nodes));
-    for (PetscInt i = 0; i < 3 * n; ++i) a[nodes[i / 3] + i % 3 - rstart] = MotionDisplace(&motion, &x[nodes[i / 3] - rstart], i % 3);
+    for (PetscInt i = 0; i < 3 * n; ++i)
+      a[nodes[i / 3] + i % 3 - rstart] = MotionDisplace(&motion, &x[nodes[i / 3] - rstart], i % 3);
     PetscCall(ISRestoreIndices(is, &nodes));
     PetscCall(ISDestroy(&is));
   }
@@ -270,7 +281,8 @@ static PetscErrorCode RigidAddSprings(Simulation sim, Mat C, Mat stiffness)
   PetscFunctionReturn(0);
 }
 
-/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions to the centre of proximal.c */
+/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions to the centre of
+   proximal.c */
 PetscErrorCode RigidAddStiffness(Simulation sim, Mat C, Vec diagonal, Mat stiffness)
 {
   const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
@@ -313,7 +325,10 @@ PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
     PetscReal        moved[6] = {0.0}, square = 0.0, degrees;
     char             reason[256];
 
-    for (PetscInt k = 0; k < body->n; ++k) moved[k] = body->row[k] >= first && body->row[k] < end ? PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first]) : 0.0;
+    for (PetscInt k = 0; k < body->n; ++k)
+      moved[k] = body->row[k] >= first && body->row[k] < end
+                   ? PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first])
+                   : 0.0;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, sim->comm));
     for (PetscInt k = 0; k < body->n; ++k) {
       PetscReal angle = 0.0;
@@ -323,7 +338,10 @@ PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
     }
     degrees = PetscSqrtReal(square) * 180.0 / PETSC_PI;
     if (!(degrees > largest_angle)) continue;
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at most: prescribe the rotation, or let more hold the body", sim->scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at "
+      "most: prescribe the rotation, or let more hold the body",
+      sim->scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(VecRestoreArrayRead(sim->rigid.given, &given));

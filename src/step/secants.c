@@ -1,13 +1,16 @@
 /*
-   Where the gap is linearized next. Linearized at x it leads to the solution G(x); where x = G(x) it is true. To go on at G(x) each time leaves
-   out what the gap's second derivatives do to the forces: soft motions then come to rest slowly, or go in a circle. Secants of the last ways
-   f = G(x) - x foresee it: the next x is that combination of the last solutions whose ways make up the shortest one (D. G. Anderson, J. ACM 12
-   (1965)). Where the gap gets no truer nonetheless, as between faces with kinks, x goes there by half.
+   Where the gap is linearized next. Linearized at x it leads to the solution G(x); where x = G(x) it is true. To go
+   on at G(x) each time leaves out what the gap's second derivatives do to the forces: soft motions then come to rest
+   slowly, or go in a circle. Secants of the last ways f = G(x) - x foresee it: the next x is that combination of the
+   last solutions whose ways make up the shortest one (D. G. Anderson, J. ACM 12 (1965)). Where the gap gets no truer
+   nonetheless, as between faces with kinks, x goes there by half.
 */
 #include "stepimpl.h"
 
-#define SECANTS_PROGRESS  0.9  /* of the least change of the gap so far, which a solution must come below to count as progress */
-#define SECANTS_PATIENCE  2    /* solutions in a row without progress, after which the next linearization is made short of where it would be */
+#define SECANTS_PROGRESS \
+  0.9 /* of the least change of the gap so far, which a solution must come below to count as progress */
+#define SECANTS_PATIENCE \
+  2 /* solutions in a row without progress, after which the next linearization is made short of where it would be */
 #define SECANTS_SHORT     0.5  /* of the way there */
 #define SECANTS_DEPENDENT 1e-2 /* part of a secant off the newer ones, below which it says nothing of its own */
 
@@ -77,7 +80,8 @@ static PetscErrorCode SecantsApply(const GapSecants *s, Vec f, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Moves the point of linearization on from where it led to u, whose true gap is off the linearized one by change; damped: it is made short of where it would be */
+/* Moves the point of linearization on from where it led to u, whose true gap is off the linearized one by change;
+   damped: it is made short of where it would be */
 PetscErrorCode GapSecantsAdvance(GapSecants *s, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped)
 {
   Vec way, next;

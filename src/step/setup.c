@@ -19,7 +19,9 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
-  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP, "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model quadratic");
+  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
+    "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
+    "quadratic");
   PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
   PetscCall(PrescribedCreate(sim->dm, scene, &sim->places, &sim->prescribed));
   PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
@@ -48,7 +50,9 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
-  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP, "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
+  for (PetscInt p = 0; p < scene->npairs; ++p)
+    PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
+      "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
   PetscCall(ContactMemoryCreate(sim->dm, scene, &sim->memory));
   PetscFunctionReturn(0);
 }
@@ -77,8 +81,8 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 }
 
 /*@C
-   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the contact pairs if it
-   names any; at time 0 with zero displacement
+   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the
+contact pairs if it names any; at time 0 with zero displacement
 
    Collective
 

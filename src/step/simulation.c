@@ -15,7 +15,8 @@
 
    Level: beginner
 
-.seealso: `SimulationSetTolerances()`, `SimulationSetMonitor()`, `SimulationSetFromOptions()`, `SimulationSetUp()`, `SimulationDestroy()`, `SceneLoad()`
+.seealso: `SimulationSetTolerances()`, `SimulationSetMonitor()`, `SimulationSetFromOptions()`, `SimulationSetUp()`,
+`SimulationDestroy()`, `SceneLoad()`
 @*/
 PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 {
@@ -23,13 +24,14 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   PetscCall(StepEventsRegister());
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscNew(sim));
-  (*sim)->comm       = comm;
-  (*sim)->scene      = scene;
-  (*sim)->warm       = PETSC_TRUE;
-  (*sim)->estimate   = PETSC_TRUE;
-  (*sim)->maxcuts    = 5;
-  (*sim)->progress   = (Progress){.every = 10.0};
-  (*sim)->tolerances = (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
+  (*sim)->comm     = comm;
+  (*sim)->scene    = scene;
+  (*sim)->warm     = PETSC_TRUE;
+  (*sim)->estimate = PETSC_TRUE;
+  (*sim)->maxcuts  = 5;
+  (*sim)->progress = (Progress){.every = 10.0};
+  (*sim)->tolerances =
+    (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
   PetscFunctionReturn(0);
 }
 
@@ -98,7 +100,8 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 }
 
 /*@C
-   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and the cells' mean stress
+   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and the
+cells' mean stress
 
    Logically Collective
 
@@ -128,16 +131,17 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  sim - the simulation, before SimulationSetUp()
 
    Options Database Keys:
-+  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a coarser mesh ended with; default true
-.  -load_max_cuts <5>         - how often a load step that fails is halved
-.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
-.  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
-.  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
-.  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
-.  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one linearization
--  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of TAOIPFILTER: the
-                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc solvers have
-                                the prefix penalty_. The faces penetrate by about pressure times the bodies' flexibility over this
++  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
+coarser mesh ended with; default true .  -load_max_cuts <5>         - how often a load step that fails is halved .
+-load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again .
+-progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never .
+-error_estimate <bool>     - estimate the discretization error at the end of every load step; default true .
+-contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates .
+-contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
+linearization
+-  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
+TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc solvers have the
+prefix penalty_. The faces penetrate by about pressure times the bodies' flexibility over this
 
    Level: beginner
 
@@ -147,17 +151,33 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
-  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last", "SimulationStep", sim->warm, &sim->warm, NULL));
-  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
-  PetscCall(PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again", "SimulationStep", sim->monitor, &sim->monitor, NULL));
-  PetscCall(PetscOptionsReal("-progress_every", "Seconds after which the run says again how far it is, 0: never", "SimulationStep", sim->progress.every, &sim->progress.every, NULL));
-  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step", "SimulationStep", sim->estimate, &sim->estimate, NULL));
-  PetscCall(PetscOptionsReal("-contact_update_tol", "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep", sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
-  PetscCall(PetscOptionsReal("-contact_gap_tol", "Change of the gap, relative to the largest displacement, beyond which a load step has not converged", "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
-  PetscCall(PetscOptionsReal("-contact_penalty", "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point method)", "SimulationStep", sim->penalty, &sim->penalty, NULL));
+  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last",
+    "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep",
+    sim->maxcuts, &sim->maxcuts, NULL, 0));
+  PetscCall(
+    PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again",
+      "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsReal("-progress_every", "Seconds after which the run says again how far it is, 0: never",
+    "SimulationStep", sim->progress.every, &sim->progress.every, NULL));
+  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
+    "SimulationStep", sim->estimate, &sim->estimate, NULL));
+  PetscCall(PetscOptionsReal("-contact_update_tol",
+    "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep",
+    sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
+  PetscCall(PetscOptionsReal("-contact_gap_tol",
+    "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
+    "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
+  PetscCall(PetscOptionsReal("-contact_penalty",
+    "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point "
+    "method)",
+    "SimulationStep", sim->penalty, &sim->penalty, NULL));
   PetscOptionsEnd();
-  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
-  PetscCheck(sim->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->progress.every), sim->comm, PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g", (double)sim->progress.every);
+  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
+  PetscCheck(sim->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->progress.every), sim->comm,
+    PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g",
+    (double)sim->progress.every);
   PetscFunctionReturn(0);
 }
 
@@ -196,7 +216,8 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
   PetscCall(StepEventsGetTimes(sim->comm, &sim->start, &sim->report.time));
-  for (PetscInt b = 0; b < sim->report.nbodies; ++b) PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
+  for (PetscInt b = 0; b < sim->report.nbodies; ++b)
+    PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
   PetscCall(EffectsSetTimes(sim, &sim->report));
   PetscCall(ResidentGetPeak(sim->comm, &sim->report.peak_memory_bytes));
   *report = sim->report;

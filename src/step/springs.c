@@ -1,4 +1,5 @@
-/* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely. */
+/* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely.
+ */
 #include "stepimpl.h"
 
 /* Of every body, on all ranks; sim->mass: of unit density */
@@ -25,7 +26,8 @@ PetscErrorCode SpringsMeasureStiffness(Simulation sim, PetscReal *largest)
   *largest = 0.0;
   PetscCall(PetscMalloc1(sim->scene->nbodies, &volume));
   PetscCall(SpringsMeasureVolumes(sim, volume));
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) *largest = PetscMax(*largest, sim->scene->bodies[b].material.young * PetscCbrtReal(volume[b]));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
+    *largest = PetscMax(*largest, sim->scene->bodies[b].material.young * PetscCbrtReal(volume[b]));
   PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }
@@ -56,7 +58,8 @@ PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
   PetscFunctionReturn(0);
 }
 
-/* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the forces on them what is out of balance. */
+/* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the
+   forces on them what is out of balance. */
 static PetscErrorCode SpringsCreateWeak(Simulation sim)
 {
   PetscBool   *unheld;
@@ -89,7 +92,9 @@ PetscErrorCode SpringsCreate(Simulation sim)
   PetscCall(VecDuplicate(sim->mass, &springs->stiffness));
   PetscCall(VecZeroEntries(springs->stiffness));
   for (PetscInt s = 0; s < sim->scene->nsprings; ++s) {
-    if (!sim->scene->springs[s].to) PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value, springs->stiffness));
+    if (!sim->scene->springs[s].to)
+      PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value,
+        springs->stiffness));
   }
   PetscCall(CouplingsCreate(sim, &springs->between));
   if (sim->scene->weak_springs) {
@@ -131,7 +136,8 @@ PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscRe
   PetscCall(VecRestoreArrayRead(u, &v));
   PetscCall(VecRestoreArrayRead(joint, &f));
   PetscCall(VecDestroy(&joint));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }

@@ -1,8 +1,10 @@
-/* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have said. */
+/* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have
+   said. */
 #include "stepimpl.h"
 #include <math.h>
 
-#define START_ROUNDING 1e-6 /* overlap of faces that touch, relative to the square root of the area that faces the other side */
+#define START_ROUNDING \
+  1e-6 /* overlap of faces that touch, relative to the square root of the area that faces the other side */
 
 /* The nonmortar side of a pair, undeformed */
 typedef struct {
@@ -56,8 +58,11 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
 static const char *StartJudge(const SceneContactPair *pair, const PairStart *start)
 {
   if (start->overlap == 0.0) return pair->interference > 0.0 ? "which the scene says they do" : NULL;
-  if (pair->interference == 0.0) return "which the scene does not say: interference: true, or the largest overlap that is meant";
-  return -start->least > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * pair->interference ? "more than the interference that the scene allows" : NULL;
+  if (pair->interference == 0.0)
+    return "which the scene does not say: interference: true, or the largest overlap that is meant";
+  return -start->least > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * pair->interference
+           ? "more than the interference that the scene allows"
+           : NULL;
 }
 
 /* Of nodes that are to stick while both faces are driven there, unlike one another */
@@ -68,11 +73,17 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 
   PetscFunctionBegin;
   PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
-  if (nfrictionless) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction", pair->name, nfrictionless, nnodes, pair->nonmortar));
+  if (nfrictionless)
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT
+      " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to "
+      "stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction",
+      pair->name, nfrictionless, nnodes, pair->nonmortar));
   PetscFunctionReturn(0);
 }
 
-/* Of overlaps at the start that the scene has not declared, or otherwise, and of friction that cannot act; lin: at zero displacement */
+/* Of overlaps at the start that the scene has not declared, or otherwise, and of friction that cannot act; lin: at
+   zero displacement */
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
   Scene      scene = sim->scene;
@@ -87,8 +98,13 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 
     PetscCall(StartWarnOfFrictionless(sim, p));
     if (!wanted) continue;
-    if (starts[p].overlap > 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name, -(double)starts[p].least, (double)starts[p].overlap, wanted));
-    else PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s", pair->name, wanted));
+    if (starts[p].overlap > 0.0)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name,
+        -(double)starts[p].least, (double)starts[p].overlap, wanted));
+    else
+      PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s",
+        pair->name, wanted));
   }
   PetscCall(PetscFree(starts));
   PetscFunctionReturn(0);
@@ -104,8 +120,11 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
     PetscReal area = 0.0;
 
     for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
-    if (area == 0.0) PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, faces and clearance",
-                                  sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
+    if (area == 0.0)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
+        "faces and clearance",
+        sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
   }
   PetscFunctionReturn(0);
 }
@@ -116,13 +135,20 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
 
   PetscFunctionBegin;
   if (!start->n) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: no vertex of %s has %s within reach; WARNING: unless they come nearer the pair does nothing\n", pair->name, pair->nonmortar, pair->mortar));
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  %s: no vertex of %s has %s within reach; WARNING: unless they come nearer the pair does nothing\n", pair->name,
+      pair->nonmortar, pair->mortar));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " vertices of %s, over an area of %.5g, have %s within reach; gap %.5g to %.5g", pair->name, start->n, pair->nonmortar, (double)start->area, pair->mortar, (double)start->least, (double)start->largest));
-  if (start->overlap > 0.0) PetscCall(PetscViewerASCIIPrintf(viewer, ", overlap over an area of %.5g", (double)start->overlap));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  %s: %" PetscInt_FMT " vertices of %s, over an area of %.5g, have %s within reach; gap %.5g to %.5g", pair->name,
+    start->n, pair->nonmortar, (double)start->area, pair->mortar, (double)start->least, (double)start->largest));
+  if (start->overlap > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", overlap over an area of %.5g", (double)start->overlap));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  if (wanted) PetscCall(PetscViewerASCIIPrintf(viewer, "    WARNING: they %soverlap, %s\n", start->overlap > 0.0 ? "" : "do not ", wanted));
+  if (wanted)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    WARNING: they %soverlap, %s\n", start->overlap > 0.0 ? "" : "do not ",
+      wanted));
   PetscFunctionReturn(0);
 }
 
@@ -139,7 +165,8 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
    Level: beginner
 
    Note:
-   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound before it is solved.
+   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound before it is
+solved.
 
 .seealso: `SceneDescribe()`, `ContactCheckDepth()`
 @*/

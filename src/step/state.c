@@ -28,7 +28,8 @@ const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
 
 .seealso: `CheckpointAddField()`
 @*/
-PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length, char name[], PetscBool *kept)
+PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length,
+  char name[], PetscBool *kept)
 {
   const CheckpointPairField *field = &CheckpointPairFields[kind];
 
@@ -56,7 +57,8 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
 
 .seealso: `CheckpointGetField()`
 @*/
-PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], PetscInt components, PetscInt nvertices, PetscReal **values)
+PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], PetscInt components, PetscInt nvertices,
+  PetscReal **values)
 {
   CheckpointField *field;
 

@@ -15,7 +15,8 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   report->load                                                = scene->ramps[0].factor[step];
   report->nramps                                              = scene->nramps;
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
-  for (PetscInt r = 0; r < scene->nramps; ++r) report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
+  for (PetscInt r = 0; r < scene->nramps; ++r)
+    report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
   sim->report.nsteps = step + 1 - sim->first_step;
   PetscFunctionReturn(0);
 }
@@ -53,7 +54,9 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
-  if (sim->monitor) PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step, (double)(sim->path.time + *increment), report->reason));
+  if (sim->monitor)
+    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step,
+      (double)(sim->path.time + *increment), report->reason));
   PetscFunctionReturn(0);
 }
 
@@ -73,11 +76,11 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
    Level: beginner
 
    Notes:
-   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at what
-   was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or the step has not converged, but
-   where one linearization is all that is allowed. Linear bodies, and the scene's `model quadratic`, make the
-   step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG solve
-   (options prefix -elasticity_) and neither search nor optimizer.
+   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at
+what was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or the step has not
+converged, but where one linearization is all that is allowed. Linear bodies, and the scene's `model quadratic`, make
+the step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG
+solve (options prefix -elasticity_) and neither search nor optimizer.
 
    A step that fails is halved, tried again from the last good state, and doubled after each success.
 
@@ -121,8 +124,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
-    sim->report.exit_code = sim->interrupted ? RUN_INTERRUPTED : report->gap_untrue ? RUN_GAP_UNTRUE
-                                                                                    : RUN_FAILED;
+    sim->report.exit_code = sim->interrupted ? RUN_INTERRUPTED : report->gap_untrue ? RUN_GAP_UNTRUE : RUN_FAILED;
   } else if (report->gap_untrue) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));

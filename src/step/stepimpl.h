@@ -1,7 +1,7 @@
 /*
-   The map of src/step: its files in the order in which they build on one another, each with what it offers to those below it.
-   A load step is attempted (attempt.c) as an optimization problem (problem.c), solved by one of three solvers, measured, and kept
-   or cut (step.c).
+   The map of src/step: its files in the order in which they build on one another, each with what it offers to those
+   below it. A load step is attempted (attempt.c) as an optimization problem (problem.c), solved by one of three
+   solvers, measured, and kept or cut (step.c).
 */
 #ifndef STEPIMPL_H
 #define STEPIMPL_H
@@ -32,7 +32,8 @@ PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallb
 PETSC_INTERN PetscErrorCode ReportGetCounts(KSP, PCAMGFCounts *);
 PETSC_INTERN PetscErrorCode ReportPreconditioner(KSP, const PCAMGFCounts *before, StepReport *);
 
-/* places.c: where the nodes that this rank owns are, undeformed, and in which body; in the order of the global vectors */
+/* places.c: where the nodes that this rank owns are, undeformed, and in which body; in the order of the global
+   vectors */
 typedef struct {
   Vec       x;    /* [length] */
   PetscInt *body; /* one a node */
@@ -41,7 +42,8 @@ typedef struct {
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
 PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
 
-/* motions.c: rigid motions of faces and bodies at the factors of the ramps; the first displacement of a face or body leads the others */
+/* motions.c: rigid motions of faces and bodies at the factors of the ramps; the first displacement of a face or body
+   leads the others */
 typedef struct {
   PetscReal t[3], center[3]; /* [length] */
   PetscReal turn[3][3];      /* rotation less identity */
@@ -51,7 +53,8 @@ PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
 PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
 PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
 
-/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1 and their ramps */
+/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1
+   and their ramps */
 typedef struct {
   PetscReal value;  /* [length]; of a motion 1 where it drives, else 0 */
   PetscInt  ramp;   /* of a motion 0 */
@@ -72,7 +75,8 @@ PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, V
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
 
-/* loads.c: dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has no load */
+/* loads.c: dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has
+   no load */
 typedef struct {
   Scene scene;
   Vec  *force; /* nramps [force] */
@@ -82,7 +86,8 @@ PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
-/* temperatures.c: of bodies that expand, by ramp at factor 1, as linear functions in the cells; now: NULL where the scene has none */
+/* temperatures.c: of bodies that expand, by ramp at factor 1, as linear functions in the cells; now: NULL where the
+   scene has none */
 typedef struct {
   MPI_Comm    comm;
   Scene       scene;
@@ -123,12 +128,16 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, Scene, ContactMemory *);
 PETSC_INTERN PetscInt       ContactMemoryIndex(const ContactMemory *, ContactLinearization, PetscInt row);
-PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *, Vec slack, PetscReal stiffness);
-PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack, Vec pressure, PetscBool *any);
+PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *,
+  Vec slack, PetscReal stiffness);
+PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack,
+  Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
 PETSC_INTERN PetscErrorCode ContactMemoryFindClosed(const ContactMemory *, ContactLinearization, Vec closed);
-PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost, PetscInt *nlost);
-PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization, PetscReal *least);
+PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost,
+  PetscInt *nlost);
+PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization,
+  PetscReal *least);
 PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
 
 /* path.c: the last two states of equilibrium; load step k ends at time k */
@@ -186,8 +195,9 @@ typedef struct {
   RigidBody *bodies;
   Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
   Vec        elastic; /* 0 in the rows of these bodies, else 1 */
-  Vec        given;   /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows [length] */
-  Vec        held;    /* stiffness of the rows that carry motions, about the centre of proximal.c; else 0 [force/length] */
+  Vec given; /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows
+                [length] */
+  Vec held;  /* stiffness of the rows that carry motions, about the centre of proximal.c; else 0 [force/length] */
 } RigidBodies;
 
 /* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
@@ -201,13 +211,15 @@ typedef struct {
   Vec      work;
 } Ties;
 
-/* Of adapt.c, where the next mesh may have cells refined: squared errors of this rank's cells, summed over load steps, and which are to be refined */
+/* Of adapt.c, where the next mesh may have cells refined: squared errors of this rank's cells, summed over load
+   steps, and which are to be refined */
 typedef struct {
   PetscReal *errors;
   PetscBool *marked;
 } Adapt;
 
-/* Of forecast.c: what load steps ended with on another mesh, interpolated to this one; none where nothing is foreseen */
+/* Of forecast.c: what load steps ended with on another mesh, interpolated to this one; none where nothing is foreseen
+ */
 typedef struct {
   StepForecast *found; /* the caller's; NULL: none is wanted */
   StepForecast  here;
@@ -216,29 +228,30 @@ typedef struct {
 
 /* What the files from here on work on */
 struct _n_Simulation {
-  MPI_Comm             comm;
-  Scene                scene;
-  DM                   dm;
-  Elasticity           elasticity;
-  Contact              contact; /* NULL when the scene names no pair */
-  Prescribed           prescribed;
-  DeadLoads            loads;
-  Temperatures         temperatures;
-  Springs              springs;
-  RigidBodies          rigid;
-  Ties                 ties;
-  Mat                  follows; /* slope of the pressures that follow their faces, of followers.c; NULL before there is one [force/length] */
-  VertexPlaces         places;
-  PetscBool            quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
-  Mat                  K;
-  Vec                  mass;
-  PetscReal            stiffness;  /* the largest of the bodies', Young's modulus times length [force/length] */
-  KSP                  ksp;        /* of a quadratic step without contact */
-  PetscInt             first_step; /* of this run: 0, or that which it goes on with */
-  PetscReal            increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
-  LoadPath             path;
+  MPI_Comm     comm;
+  Scene        scene;
+  DM           dm;
+  Elasticity   elasticity;
+  Contact      contact; /* NULL when the scene names no pair */
+  Prescribed   prescribed;
+  DeadLoads    loads;
+  Temperatures temperatures;
+  Springs      springs;
+  RigidBodies  rigid;
+  Ties         ties;
+  Mat          follows; /* slope of the pressures that follow their faces, of followers.c; NULL before there is one
+                           [force/length] */
+  VertexPlaces places;
+  PetscBool quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
+  Mat       K;
+  Vec       mass;
+  PetscReal stiffness;  /* the largest of the bodies', Young's modulus times length [force/length] */
+  KSP       ksp;        /* of a quadratic step without contact */
+  PetscInt  first_step; /* of this run: 0, or that which it goes on with */
+  PetscReal increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
+  LoadPath  path;
   ContactMemory        memory;
-  PetscContainer       subspace;      /* what the optimizer keeps from one load step to the next; NULL before the first */
+  PetscContainer       subspace; /* what the optimizer keeps from one load step to the next; NULL before the first */
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u, of the faces as they are */
   PetscReal           *pressure, *gap, *stress;
@@ -285,7 +298,8 @@ PETSC_INTERN PetscErrorCode RigidTest(Simulation, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
 
 /* joints.c */
-PETSC_INTERN PetscErrorCode JointsExpand(Simulation, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C, PetscBool follows[]);
+PETSC_INTERN PetscErrorCode JointsExpand(Simulation, Mat all, const PetscInt tied[], const PetscBool prescribed[],
+  Mat *C, PetscBool follows[]);
 PETSC_INTERN PetscErrorCode JointsCreate(Simulation, const PetscBool prescribed[], Mat *C, PetscBool follows[]);
 
 /* ties.c */
@@ -325,14 +339,16 @@ PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 /* secants.c: where the gap, or a load, is linearized next, within one solve; begins as all zeros */
 #define GAP_SECANTS 2
 typedef struct {
-  PetscInt  n, stalls;              /* solutions; the last ones without progress */
-  PetscReal least;                  /* change of the gap so far [length] */
-  Vec       u, way;                 /* the last solution, and the way to it from where the gap was linearized [length] */
-  Vec       solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
-  Vec       ways[GAP_SECANTS];      /* the same of the ways [length] */
+  PetscInt  n, stalls; /* solutions; the last ones without progress */
+  PetscReal least;     /* change of the gap so far [length] */
+  Vec       u, way;    /* the last solution, and the way to it from where the gap was linearized [length] */
+  Vec
+    solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
+  Vec ways[GAP_SECANTS];    /* the same of the ways [length] */
 } GapSecants;
 
-PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized,
+  PetscBool *damped);
 PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
 
 /*
@@ -380,7 +396,8 @@ PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
 /* centred.c */
-PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy,
+  Vec force);
 
 /* followers.c */
 PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
@@ -433,7 +450,8 @@ PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode LooseTest(const StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode LooseTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
-/* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last solve */
+/* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last
+   solve */
 #define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
@@ -445,16 +463,19 @@ PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
 
 /* rest.c: a load step back to where nothing is asked for */
 PETSC_INTERN PetscErrorCode RestIsDue(const StepProblem *, PetscBool *);
-PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *, ContactSolution *, PetscBool *rests);
+PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
+  ContactSolution *, PetscBool *rests);
 
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding,
+  StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
-/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force, gap x area] a vertex */
+/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force,
+   gap x area] a vertex */
 PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
 /* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
@@ -499,6 +520,7 @@ PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepRe
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
-/* state.c, checkpoint.c, simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more than what step.h and accuracy.h offer */
+/* state.c, checkpoint.c, simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more
+   than what step.h and accuracy.h offer */
 
 #endif

@@ -1,7 +1,9 @@
-/* The stiffness matrix takes no more memory than its solver needs: half of it is stored, and without rigid body modes, where that will do. */
+/* The stiffness matrix takes no more memory than its solver needs: half of it is stored, and without rigid body
+   modes, where that will do. */
 #include "stepimpl.h"
 
-/* The optimizer copies a constant K into its own matrix, and only multiplies by K; call before the tangent is created */
+/* The optimizer copies a constant K into its own matrix, and only multiplies by K; call before the tangent is created
+ */
 PetscErrorCode StiffnessSetType(Simulation sim)
 {
   PetscMPIInt size;
@@ -28,8 +30,9 @@ PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 }
 
 /*
-   BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node. That is the user's word: the AMG
-   of a PCAMGF reads its options at the set-up, by which time the matrix must have the modes, and PCHYPRE does not tell how it coarsens.
+   BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node. That is the
+   user's word: the AMG of a PCAMGF reads its options at the set-up, by which time the matrix must have the modes, and
+   PCHYPRE does not tell how it coarsens.
 */
 static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
 {
@@ -47,9 +50,7 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   if (filtered) PetscCall(PCAMGFGetAMGPC(pc, &pc));
   PetscCall(PCGetType(pc, &set));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(PetscStrncpy(type, set ? set : PetscDefined(HAVE_HYPRE) ? PCHYPRE
-                                                                    : PCGAMG,
-                         sizeof(type)));
+  PetscCall(PetscStrncpy(type, set ? set : PetscDefined(HAVE_HYPRE) ? PCHYPRE : PCGAMG, sizeof(type)));
   PetscCall(PetscOptionsGetString(NULL, prefix, "-pc_type", type, sizeof(type), NULL));
   PetscCall(PetscStrcmp(type, PCHYPRE, &hypre));
   PetscCall(PetscStrcmp(type, PCBLOCKAMG, &blocked));
@@ -58,7 +59,8 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   PetscFunctionReturn(0);
 }
 
-/* Rigid body modes for A, sim->K or a matrix made of it, where the solver (NULL: unknown), with its options set, may use them */
+/* Rigid body modes for A, sim->K or a matrix made of it, where the solver (NULL: unknown), with its options set, may
+   use them */
 PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
 {
   MatNullSpace modes;

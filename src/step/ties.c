@@ -1,7 +1,8 @@
 /*
-   Tied faces, symmetry planes along no axis, hanging vertices and rigid bodies that forces drive: displacements there are those that others give them, u = C x + o, and no
-   unknowns. x is u with other numbers at their rows, which mean nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in
-   those rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
+   Tied faces, symmetry planes along no axis, hanging vertices and rigid bodies that forces drive: displacements there
+   are those that others give them, u = C x + o, and no unknowns. x is u with other numbers at their rows, which mean
+   nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in those
+   rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
 */
 #include "stepimpl.h"
 
@@ -55,7 +56,8 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* What is tied follows nodes on symmetry planes and hanging ones, and may be such a node itself: these come first and last. What hangs does so between nodes on planes */
+/* What is tied follows nodes on symmetry planes and hanging ones, and may be such a node itself: these come first and
+   last. What hangs does so between nodes on planes */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
@@ -78,7 +80,8 @@ static PetscErrorCode TiesCreateIdentity(Vec layout, Mat *identity)
 
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(layout, &start, &end));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)layout), end - start, end - start, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, identity));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)layout), end - start, end - start, PETSC_DETERMINE,
+    PETSC_DETERMINE, 1, NULL, 0, NULL, identity));
   for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(*identity, i, i, 1.0, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(*identity, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*identity, MAT_FINAL_ASSEMBLY));
@@ -171,8 +174,9 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
 }
 
 /*
-   Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those between hanging vertices and the cells that they hang on;
-   rigid: on rigid bodies that forces drive, what keeps them rigid and to the motions that are prescribed. NULL where nothing follows
+   Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those
+   between hanging vertices and the cells that they hang on; rigid: on rigid bodies that forces drive, what keeps them
+   rigid and to the motions that are prescribed. NULL where nothing follows
 */
 PetscErrorCode TiesGetForces(Simulation sim, Vec force, Vec *ties, Vec *rigid)
 {
@@ -227,7 +231,8 @@ static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
   PetscCall(VecGetOwnershipRange(now, &rstart, NULL));
   PetscCall(VecGetArray(now, &d));
   PetscCall(VecGetArrayRead(diagonal, &old));
-  for (PetscInt k = 0; k < sim->prescribed.n; ++k) d[sim->prescribed.rows[k] - rstart] = old[sim->prescribed.rows[k] - rstart];
+  for (PetscInt k = 0; k < sim->prescribed.n; ++k)
+    d[sim->prescribed.rows[k] - rstart] = old[sim->prescribed.rows[k] - rstart];
   for (PetscInt k = 0; k < ties->n; ++k) d[ties->rows[k] - rstart] = old[ties->rows[k] - rstart];
   PetscCall(VecRestoreArrayRead(diagonal, &old));
   PetscCall(VecRestoreArray(now, &d));
@@ -305,7 +310,8 @@ PetscErrorCode TiesMeasure(Simulation sim, Vec forces, PetscReal bodies[])
   PetscCall(VecGetArrayRead(forces, &a));
   for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
   PetscCall(VecRestoreArrayRead(forces, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
-/* The work of the forces from outside, dead loads and the reactions where displacements are prescribed, and of those in the contacts. */
+/* The work of the forces from outside, dead loads and the reactions where displacements are prescribed, and of those
+   in the contacts. */
 #include "stepimpl.h"
 
 /* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
@@ -20,8 +21,9 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
 }
 
 /*
-   Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none;
-   contact: the forces in the contacts where pairs rub, which end in WorkAdd(), NULL: none
+   Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the
+   prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
+   where pairs rub, which end in WorkAdd(), NULL: none
 */
 PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {

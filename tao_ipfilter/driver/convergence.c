@@ -1,8 +1,8 @@
 /* When the iteration ends, and with what reason. */
 #include "../ipfilterimpl.h"
 
-/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero. Nothing
-   there gives a scale to measure errors by, so it is not left to the iteration to find out. */
+/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero.
+   Nothing there gives a scale to measure errors by, so it is not left to the iteration to find out. */
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
@@ -13,7 +13,8 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &violation));
   }
-  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.given) PetscFunctionReturn(0);
+  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.given)
+    PetscFunctionReturn(0);
   if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -38,7 +39,9 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
   const IPKKT *k = &ip->kkt;
 
   if (IPBothErrors(ip) > ip->tol) return PETSC_FALSE;
-  return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) && k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) && k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
+  return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) &&
+                     k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) &&
+                     k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
 }
 
 /* Whether both measures of the KKT error are within the acceptable tolerance */
@@ -61,8 +64,8 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away, or what the constraints were
-   relaxed by is worth more than the tolerance at these multipliers */
+/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away, or what the
+   constraints were relaxed by is worth more than the tolerance at these multipliers */
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -73,15 +76,25 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPDegenerateCancellation(tao, &times));
   PetscCall(IPWorthOfRelaxation(tao, &work));
-  if (ip->relax.by > 0.0) PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
-  if (times > limit) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not exist", (double)ip->kkt.error, relaxed, (double)times));
-  else if (work > ip->tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits", (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
-  else PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error, (double)ip->tol, relaxed));
+  if (ip->relax.by > 0.0)
+    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
+  if (times > limit)
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not "
+      "exist",
+      (double)ip->kkt.error, relaxed, (double)times));
+  else if (work > ip->tol)
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits",
+      (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
+  else
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
+      (double)ip->tol, relaxed));
   PetscFunctionReturn(0);
 }
 
-/* Where the gradient is zero and no constraint violated, all multipliers may be zero, whatever they have come to: there is nothing that
-   they could balance, or be measured by */
+/* Where the gradient is zero and no constraint violated, all multipliers may be zero, whatever they have come to:
+   there is nothing that they could balance, or be measured by */
 static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -108,12 +121,14 @@ PetscErrorCode IPTestNumbers(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (IPUndefined(ip->kkt.error) || IPUndefined(ip->at.f)) PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
+  if (IPUndefined(ip->kkt.error) || IPUndefined(ip->at.f))
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
+      "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds the largest violation,
-   crtol the one that the KKT error holds. As for all of TAO's tolerances 0 is none. */
+/* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds
+   the largest violation, crtol the one that the KKT error holds. As for all of TAO's tolerances 0 is none. */
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
@@ -122,7 +137,8 @@ PetscBool IPConstraintsMet(Tao tao)
 }
 
 /*@C
-  TaoIPFilterDefaultConvergenceTest - The convergence test of a `TAOIPFILTER` unless `TaoSetConvergenceTest()` gives another one
+  TaoIPFilterDefaultConvergenceTest - The convergence test of a `TAOIPFILTER` unless `TaoSetConvergenceTest()` gives
+another one
 
   Collective
 
@@ -133,14 +149,15 @@ PetscBool IPConstraintsMet(Tao tao)
   Level: advanced
 
   Notes:
-  Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the constraints within
-  the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing better can be expected. A test of the
-  caller's may call it.
+  Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
+constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
+better can be expected. A test of the caller's may call it.
 
   Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
   `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
 
-.seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`, `TaoIPFilterGetReason()`
+.seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`,
+`TaoIPFilterGetReason()`
 @*/
 PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
@@ -153,23 +170,31 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   (void)ctx;
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
-  PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG, "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
+  PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG,
+    "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
   if (stationary) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the gradient of the objective is zero, and the constraints are met"));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
+      "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessDegenerate(tao));
   } else if (fritz_john && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow all they could balance: bounded ones may not exist", (double)k->error));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow "
+      "all they could balance: bounded ones may not exist",
+      (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g", (double)ip->at.f, (double)tao->fmin));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g",
+      (double)ip->at.f, (double)tao->fmin));
   } else if (unbounded) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g", (double)ip->first.f, (double)lowest));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
+      (double)ip->first.f, (double)lowest));
     ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, or the last step, no other does */
   } else if (ip->rec.nacceptable >= ip->opt.acceptable_it && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g", (double)IPBothErrors(ip), (double)ip->opt.acceptable_tol, (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g",
+      (double)IPBothErrors(ip), (double)ip->opt.acceptable_tol, (double)ip->tol));
   }
   PetscFunctionReturn(0);
 }
@@ -186,14 +211,27 @@ static PetscErrorCode TestLimits(Tao tao)
   PetscFunctionBegin;
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
   if (ip->rec.ntiny >= max_tiny) {
-    if (!IPConstraintsMet(tao)) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g, but the violation %g, relative %g, is not within catol %g and crtol %g", (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
-    else if (IPAcceptable(ip)) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)error, (double)ip->tol));
-    else if (Violated(ip)) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding beside x, at constraint violation %g", (double)k->inf_pr));
-    else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)error));
+    if (!IPConstraintsMet(tao))
+      PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
+        "steps have become as small as rounding at KKT error %g, but the violation %g, relative %g, is not within "
+        "catol %g and crtol %g",
+        (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
+    else if (IPAcceptable(ip))
+      PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+        "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)error,
+        (double)ip->tol));
+    else if (Violated(ip))
+      PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
+        "steps have become as small as rounding beside x, at constraint violation %g", (double)k->inf_pr));
+    else
+      PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
+        "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)error));
   } else if (tao->niter - ip->rec.ndirections >= tao->max_it) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g", tao->max_it, (double)error));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
+      tao->max_it, (double)error));
   } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN, "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)error));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN,
+      "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)error));
   }
   PetscFunctionReturn(0);
 }
@@ -208,6 +246,8 @@ PetscErrorCode IPTestConvergence(Tao tao)
   ip->rec.nacceptable = IPAcceptable(ip) ? ip->rec.nacceptable + 1 : 0;
   PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
   if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
-  else if (!ip->rec.reason[0]) PetscCall(IPSetReason(tao, tao->reason, "the test of TaoSetConvergenceTest() says %s, at KKT error %g", TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
+  else if (!ip->rec.reason[0])
+    PetscCall(IPSetReason(tao, tao->reason, "the test of TaoSetConvergenceTest() says %s, at KKT error %g",
+      TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

@@ -20,7 +20,8 @@ static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec mul
     PetscInt           n;
 
     PetscCall(MatGetRow(J, i, &n, &column, &v));
-    for (PetscInt k = 0; k < n; k++) PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
+    for (PetscInt k = 0; k < n; k++)
+      PetscCall(VecSetValue(r, column[k], PetscAbsScalar(v[k] * z[i - rstart]), ADD_VALUES));
     PetscCall(MatRestoreRow(J, i, &n, &column, &v));
   }
   PetscCall(VecRestoreArrayRead(force, &z));
@@ -40,7 +41,8 @@ static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sum));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
   PetscCall(VecSet(sum, 0.0));
-  if (ip->mi) PetscCall(DegenerateAddForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
+  if (ip->mi)
+    PetscCall(DegenerateAddForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
   if (ip->me) PetscCall(DegenerateAddForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
@@ -53,8 +55,8 @@ static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they cancel one
-   another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
+/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they
+   cancel one another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
 PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
 {
   const PetscReal vanishing = 1e-3; /* of the first gradient */
@@ -83,8 +85,9 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* Whether the conditions of Fritz John hold without the objective: the gradients of equality constraints that are met vanish, so that their multipliers
-   outgrow all there is to balance. To that size the stationarity residual is nothing. */
+/* Whether the conditions of Fritz John hold without the objective: the gradients of equality constraints that are met
+   vanish, so that their multipliers outgrow all there is to balance. To that size the stationarity residual is
+   nothing. */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -94,7 +97,9 @@ PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
-  if (!ip->me || ip->opt.scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol || k->complementarity > ip->tol) PetscFunctionReturn(0);
+  if (!ip->me || ip->opt.scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol ||
+      k->complementarity > ip->tol)
+    PetscFunctionReturn(0);
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first.gradient) && k->dual_norm <= ip->tol * force);

@@ -1,22 +1,28 @@
 /* One line an iteration in IPOPT's columns. */
 #include "../ipfilterimpl.h"
 
-/* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far, directions, active sets that
-   the problem took, active constraints */
+/* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far,
+   directions, active sets that the problem took, active constraints */
 static PetscErrorCode MonitorFiltered(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
 
   PetscFunctionBegin;
-  if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du   ||d||   applied directions sets active   kkt\n"));
-  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT " %6" PetscInt_FMT "  %8.2e\n", tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
-                        ip->rec.napplications, ip->filtered.reduced.system.k - ip->filtered.reduced.companions.n, ip->filtered.reduced.nsteps, ip->filtered.reduced.nactive, (double)ip->kkt.error));
+  if (tao->niter % 20 == 0)
+    PetscCall(
+      PetscPrintf(comm, "iter     objective     inf_pr   inf_du   ||d||   applied directions sets active   kkt\n"));
+  PetscCall(PetscPrintf(comm,
+    "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT
+    " %6" PetscInt_FMT "  %8.2e\n",
+    tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
+    ip->rec.napplications, ip->filtered.reduced.system.k - ip->filtered.reduced.companions.n,
+    ip->filtered.reduced.nsteps, ip->filtered.reduced.nactive, (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }
 
-/* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points, Krylov iterations
-   (f: with the filter) */
+/* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points,
+   Krylov iterations (f: with the filter) */
 PetscErrorCode IPMonitor(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -29,10 +35,18 @@ PetscErrorCode IPMonitor(Tao tao)
     PetscCall(MonitorFiltered(tao));
     PetscFunctionReturn(0);
   }
-  if (tao->niter % 20 == 0) PetscCall(PetscPrintf(comm, "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp   kkt\n"));
-  if (tao->niter && ip->shift.delta > 0.0) PetscCall(PetscSNPrintf(rg, sizeof(rg), "%5.1f", (double)PetscLog10Real(ip->shift.delta)));
+  if (tao->niter % 20 == 0)
+    PetscCall(PetscPrintf(comm,
+      "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp   kkt\n"));
+  if (tao->niter && ip->shift.delta > 0.0)
+    PetscCall(PetscSNPrintf(rg, sizeof(rg), "%5.1f", (double)PetscLog10Real(ip->shift.delta)));
   else PetscCall(PetscStrncpy(rg, "    -", sizeof(rg)));
-  PetscCall(PetscPrintf(comm, "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT "%c  %8.2e\n", tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0,
-                        (double)ip->dir.norm, rg, (double)ip->search.alpha_dual, (double)ip->search.alpha, ip->search.tag, ip->search.ntrials, tao->ksp_its, ip->lin.filtered ? 'f' : ' ', (double)ip->kkt.error));
+  PetscCall(PetscPrintf(comm,
+    "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %6.1f %8.2e %s %8.2e %8.2e%c %2" PetscInt_FMT " %3" PetscInt_FMT
+    "%c  %8.2e\n",
+    tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du,
+    ip->mu > 0.0 ? (double)PetscLog10Real(ip->mu) : 0.0, (double)ip->dir.norm, rg, (double)ip->search.alpha_dual,
+    (double)ip->search.alpha, ip->search.tag, ip->search.ntrials, tao->ksp_its, ip->lin.filtered ? 'f' : ' ',
+    (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

@@ -20,12 +20,14 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   PetscCall(VecGetSize(c, &ip->mi));
   PetscCall(DuplicateAfresh(c, &tao->DI));
   if (!ip->mi) PetscFunctionReturn(0);
-  PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
+  PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE,
+    "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
   if (ip->given.slack_mass) {
     PetscInt n;
 
     PetscCall(VecGetSize(ip->given.slack_mass, &n));
-    PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ, "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
+    PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ,
+      "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
   }
   PetscCall(DuplicateAfresh(c, &ip->rc));
   PetscCall(DuplicateAfresh(c, &ip->at.lambda));
@@ -35,7 +37,8 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The caller's equality constraints, and behind them on each rank the rows of c_I with equal bounds: a vector of that layout, or NULL */
+/* The caller's equality constraints, and behind them on each rank the rows of c_I with equal bounds: a vector of that
+   layout, or NULL */
 static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -50,7 +53,8 @@ static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
   }
   ip->me = own + ip->sides.nall;
   if (!ip->me) PetscFunctionReturn(0);
-  PetscCheck(!own || tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
+  PetscCheck(!own || tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
+    "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
   PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), layout));
   PetscCall(VecSetSizes(*layout, local + ip->sides.nequal, PETSC_DETERMINE));
   PetscCall(VecSetType(*layout, VECSTANDARD));
@@ -90,8 +94,8 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Without TaoSetHessian(): differences of gradients for a small problem, a limited-memory approximation for a large one. Either is made
-   anew with other sizes. */
+/* Without TaoSetHessian(): differences of gradients for a small problem, a limited-memory approximation for a large
+   one. Either is made anew with other sizes. */
 static PetscErrorCode SetUpHessian(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -101,7 +105,10 @@ static PetscErrorCode SetUpHessian(Tao tao)
   PetscFunctionBegin;
   if (tao->hessian && !ip->qn.B) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
-  PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE, "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT " unknowns, more than %" PetscInt_FMT ", it does not difference gradients", n, large);
+  PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
+    "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT
+    " unknowns, more than %" PetscInt_FMT ", it does not difference gradients",
+    n, large);
   PetscCall(IPQuasiNewtonDestroy(&ip->qn));
   if (n <= large) PetscCall(IPDifferenceHessian(tao));
   else PetscCall(IPQuasiNewtonSetUp(tao));
@@ -133,7 +140,8 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether v, made in TaoSetUp(), still has as many entries on all ranks as a vector of the caller's and some more; either may be NULL */
+/* Whether v, made in TaoSetUp(), still has as many entries on all ranks as a vector of the caller's and some more;
+   either may be NULL */
 static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
   PetscInt  local[2] = {0, 0};
@@ -148,7 +156,8 @@ static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Rows of c_I by the bounds that they have now; what was made of their Jacobian is dropped where any is, or was, no plain one */
+/* Rows of c_I by the bounds that they have now; what was made of their Jacobian is dropped where any is, or was, no
+   plain one */
 static PetscErrorCode SetUpSides(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -172,7 +181,8 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscCall(SetUpSides(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
-  PetscCall(SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
+  PetscCall(
+    SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&tao->gradient));
   PetscCall(IPKSPReset(tao->ksp));

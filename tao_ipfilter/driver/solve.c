@@ -57,7 +57,9 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
-  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0 ? PetscMax(1.0, largest / ip->opt.gradient_max) : 1.0;
+  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0
+                  ? PetscMax(1.0, largest / ip->opt.gradient_max)
+                  : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
@@ -66,11 +68,13 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
     PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &first->equality_jacobian));
   }
-  *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) && !IPUndefined(first->equality));
+  *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) &&
+                        !IPUndefined(first->equality));
   PetscFunctionReturn(0);
 }
 
-/* The starting point, pushed inside its bounds, and everything there; *finite is false where something is not a number */
+/* The starting point, pushed inside its bounds, and everything there; *finite is false where something is not a
+   number */
 static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -101,9 +105,13 @@ static PetscErrorCode ResetSolve(Tao tao)
   IPRecord     *rec = &ip->rec;
 
   PetscFunctionBegin;
-  *rec             = (IPRecord){.max_nksp = rec->max_nksp, .ksp_iterations = rec->ksp_iterations, .best_error = PETSC_INFINITY, .best_violation = PETSC_INFINITY};
+  *rec             = (IPRecord){.max_nksp = rec->max_nksp,
+                .ksp_iterations           = rec->ksp_iterations,
+                .best_error               = PETSC_INFINITY,
+                .best_violation           = PETSC_INFINITY};
   ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
-  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B), .curved = (PetscBool)(ip->qn.B != NULL)};
+  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B),
+             .curved                   = (PetscBool)(ip->qn.B != NULL)};
   ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
   ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
   ip->shift        = (IPShift){.delta = 0.0};
@@ -117,14 +125,17 @@ static PetscErrorCode ResetSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than the tolerance and its
-   KKT error is no larger, which is all that counts where one of them is acceptable; of two that differ in no digit the later one is better */
+/* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than
+   the tolerance and its KKT error is no larger, which is all that counts where one of them is acceptable; of two that
+   differ in no digit the later one is better */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
   const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
-  const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol), same = 1.01;
+  const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol),
+                  same = 1.01;
 
-  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol) return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
+  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol)
+    return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
 }
 
@@ -148,7 +159,8 @@ static PetscErrorCode RestoreBest(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error) PetscFunctionReturn(0);
+  if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error)
+    PetscFunctionReturn(0);
   if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
   if (ip->terms.n) PetscCall(VecCopy(ip->terms.best, ip->terms.force));
@@ -185,7 +197,9 @@ static PetscErrorCode EndLinear(Tao tao)
   const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm; /* no direction, no reduction */
 
   PetscFunctionBegin;
-  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s", KSPConvergedReasons[ip->lin.reason], (double)residual, (double)ip->lin.rhs, ip->lin.why[0] ? "; " : "", ip->lin.why));
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s",
+    KSPConvergedReasons[ip->lin.reason], (double)residual, (double)ip->lin.rhs, ip->lin.why[0] ? "; " : "",
+    ip->lin.why));
   PetscFunctionReturn(0);
 }
 
@@ -195,16 +209,25 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (infeasible) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+  if (infeasible)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
+      "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
   else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
-  else if (!solved) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s", (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
-  else if (violated) PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
-  else PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
+  else if (!solved)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+      "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s",
+      (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
+  else if (violated)
+    PetscCall(
+      IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
+  else
+    PetscCall(
+      IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
   PetscFunctionReturn(0);
 }
 
-/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then constraints without an interior are
-   relaxed, then the violation is reduced by itself. */
+/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then constraints without
+   an interior are relaxed, then the violation is reduced by itself. */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -214,7 +237,9 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
 
   PetscFunctionBegin;
   if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for", (double)IPBothErrors(ip), (double)ip->tol));
+    PetscCall(
+      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for",
+        (double)IPBothErrors(ip), (double)ip->tol));
     PetscFunctionReturn(0);
   }
   if (!solved && ip->lin.failed) {
@@ -240,8 +265,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of equality constraints whose forces have outgrown the gradient they balance, as those of constraints that cannot be met do,
-   drown the objective in the Hessian: they are estimated anew */
+/* Multipliers of equality constraints whose forces have outgrown the gradient they balance, as those of constraints
+   that cannot be met do, drown the objective in the Hessian: they are estimated anew */
 static PetscErrorCode RenewMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -295,7 +320,9 @@ static PetscErrorCode LeaveSubspace(Tao tao)
   Vec             s = NULL, z = NULL;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n", (double)ip->rec.best_error));
+  PetscCall(
+    PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n",
+      (double)ip->rec.best_error));
   PetscCall(IPFilteredEnd(tao));
   ip->rec.fallbacks.subspaces++;
   PetscCall(RestoreBest(tao));
@@ -321,10 +348,19 @@ static PetscErrorCode EndTerms(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error <= ip->opt.acceptable_tol) PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for", (double)ip->rec.best_error, (double)ip->tol));
-  else if (ip->rec.best_error < PETSC_INFINITY) PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)", (double)ip->rec.best_error));
-  else PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "friction: no equilibrium with stick and slip consistent everywhere was found. "
-                          "The method needs inequality constraints alone and a Hessian that is positive definite on the unknowns with friction"));
+  if (ip->rec.best_error <= ip->opt.acceptable_tol)
+    PetscCall(
+      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for",
+        (double)ip->rec.best_error, (double)ip->tol));
+  else if (ip->rec.best_error < PETSC_INFINITY)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+      "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
+      (double)ip->rec.best_error));
+  else
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+      "friction: no equilibrium with stick and slip consistent everywhere was found. "
+      "The method needs inequality constraints alone and a Hessian that is positive definite on the unknowns with "
+      "friction"));
   PetscFunctionReturn(0);
 }
 
@@ -349,7 +385,8 @@ static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
   PetscFunctionBegin;
   states[0] = states[1] = 0;
   PetscCall(PetscObjectStateGet((PetscObject)tao->hessian, &states[0]));
-  if (((TAO_IPFILTER *)tao->data)->mi) PetscCall(PetscObjectStateGet((PetscObject)tao->jacobian_inequality, &states[1]));
+  if (((TAO_IPFILTER *)tao->data)->mi)
+    PetscCall(PetscObjectStateGet((PetscObject)tao->jacobian_inequality, &states[1]));
   PetscFunctionReturn(0);
 }
 
@@ -364,7 +401,8 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(GetStates(tao, before));
   PetscCall(FirstPoint(tao, finite));
   if (!*finite) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN, "the objective, its gradient or a constraint is not a number at the starting point"));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
+      "the objective, its gradient or a constraint is not a number at the starting point"));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSetMultipliers(tao));

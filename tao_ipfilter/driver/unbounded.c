@@ -1,13 +1,16 @@
 /* An objective that falls without end. */
 #include "../ipfilterimpl.h"
 
-/* Fall of the objective, against its first value and against what a Newton step from the start would gain, that only an unbounded one has */
+/* Fall of the objective, against its first value and against what a Newton step from the start would gain, that only
+   an unbounded one has */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
-  return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x), PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+  return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
+                                      PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
-/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x, that says nothing */
+/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x,
+   that says nothing */
 static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
 {
   const PetscReal fall = UnboundedFall(ip), small = 1e-3;
@@ -15,13 +18,15 @@ static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
   return (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
 }
 
-/* Counts whole steps in a row that a shift of the Hessian alone has kept short, and along which the objective fell as a straight line does */
+/* Counts whole steps in a row that a shift of the Hessian alone has kept short, and along which the objective fell as
+   a straight line does */
 static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal straight = 1e-3;
   PetscScalar     slope;
-  PetscBool       counts = (PetscBool)(tao->niter && ip->shift.delta > 0.0 && ip->search.alpha == 1.0 && ip->search.tag != 'R' && !ip->terms.n);
+  PetscBool       counts = (PetscBool)(tao->niter && ip->shift.delta > 0.0 && ip->search.alpha == 1.0 &&
+                                 ip->search.tag != 'R' && !ip->terms.n);
 
   PetscFunctionBegin;
   *fall          = ip->rec.last_f - ip->at.f;
@@ -34,7 +39,8 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   PetscFunctionReturn(0);
 }
 
-/* Whether the trial point, `far` from the iterate, keeps bounds and constraints but for what rounding leaves at that distance */
+/* Whether the trial point, `far` from the iterate, keeps bounds and constraints but for what rounding leaves at that
+   distance */
 static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -65,8 +71,8 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
   PetscFunctionReturn(0);
 }
 
-/* Whether the last step, as many times longer as it takes, leads to a point that shows it: Newton's method would creep there, as each of its
-   steps is as long as the shift lets it be */
+/* Whether the last step, as many times longer as it takes, leads to a point that shows it: Newton's method would
+   creep there, as each of its steps is as long as the shift lets it be */
 static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -93,6 +99,7 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   *f         = ip->at.f;
   *unbounded = UnboundedHere(ip);
   PetscCall(UnboundedCount(tao, &fall));
-  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0) PetscCall(UnboundedAlong(tao, fall, f, unbounded));
+  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)
+    PetscCall(UnboundedAlong(tao, fall, f, unbounded));
   PetscFunctionReturn(0);
 }

@@ -4,8 +4,8 @@
      [ A    J_E^T    ] [ dx     ]   [  b             ]
      [ J_E  -delta   ] [ y + dy ] = [ -c_E - delta y ]
 
-   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last block is switched on
-   where the system is singular (dependent constraints).
+   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last
+   block is switched on where the system is singular (dependent constraints).
 */
 #include "../ipfilterimpl.h"
 #include "../../pc_amgf/mumps.h"
@@ -72,7 +72,8 @@ static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
   PetscFunctionReturn(0);
 }
 
-/* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper triangle */
+/* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper
+   triangle */
 static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 {
   PetscBool missing;
@@ -90,7 +91,8 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else the matrix itself */
+/* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else
+   the matrix itself */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
@@ -140,7 +142,8 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* Set-up of the KSP, with an ordering unless the user has chosen one: PETSc takes that of MUMPS from the options data base alone */
+/* Set-up of the KSP, with an ordering unless the user has chosen one: PETSc takes that of MUMPS from the options data
+   base alone */
 static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 {
   PetscOptions options;
@@ -160,8 +163,9 @@ static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 }
 
 /*
-  One factorization. Approximate minimum fill: where there is no METIS, MUMPS's own choice is PORD, whose analysis of the blocks of zeros takes longer than
-  some factorizations, and gains little in them. Pivots are taken by as small a threshold as IPOPT's: rows that wait for a better one cost work space.
+  One factorization. Approximate minimum fill: where there is no METIS, MUMPS's own choice is PORD, whose analysis of
+  the blocks of zeros takes longer than some factorizations, and gains little in them. Pivots are taken by as small a
+  threshold as IPOPT's: rows that wait for a better one cost work space.
 */
 static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
@@ -174,7 +178,8 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(MatSetOptionsPrefixFactor(aug->K, prefix)); /* as PCSetUp() does, too late for a factor that is made before */
+  PetscCall(
+    MatSetOptionsPrefixFactor(aug->K, prefix)); /* as PCSetUp() does, too late for a factor that is made before */
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatFactorClearError(F));
@@ -207,8 +212,8 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   PetscFunctionReturn(0);
 }
 
-/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails for want of
-   memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
+/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails
+   for want of memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
@@ -230,7 +235,10 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
   if (failed != PC_NOERROR) {
-    PetscCall(PetscStrncpy(ip->lin.why, failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system" : "MUMPS failed on the augmented system", sizeof(ip->lin.why)));
+    PetscCall(PetscStrncpy(ip->lin.why,
+      failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system"
+                                    : "MUMPS failed on the augmented system",
+      sizeof(ip->lin.why)));
     ip->rec.fallbacks.failures++;
     ip->lin.failed = PETSC_TRUE;
     ip->lin.reason = KSP_DIVERGED_PC_FAILED;
@@ -265,8 +273,9 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* residual = rhs - K sol, and its norm; *needless: it is far below what convergence asks of forces and of constraints, or, while that is far off,
-   as far below the present KKT error and next to nothing of the right-hand side */
+/* residual = rhs - K sol, and its norm; *needless: it is far below what convergence asks of forces and of
+   constraints, or, while that is far off, as far below the present KKT error and next to nothing of the right-hand
+   side */
 static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -280,7 +289,8 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
   PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
-  if (ip->lin.norm <= precise * rhs && IPBothErrors(ip) <= 1.0) asked = PetscMax(asked, PetscSqr(fraction) * IPBothErrors(ip));
+  if (ip->lin.norm <= precise * rhs && IPBothErrors(ip) <= 1.0)
+    asked = PetscMax(asked, PetscSqr(fraction) * IPBothErrors(ip));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &top));
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &bottom));
   PetscCall(AugmentedJoin(aug->residual, top, bottom, PETSC_TRUE));
@@ -292,7 +302,8 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscFunctionReturn(0);
 }
 
-/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of the right-hand side, or needless */
+/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of
+   the right-hand side, or needless */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -378,7 +389,8 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is left of it at a solution */
+/* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is
+   left of it at a solution */
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -418,7 +430,8 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscFunctionReturn(0);
 }
 
-/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); zero where that is singular */
+/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); zero where
+   that is singular */
 PetscErrorCode IPAugmentedMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

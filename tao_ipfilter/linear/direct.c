@@ -1,6 +1,7 @@
 /*
-   The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether the matrix is
-   positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates the memory before anything large is allocated.
+   The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether
+   the matrix is positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates
+   the memory before anything large is allocated.
 */
 #include "../ipfilterimpl.h"
 #include "../../pc_amgf/mumps.h"
@@ -14,8 +15,8 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* The present matrix as MUMPS takes a symmetric one, AIJ or SBAIJ: direct.A, NULL where PETSc has no MUMPS for it. The factor, whose analysis serves as long as
-   the pattern stays, goes where it is another one. */
+/* The present matrix as MUMPS takes a symmetric one, AIJ or SBAIJ: direct.A, NULL where PETSc has no MUMPS for it.
+   The factor, whose analysis serves as long as the pattern stays, goes where it is another one. */
 static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 {
   PetscBool        baij, mumps;
@@ -39,7 +40,8 @@ static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
   }
   PetscCall(MatSetOption(direct->A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatGetNonzeroState(direct->A, &state));
-  if (direct->pattern_id != ((PetscObject)direct->A)->id || direct->pattern_state != state) PetscCall(MatDestroy(&direct->F));
+  if (direct->pattern_id != ((PetscObject)direct->A)->id || direct->pattern_state != state)
+    PetscCall(MatDestroy(&direct->F));
   direct->pattern_id    = ((PetscObject)direct->A)->id;
   direct->pattern_state = state;
   PetscFunctionReturn(0);
@@ -91,12 +93,14 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
 {
   PetscFunctionBegin;
   *allows = (PetscBool)(memory <= ip->opt.direct_memory);
-  if (!*allows) PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g", (double)memory, (double)ip->opt.direct_memory));
+  if (!*allows)
+    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g",
+      (double)memory, (double)ip->opt.direct_memory));
   PetscFunctionReturn(0);
 }
 
-/* The factors of the matrix that was taken; more work space each time that MUMPS finds its own estimate too small, with which the next matrix begins.
-   A factorization that failed is not to be reused. */
+/* The factors of the matrix that was taken; more work space each time that MUMPS finds its own estimate too small,
+   with which the next matrix begins. A factorization that failed is not to be reused. */
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -118,7 +122,8 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
     PetscCall(MatFactorGetError(direct->F, error));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
     PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)direct->memory, (int)*error));
-    again = (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation));
+    again =
+      (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation));
     if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&direct->F));
   } while (again);
   PetscFunctionReturn(0);
@@ -136,7 +141,8 @@ static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *sing
   PetscFunctionBegin;
   *factored = *singular = PETSC_FALSE;
   if (ip->hess.products) {
-    PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor", sizeof(ip->lin.why)));
+    PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor",
+      sizeof(ip->lin.why)));
     PetscFunctionReturn(0);
   }
   PetscCall(DirectLeastMemory(ip->cond.A, &least));
@@ -171,7 +177,8 @@ PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   PetscFunctionBegin;
   *verdict = IP_LINEAR_FAILED;
   if (ip->qn.npairs) {
-    PetscCall(PetscStrncpy(ip->lin.why, "the Hessian is a limited-memory approximation, which MUMPS does not take", sizeof(ip->lin.why)));
+    PetscCall(PetscStrncpy(ip->lin.why, "the Hessian is a limited-memory approximation, which MUMPS does not take",
+      sizeof(ip->lin.why)));
     PetscFunctionReturn(0);
   }
   if (!direct->F || direct->system != ip->rec.nsystems) {
@@ -184,6 +191,8 @@ PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   PetscCall(IPResidualMeasure(tao, b, d));
   PetscCall(IPResidualRefine(tao, b, d, PETSC_TRUE, DirectApply, KSP_CONVERGED_ITS));
   if (IPResidualReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
-  else PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->lin.backward_error));
+  else
+    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "MUMPS on the whole matrix leaves a backward error of %g",
+      (double)ip->lin.backward_error));
   PetscFunctionReturn(0);
 }

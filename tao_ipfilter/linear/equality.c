@@ -1,11 +1,13 @@
 /*
-   How equality constraints enter the Newton system: condensed with proximal updates where their rows touch few unknowns, else in the augmented system that
-   MUMPS factors. The first gives way to the second for the rest of a solve where it does not reach the constraints.
+   How equality constraints enter the Newton system: condensed with proximal updates where their rows touch few
+   unknowns, else in the augmented system that MUMPS factors. The first gives way to the second for the rest of a
+   solve where it does not reach the constraints.
 */
 #include "../ipfilterimpl.h"
 #include "../../pc_amgf/mumps.h"
 
-/* Whether the solver of the condensed system is one for stiff rows, and the rows are few and the unknowns many enough for it */
+/* Whether the solver of the condensed system is one for stiff rows, and the rows are few and the unknowns many enough
+   for it */
 static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -41,24 +43,28 @@ PetscErrorCode IPEqualityChoose(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Gives the proximal method up: the matrix loses the equality constraints' rows. *possible is false where MUMPS is not to factor the whole matrix. */
+/* Gives the proximal method up: the matrix loses the equality constraints' rows. *possible is false where MUMPS is
+   not to factor the whole matrix. */
 static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, possible));
-  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && !ip->hess.products && ip->lin.reason != KSP_DIVERGED_NANORINF);
+  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && !ip->hess.products &&
+                          ip->lin.reason != KSP_DIVERGED_NANORINF);
   if (!*possible) PetscFunctionReturn(0);
   ip->prox.condensed = PETSC_FALSE;
   ip->rec.fallbacks.direct++;
-  PetscCall(PetscInfo(tao, "Equality constraints are not reached by proximal updates: the augmented system takes over\n"));
+  PetscCall(
+    PetscInfo(tao, "Equality constraints are not reached by proximal updates: the augmented system takes over\n"));
   PetscCall(IPCondenseMatrix(tao, ip->cond.rows.inequality));
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the multipliers' direction with the matrix cond.A, from the guesses that stand there; ce is the residual of the equality
-   constraints, target the residual of forces asked for. matrix tells whether A is new since the last call. */
+/* Solves for dx and the multipliers' direction with the matrix cond.A, from the guesses that stand there; ce is the
+   residual of the equality constraints, target the residual of forces asked for. matrix tells whether A is new since
+   the last call. */
 PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscReal target, PetscBool *usable)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -112,8 +118,8 @@ static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers for the present point, by a factorization of their own in small problems. None where the gradients of the constraints are so nearly dependent that they would be huge (Waechter and
-   Biegler 2006, section 3.6). */
+/* Multipliers for the present point, by a factorization of their own in small problems. None where the gradients of
+   the constraints are so nearly dependent that they would be huge (Waechter and Biegler 2006, section 3.6). */
 PetscErrorCode IPEqualityMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

@@ -1,9 +1,10 @@
-/* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it ends no program. */
+/* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it
+   ends no program. */
 #include "../ipfilterimpl.h"
 #include "../../pc_amgf/guard.h"
 
-/* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can neither use again nor
-   take apart: that one is left alone, with a reference that nobody gives back */
+/* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can
+   neither use again nor take apart: that one is left alone, with a reference that nobody gives back */
 static PetscErrorCode GuardReplacePC(Tao tao)
 {
   KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin.flexible};
@@ -44,7 +45,8 @@ static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve(). *failed: a library inside it met an error; x is zero. Errors that PCAMGF has not taken, those of a set-up say, all ranks are taken to have met. */
+/* KSPSolve(). *failed: a library inside it met an error; x is zero. Errors that PCAMGF has not taken, those of a
+   set-up say, all ranks are taken to have met. */
 PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,5 @@
-/* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the record of iterations. */
+/* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the
+   record of iterations. */
 #include "../ipfilterimpl.h"
 
 /* The KSP's own convergence test, and what tells that a run is not worth going on with */
@@ -49,7 +50,8 @@ static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KS
     s->least   = norm;
     s->reached = it;
   }
-  if (*reason == KSP_CONVERGED_ITERATING && norm <= s->close && it - s->reached >= patience) *reason = KSP_CONVERGED_ITS;
+  if (*reason == KSP_CONVERGED_ITERATING && norm <= s->close && it - s->reached >= patience)
+    *reason = KSP_CONVERGED_ITS;
   PetscFunctionReturn(0);
 }
 
@@ -101,9 +103,10 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 }
 
 /*
-  KrylovRun() for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries rounding errors that these
-  terms make large: relative to the residual they are the same at every step, so that the preconditioner is not quite linear. CG's
-  recurrence does not bear that; flexible CG does, but is blind to negative curvature.
+  KrylovRun() for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries
+  rounding errors that these terms make large: relative to the residual they are the same at every step, so that the
+  preconditioner is not quite linear. CG's recurrence does not bear that; flexible CG does, but is blind to negative
+  curvature.
 */
 static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
 {
@@ -136,8 +139,8 @@ static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter or the
-   first iterations correct does no harm. */
+/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter
+   or the first iterations correct does no harm. */
 static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -188,8 +191,9 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
   PetscFunctionReturn(0);
 }
 
-/* Whether the factors of the filter's matrix, a principal part of A, have negative pivots: then A is indefinite, which a Krylov method
-   that the filter leaves few iterations may not meet. Looked at only where the problem has shown that it is not convex, and its constraints have an interior. */
+/* Whether the factors of the filter's matrix, a principal part of A, have negative pivots: then A is indefinite,
+   which a Krylov method that the filter leaves few iterations may not meet. Looked at only where the problem has
+   shown that it is not convex, and its constraints have an interior. */
 static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -235,7 +239,10 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   if (*verdict == IP_LINEAR_SOLVED) {
     ip->lin.longest = PetscMax(ip->lin.longest, its);
     ip->lin.ndirect = 0;
-  } else PetscCall(PetscInfo(tao, "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n", KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
+  } else
+    PetscCall(PetscInfo(tao,
+      "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n",
+      KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
   /* a factorization that failed is not to be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
   PetscFunctionReturn(0);

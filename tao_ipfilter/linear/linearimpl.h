@@ -39,8 +39,9 @@ typedef struct {
   PetscObjectState pattern_state; /* with which pattern, */
   PetscReal        memory;        /* and what the factors take by that, in 1e6 bytes over all ranks */
   PetscInt         system;        /* which condensed matrix was factored, by rec.nsystems */
-  PetscInt         relaxation;    /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
-  PetscInt         negative;      /* its negative pivots */
+  PetscInt
+    relaxation; /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
+  PetscInt negative; /* its negative pivots */
 } IPDirect;
 
 /* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
@@ -55,7 +56,8 @@ typedef struct {
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
 
-/* Equality constraints whose rows touch few unknowns: condensed with the others, their multipliers found by proximal updates */
+/* Equality constraints whose rows touch few unknowns: condensed with the others, their multipliers found by proximal
+   updates */
 typedef struct {
   PetscBool condensed; /* in this solve, until they turn out not to be fit for it */
   PetscInt  nupdates;  /* of the multipliers beyond the first of each solve */
@@ -64,7 +66,8 @@ typedef struct {
 /* residual.c */
 PETSC_INTERN PetscErrorCode IPResidualMeasure(Tao, Vec, Vec);
 PETSC_INTERN PetscBool      IPResidualReached(const TAO_IPFILTER *, KSPConvergedReason);
-PETSC_INTERN PetscErrorCode IPResidualRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec), KSPConvergedReason);
+PETSC_INTERN PetscErrorCode IPResidualRefine(Tao, Vec, Vec, PetscBool, PetscErrorCode (*)(Tao, Vec, Vec),
+  KSPConvergedReason);
 PETSC_INTERN PetscErrorCode IPResidualNotANumber(Tao);
 
 /* guard.c */

@@ -1,6 +1,6 @@
 /*
-   The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other. None of them shifts
-   the Hessian: a solver that fails is not negative curvature.
+   The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other.
+   None of them shifts the Hessian: a solver that fails is not negative curvature.
 */
 #include "../ipfilterimpl.h"
 
@@ -78,27 +78,25 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Krylov method failed as it does on indefinite matrices, where nothing tells for certain. A limit of few iterations is
-   the caller's choice and tells nothing. */
+/* Whether the Krylov method failed as it does on indefinite matrices, where nothing tells for certain. A limit of few
+   iterations is the caller's choice and tells nothing. */
 static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 {
   switch (ip->lin.reason) {
-  case KSP_DIVERGED_ITS:
-    return (PetscBool)(ip->lin.limit >= IP_MANY_ITERATIONS);
+  case KSP_DIVERGED_ITS: return (PetscBool)(ip->lin.limit >= IP_MANY_ITERATIONS);
   case KSP_DIVERGED_INDEFINITE_PC:
   case KSP_DIVERGED_BREAKDOWN:
   case KSP_DIVERGED_DTOL:
-  case KSP_DIVERGED_NANORINF:
-    return PETSC_TRUE;
-  default:
-    return PETSC_FALSE;
+  case KSP_DIVERGED_NANORINF: return PETSC_TRUE;
+  default: return PETSC_FALSE;
   }
 }
 
 /* Where nothing helped, a direction that reduces the residual tenfold is still one for an inexact Newton method */
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!IPUndefined(ip->lin.norm) && ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
+  return (PetscBool)(!IPUndefined(ip->lin.norm) &&
+                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
 }
 
 /* In the order in which they are tried: what is changed first, if anything can be, and who solves then */
@@ -173,9 +171,9 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
 }
 
 /*
-  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess hold.
-  *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having: ip->lin.failed
-  tells that, which no shift of the Hessian cures.
+  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess
+  hold. *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having:
+  ip->lin.failed tells that, which no shift of the Hessian cures.
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {

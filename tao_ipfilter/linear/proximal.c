@@ -1,11 +1,13 @@
 /*
-   Equality constraints whose rows touch few unknowns, without a factorization of the whole matrix. With weights W far above the stiffness that resists
-   them, the condensed matrix A + J_E^T W J_E is one that PCAMGF takes, and the method of multipliers
+   Equality constraints whose rows touch few unknowns, without a factorization of the whole matrix. With weights W far
+   above the stiffness that resists them, the condensed matrix A + J_E^T W J_E is one that PCAMGF takes, and the
+   method of multipliers
 
      (A + J_E^T W J_E) dx = b - J_E^T (y + W c_E),   y <- y + W (J_E dx + c_E)
 
-   ends at the solution of the augmented system: what is left of J_E dx + c_E falls by the ratio of both stiffnesses at each update of y. The residual
-   of the forces is that of the condensed system, and each update changes its right-hand side where PCAMGF solves exactly, so that it costs few iterations.
+   ends at the solution of the augmented system: what is left of J_E dx + c_E falls by the ratio of both stiffnesses
+   at each update of y. The residual of the forces is that of the condensed system, and each update changes its
+   right-hand side where PCAMGF solves exactly, so that it costs few iterations.
 */
 #include "../ipfilterimpl.h"
 
@@ -26,8 +28,9 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx += (A + J_E^T W J_E)^-1 of what is left of the right-hand side, unless that is no more than the target. The residual that the solve leaves is
-   a tenth of it, lest the next update of the multipliers, W times what it makes of the constraints, exceeds the target again. */
+/* dx += (A + J_E^T W J_E)^-1 of what is left of the right-hand side, unless that is no more than the target. The
+   residual that the solve leaves is a tenth of it, lest the next update of the multipliers, W times what it makes of
+   the constraints, exceeds the target again. */
 static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target, PetscBool *usable, PetscBool *done)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -84,7 +87,8 @@ static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
   PetscFunctionReturn(0);
 }
 
-/* dx and the direction of the multipliers, from the guesses that stand there. *exact is false where J_E dx + c_E does not vanish. */
+/* dx and the direction of the multipliers, from the guesses that stand there. *exact is false where J_E dx + c_E does
+   not vanish. */
 PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target, PetscBool *usable, PetscBool *exact)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -111,7 +115,9 @@ PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target,
     if (!*exact && !(left <= 0.5 * before)) break;
   }
   if (*usable && left <= close * limit) *exact = PETSC_TRUE;
-  PetscCall(PetscInfo(tao, "Proximal updates leave %g of the linearized equality constraints, %g is not worth reducing\n", (double)left, (double)limit));
+  PetscCall(
+    PetscInfo(tao, "Proximal updates leave %g of the linearized equality constraints, %g is not worth reducing\n",
+      (double)left, (double)limit));
   PetscCall(VecWAXPY(ip->dir.y, -1.0, ip->at.y, y));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));

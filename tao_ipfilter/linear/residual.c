@@ -1,6 +1,6 @@
 /*
-   The true residual of the condensed system, which alone judges a solve, not a Krylov method's estimate. Where it falls short the solve
-   is continued from the attained iterate.
+   The true residual of the condensed system, which alone judges a solve, not a Krylov method's estimate. Where it
+   falls short the solve is continued from the attained iterate.
 */
 #include "../ipfilterimpl.h"
 
@@ -8,8 +8,8 @@
 #define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error that is not worth reducing */
 #define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding leaves any solver */
 
-/* r = b - A d, its norm, and the backward error: its ratio to the terms it is the difference of. A is positive definite, so that
-   diag(A) |d| stands for |A| |d|. */
+/* r = b - A d, its norm, and the backward error: its ratio to the terms it is the difference of. A is positive
+   definite, so that diag(A) |d| stands for |A| |d|. */
 PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -30,33 +30,37 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Whether the residual is what was asked for, or rounding leaves none smaller. With fixed forcing the KSP's own criterion counts
-   instead, unless its result is no direction at all. */
+/* Whether the residual is what was asked for, or rounding leaves none smaller. With fixed forcing the KSP's own
+   criterion counts instead, unless its result is no direction at all. */
 PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
   if (ip->lin.backward_error <= IP_ROUNDING) return PETSC_TRUE;
-  if (ip->opt.forcing == IP_FORCING_FIXED) return (PetscBool)(reason > 0 && ip->lin.norm <= ip->opt.forcing_max * ip->lin.rhs);
+  if (ip->opt.forcing == IP_FORCING_FIXED)
+    return (PetscBool)(reason > 0 && ip->lin.norm <= ip->opt.forcing_max * ip->lin.rhs);
   return (PetscBool)(ip->lin.norm <= 2.0 * ip->lin.target);
 }
 
 /* Whether more was asked for, be it more than rounding leaves */
 static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
-  return ip->opt.forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason) : (PetscBool)(ip->lin.norm > 2.0 * ip->lin.target);
+  return ip->opt.forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason)
+                                             : (PetscBool)(ip->lin.norm > 2.0 * ip->lin.target);
 }
 
-/* Whether going on from the attained iterate may gain what the last run missed: it took its own estimate for the residual, or rounding
-   made it meet a product of the wrong sign close to the end */
+/* Whether going on from the attained iterate may gain what the last run missed: it took its own estimate for the
+   residual, or rounding made it meet a product of the wrong sign close to the end */
 static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
-  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC || reason == KSP_DIVERGED_BREAKDOWN) return (PetscBool)(ip->lin.norm <= IP_CLOSE * ip->lin.rhs);
+  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC || reason == KSP_DIVERGED_BREAKDOWN)
+    return (PetscBool)(ip->lin.norm <= IP_CLOSE * ip->lin.rhs);
   return (PetscBool)(reason > 0);
 }
 
 /* d += A^-1 (b - A d) by the given solver while that halves the residual; exact: to rounding, whatever was asked for */
-PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErrorCode (*solve)(Tao, Vec, Vec), KSPConvergedReason reason)
+PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErrorCode (*solve)(Tao, Vec, Vec),
+  KSPConvergedReason reason)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           correction;
@@ -65,13 +69,16 @@ PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErr
   for (PetscInt k = 0; k < IP_MAX_REFINEMENTS; k++) {
     const PetscReal before = ip->lin.norm;
 
-    if (!ResidualRefinable(ip, reason) || ip->lin.backward_error <= (exact ? IP_EXACT : IP_ROUNDING) || (!exact && !ResidualMissed(ip, reason))) break;
+    if (!ResidualRefinable(ip, reason) || ip->lin.backward_error <= (exact ? IP_EXACT : IP_ROUNDING) ||
+        (!exact && !ResidualMissed(ip, reason)))
+      break;
     PetscCall(IPGetWork(tao, IP_UNKNOWNS, &correction));
     PetscCall((*solve)(tao, ip->lin.residual, correction));
     PetscCall(VecAXPY(d, 1.0, correction));
     PetscCall(IPResidualMeasure(tao, b, d));
     ip->rec.fallbacks.refinements++;
-    PetscCall(PetscInfo(tao, "Refined from ||b - A d|| = %g to %g, asked for %g\n", (double)before, (double)ip->lin.norm, (double)ip->lin.target));
+    PetscCall(PetscInfo(tao, "Refined from ||b - A d|| = %g to %g, asked for %g\n", (double)before,
+      (double)ip->lin.norm, (double)ip->lin.target));
     if (!(ip->lin.norm <= before)) {
       PetscCall(VecAXPY(d, -1.0, correction));
       PetscCall(IPResidualMeasure(tao, b, d));
@@ -88,7 +95,8 @@ PetscErrorCode IPResidualNotANumber(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(ip->lin.why, "the Hessian, a Jacobian or a gradient has an entry that is not a number", sizeof(ip->lin.why)));
+  PetscCall(PetscStrncpy(ip->lin.why, "the Hessian, a Jacobian or a gradient has an entry that is not a number",
+    sizeof(ip->lin.why)));
   ip->rec.fallbacks.failures++;
   ip->lin.failed = PETSC_TRUE;
   ip->lin.reason = KSP_DIVERGED_NANORINF;

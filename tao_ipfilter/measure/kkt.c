@@ -1,7 +1,8 @@
 /* Residuals of the optimality conditions. */
 #include "../ipfilterimpl.h"
 
-/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z of the slacks */
+/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z
+   of the slacks */
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -31,7 +32,8 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionReturn(0);
 }
 
-/* sum m (lambda - z)^2, z being that of both sides: the stationarity residual of the slacks in the norm of the weights, squared */
+/* sum m (lambda - z)^2, z being that of both sides: the stationarity residual of the slacks in the norm of the
+   weights, squared */
 static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -90,7 +92,8 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
-/* What violations are compared by from one iterate to the next: the constraints' first values, or what their gradients made of x then */
+/* What violations are compared by from one iterate to the next: the constraints' first values, or what their
+   gradients made of x then */
 static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
 {
   const PetscReal size = PetscMax(values, jacobian * ip->first.x);
@@ -98,7 +101,8 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
   return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
-/* c_I - s into ip->rc, and how far the constraints and the laws of norm terms are from being met: per unit of their scales, and in the caller's units */
+/* c_I - s into ip->rc, and how far the constraints and the laws of norm terms are from being met: per unit of their
+   scales, and in the caller's units */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -117,8 +121,9 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
-    *primal           = Larger(*primal, norm / ip->scale.equality);
-    ip->kkt.violation = Larger(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
+    *primal = Larger(*primal, norm / ip->scale.equality);
+    ip->kkt.violation =
+      Larger(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
     *largest = Larger(*largest, norm);
   }
@@ -143,7 +148,8 @@ PetscErrorCode IPComputeKKT(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPComputeScale(tao));
-  if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE) PetscCall(IPWorthEnergy(tao, &ip->scale.energy));
+  if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE)
+    PetscCall(IPWorthEnergy(tao, &ip->scale.energy));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));

@@ -12,7 +12,8 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscCall(PetscCalloc1(m / 2, &counts));
   for (PetscInt pass = 0; pass < 2; pass++) {
     if (pass) {
-      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)terms->T), m / 2, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, counts, 0, counts, sums));
+      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)terms->T), m / 2, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
+        counts, 0, counts, sums));
       PetscCall(MatSetOption(*sums, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
       PetscCall(MatGetOwnershipRange(*sums, &first, NULL));
     }
@@ -35,11 +36,12 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscFunctionReturn(0);
 }
 
-/* What both components of a term give way by to forces of size 1: rows' own compliances, and that of their sum. The direction that gives way next to
-   nothing; zeros: there is none. */
+/* What both components of a term give way by to forces of size 1: rows' own compliances, and that of their sum. The
+   direction that gives way next to nothing; zeros: there is none. */
 static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {
-  const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second), half = 0.5 * (first - second);
+  const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
+                  half   = 0.5 * (first - second);
   const PetscReal radius = PetscSqrtReal(half * half + mixed * mixed), angle = 0.5 * PetscAtan2Real(mixed, half);
   const PetscBool none = (PetscBool)(mean - radius > next_to_nothing * mean || mean == 0.0);
 
@@ -47,8 +49,9 @@ static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both
   dead[1] = none ? 0.0 : PetscCosReal(angle);
 }
 
-/* rho: what resists both components, 0 where nothing gives way. dead: where next to nothing gives way in one direction and there is as good as no v,
-   as across a plane of symmetry, that direction: v is as it is whatever x, and counts as none. */
+/* rho: what resists both components, 0 where nothing gives way. dead: where next to nothing gives way in one
+   direction and there is as good as no v, as across a plane of symmetry, that direction: v is as it is whatever x,
+   and counts as none. */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
   IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
@@ -84,7 +87,8 @@ PetscErrorCode IPTermsResistance(Tao tao)
 
     rho[i] = larger > 0.0 ? 1.0 / larger : 0.0;
     ResistanceFindDead(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]), PetscRealPart(b[i]), d);
-    if (PetscAbsScalar(d[0] * v[2 * i] + d[1] * v[2 * i + 1]) > unmoved * PetscMax(sizes[0], sizes[1])) d[0] = d[1] = 0.0;
+    if (PetscAbsScalar(d[0] * v[2 * i] + d[1] * v[2 * i + 1]) > unmoved * PetscMax(sizes[0], sizes[1]))
+      d[0] = d[1] = 0.0;
   }
   PetscCall(VecRestoreArrayWrite(terms->dead, &dead));
   PetscCall(VecRestoreArrayWrite(terms->rho, &rho));

@@ -13,8 +13,9 @@ static PetscReal Within(PetscReal size, PetscReal limit)
 }
 
 /* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
-   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit. Where none is active,
-   a small fraction of the pressure that would balance the objective's gradient is one that matters. */
+   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit.
+   Where none is active, a small fraction of the pressure that would balance the objective's gradient is one that
+   matters. */
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -27,7 +28,8 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
-  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length), 10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
+  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length),
+      10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;
@@ -48,19 +50,22 @@ static PetscErrorCode EqualityScale(Tao tao)
   PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
   PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
-  ip->scale.equality = PetscMax(ip->first.equality, Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
+  ip->scale.equality = PetscMax(ip->first.equality,
+    Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
   PetscFunctionReturn(0);
 }
 
-/* Forces: those that cancel in the gradient; where none do, what the gradient was at the start, but no more than its terms are now, lest
-   a start far off make every gradient look small. Below ten roundings of its terms no gradient is of any meaning. */
+/* Forces: those that cancel in the gradient; where none do, what the gradient was at the start, but no more than its
+   terms are now, lest a start far off make every gradient look small. Below ten roundings of its terms no gradient is
+   of any meaning. */
 static PetscErrorCode DualScale(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscBool limited  = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
   const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
   PetscReal       norm, terms, stiffness;
-  const PetscReal least = PetscSqr(PETSC_MACHINE_EPSILON); /* of the first gradient: smaller ones are no gain, be it that the unknowns run off */
+  const PetscReal least = PetscSqr(
+    PETSC_MACHINE_EPSILON); /* of the first gradient: smaller ones are no gain, be it that the unknowns run off */
   const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
 
   PetscFunctionBegin;

@@ -1,7 +1,8 @@
 /* The objective's stiffness, from the diagonal of its Hessian: what units and sizes follow from. */
 #include "../ipfilterimpl.h"
 
-/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times this */
+/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times
+   this */
 PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -85,9 +86,10 @@ PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
   PetscFunctionReturn(0);
 }
 
-/* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of H.
-   Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves anything
-   (a vertex at the edge of an overlap) counts as no more than 100 times as stiff as the mean: no scale may hang on it. */
+/* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of
+   H. Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves
+   anything (a vertex at the edge of an overlap) counts as no more than 100 times as stiff as the mean: no scale may
+   hang on it. */
 static PetscErrorCode ConstraintStiffness(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

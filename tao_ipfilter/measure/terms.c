@@ -1,7 +1,8 @@
 /*
-   Terms sum_i b_i |v_i|, v_i = T_i x + t_i of two components, beside the objective: those of a minimization where b_i is given, friction
-   where it follows the force of an inequality constraint. Optimality has grad f - J^T M lambda - T^T tau = 0 with |tau_i| <= b_i, and
-   tau_i = -b_i v_i / |v_i| where v_i is not zero: tau_i is the projection of tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
+   Terms sum_i b_i |v_i|, v_i = T_i x + t_i of two components, beside the objective: those of a minimization where b_i
+   is given, friction where it follows the force of an inequality constraint. Optimality has grad f - J^T M lambda -
+   T^T tau = 0 with |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i is not zero: tau_i is the projection of
+   tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
 */
 #include "../ipfilterimpl.h"
 
@@ -61,17 +62,25 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscCall(MatGetLocalSize(terms->given, &rows, &columns));
   PetscCall(VecGetLocalSize(tao->solution, &n));
   PetscCall(VecGetLocalSize(terms->t, &nt));
-  PetscCheck(columns == n && nt == rows && rows % 2 == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "T of the norm terms has %" PetscInt_FMT " rows and %" PetscInt_FMT " columns here, t %" PetscInt_FMT " entries; wanted: two rows a term, as many columns as the solution has entries, %" PetscInt_FMT, rows, columns, nt, n);
+  PetscCheck(columns == n && nt == rows && rows % 2 == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+    "T of the norm terms has %" PetscInt_FMT " rows and %" PetscInt_FMT " columns here, t %" PetscInt_FMT
+    " entries; wanted: two rows a term, as many columns as the solution has entries, %" PetscInt_FMT,
+    rows, columns, nt, n);
   if (terms->limit) {
     PetscCall(VecGetLocalSize(terms->limit, &nt));
-    PetscCheck(2 * nt == rows, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The limits of %" PetscInt_FMT " norm terms are %" PetscInt_FMT, rows / 2, nt);
+    PetscCheck(2 * nt == rows, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+      "The limits of %" PetscInt_FMT " norm terms are %" PetscInt_FMT, rows / 2, nt);
   }
   if (terms->coefficient) {
     PetscCall(VecGetLocalSize(terms->coefficient, &nt));
     if (tao->ineq_constrained) PetscCall(VecGetLocalSize(tao->constraints_inequality, &constraints));
-    PetscCheck(2 * nt == rows && nt == constraints, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "There are %" PetscInt_FMT " coefficients of %" PetscInt_FMT " norm terms and %" PetscInt_FMT " inequality constraints; with coefficients there is one term a constraint", nt, rows / 2, constraints);
+    PetscCheck(2 * nt == rows && nt == constraints, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+      "There are %" PetscInt_FMT " coefficients of %" PetscInt_FMT " norm terms and %" PetscInt_FMT
+      " inequality constraints; with coefficients there is one term a constraint",
+      nt, rows / 2, constraints);
   }
-  PetscCheck(terms->limit || terms->coefficient, comm, PETSC_ERR_ARG_WRONG, "Norm terms have limits, coefficients, or both");
+  PetscCheck(terms->limit || terms->coefficient, comm, PETSC_ERR_ARG_WRONG,
+    "Norm terms have limits, coefficients, or both");
   PetscFunctionReturn(0);
 }
 
@@ -160,7 +169,8 @@ PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], Pets
 
   for (PetscInt a = 0; a < 2; a++) b[a] = PetscRealPart(tau[a] - rho * v[a]);
   size = PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
-  for (PetscInt a = 0; a < 2; a++) square += PetscSqr(PetscRealPart(tau[a]) - (size > bound ? bound * b[a] / size : b[a]));
+  for (PetscInt a = 0; a < 2; a++)
+    square += PetscSqr(PetscRealPart(tau[a]) - (size > bound ? bound * b[a] / size : b[a]));
   return PetscSqrtReal(square) / rho;
 }
 
@@ -183,7 +193,9 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal most = limit ? PetscRealPart(limit[i]) : PETSC_INFINITY;
 
-    b[i] = coefficient ? IPTermBound(most, PetscRealPart(coefficient[i]), PetscRealPart(f[i]) * (scale ? PetscRealPart(scale[i]) : 1.0)) : most;
+    b[i] = coefficient ? IPTermBound(most, PetscRealPart(coefficient[i]),
+                           PetscRealPart(f[i]) * (scale ? PetscRealPart(scale[i]) : 1.0))
+                       : most;
   }
   if (ip->rows.inequality) PetscCall(VecRestoreArrayRead(ip->rows.inequality, &scale));
   if (terms->coefficient) PetscCall(VecRestoreArrayRead(terms->coefficient, &coefficient));
@@ -193,7 +205,8 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
   PetscFunctionReturn(0);
 }
 
-/* sum_i b_i |v_i(x)|, b for forces M lambda of the constraints; those that nothing moves, which are the same anywhere, are left out */
+/* sum_i b_i |v_i(x)|, b for forces M lambda of the constraints; those that nothing moves, which are the same
+   anywhere, are left out */
 PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 {
   IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
@@ -215,7 +228,8 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal size = PetscSqrtReal(PetscSqr(PetscAbsScalar(v[2 * i])) + PetscSqr(PetscAbsScalar(v[2 * i + 1])));
 
-    if (size > 0.0 && PetscRealPart(rho[i]) > 0.0) *sum += PetscMin(PetscRealPart(b[i]), IP_HARD * PetscRealPart(rho[i]) * size) * size;
+    if (size > 0.0 && PetscRealPart(rho[i]) > 0.0)
+      *sum += PetscMin(PetscRealPart(b[i]), IP_HARD * PetscRealPart(rho[i]) * size) * size;
   }
   PetscCall(VecRestoreArrayRead(terms->rho, &rho));
   PetscCall(VecRestoreArrayRead(value, &v));
@@ -226,7 +240,8 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* The largest length by which a term's law is missed: slip that its force does not oppose, or a force out of its disc over the resistance */
+/* The largest length by which a term's law is missed: slip that its force does not oppose, or a force out of its disc
+   over the resistance */
 PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -252,7 +267,8 @@ PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
   PetscCall(VecGetArrayRead(terms->force, &tau));
   PetscCall(VecGetArrayRead(terms->rho, &rho));
   for (PetscInt i = 0; i < n; i++) {
-    if (PetscRealPart(rho[i]) > 0.0) local = PetscMax(local, IPTermViolation(tau + 2 * i, value + 2 * i, PetscRealPart(rho[i]), PetscRealPart(b[i])));
+    if (PetscRealPart(rho[i]) > 0.0)
+      local = PetscMax(local, IPTermViolation(tau + 2 * i, value + 2 * i, PetscRealPart(rho[i]), PetscRealPart(b[i])));
   }
   PetscCall(VecRestoreArrayRead(terms->rho, &rho));
   PetscCall(VecRestoreArrayRead(terms->force, &tau));
@@ -305,7 +321,8 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 }
 
 /*@
-  TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, whose weights may follow the multipliers of inequality constraints: friction
+  TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, whose weights may follow the
+multipliers of inequality constraints: friction
 
   Collective
 
@@ -314,28 +331,35 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 . T           - two rows a term, `MATAIJ`, its columns laid out as the solution; NULL: no terms any longer
 . t           - two entries a term, laid out as the rows of T
 . limit       - largest weight of each term, not negative; NULL: none
-- coefficient - of each term, not negative: its weight follows the force of the inequality constraint of the same number on this rank; NULL: weights are the limits
+- coefficient - of each term, not negative: its weight follows the force of the inequality constraint of the same number
+on this rank; NULL: weights are the limits
 
   Level: intermediate
 
   Notes:
-  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives it; `PETSC_INFINITY` is no limit,
-  as a coefficient one with any force of the constraint whatever. With coefficients there are as many terms as constraints.
+  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives
+it; `PETSC_INFINITY` is no limit, as a coefficient one with any force of the constraint whatever. With coefficients
+there are as many terms as constraints.
 
-  With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law, which is none: the solution x, y, tau has
-  grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
+  With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law,
+which is none: the solution x, y, tau has grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where
+v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
 
-  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method, whose reduced problem, of the size of what T and the constraints touch,
-  holds all that is not smooth; where the objective is not quadratic by Newton's method on it. Residuals of the laws
-  are part of the KKT error: the largest length by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
+  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method,
+whose reduced problem, of the size of what T and the constraints touch, holds all that is not smooth; where the
+objective is not quadratic by Newton's method on it. Residuals of the laws are part of the KKT error: the largest length
+by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 
-  Errors if sizes do not fit. Ends with `TAO_DIVERGED_USER` where the problem is of another kind, or no solution of the laws is found.
+  Errors if sizes do not fit. Ends with `TAO_DIVERGED_USER` where the problem is of another kind, or no solution of the
+laws is found.
 
   References:
-+ * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods, Comput. Methods Appl. Mech. Engrg. 92 (1991)
-- * - M. Yuan and Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Statist. Soc. B 68 (2006)
++ * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution
+methods, Comput. Methods Appl. Mech. Engrg. 92 (1991)
+- * - M. Yuan and Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Statist. Soc. B 68
+(2006)
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetNormTermForces()`, `TaoIPFilterSetNormTermForces()`, `TaoIPFilterSetSubspace()`
 @*/

@@ -3,15 +3,16 @@
 
      sum_j |r_j| l_j  +  sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i|  +  sum_i m_i t_i z_i,
 
-   the stationarity residual r over lengths l_j of the unknowns, the violation times its multipliers, and the gap of complementarity.
-   Each term is an energy, whatever the units of its row, bound or unknown, so that none is measured by the size of another one, and the
-   last sum grows with the number of bounds as the error does. All is held against the objective.
+   the stationarity residual r over lengths l_j of the unknowns, the violation times its multipliers, and the gap of
+   complementarity. Each term is an energy, whatever the units of its row, bound or unknown, so that none is measured
+   by the size of another one, and the last sum grows with the number of bounds as the error does. All is held against
+   the objective.
 */
 #include "../ipfilterimpl.h"
 
-#define IP_WORTH_MULTIPLE 20.0                            /* of the tolerance: share of the objective that residuals may be worth */
-#define IP_WORTH_TERMS    1e-6                            /* fraction of the terms of the objective that stands in for it where they cancel */
-#define IP_WORTH_FIRST    1e-8                            /* fraction of the first terms that stands in for them where they vanish, too */
+#define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective that residuals may be worth */
+#define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that stands in for it where they cancel */
+#define IP_WORTH_FIRST    1e-8 /* fraction of the first terms that stands in for them where they vanish, too */
 #define IP_WORTH_ROUNDING (100.0 * PETSC_MACHINE_EPSILON) /* of the terms: no residual is worth less */
 
 /* sum_j |a_j b_j| */
@@ -32,8 +33,8 @@ static PetscErrorCode WorthProduct(Vec a, Vec b, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* sum_j |r_j| l_j, l_j the unknown's size or what a Newton step of it alone would be, whichever is larger: an unknown that is zero may
-   be far from where it belongs. diagonal: of the condensed matrix. */
+/* sum_j |r_j| l_j, l_j the unknown's size or what a Newton step of it alone would be, whichever is larger: an unknown
+   that is zero may be far from where it belongs. diagonal: of the condensed matrix. */
 static PetscErrorCode WorthImbalance(Tao tao, Vec diagonal, Vec r, PetscReal *sum)
 {
   const Vec          v[4] = {r, tao->solution, diagonal, tao->gradient};
@@ -125,7 +126,8 @@ PetscErrorCode IPWorthTerms(Tao tao, PetscReal *terms)
   PetscFunctionReturn(0);
 }
 
-/* The same at the start, where the unknowns may all be zero: with what Newton steps of each alone would gain, and the gap there */
+/* The same at the start, where the unknowns may all be zero: with what Newton steps of each alone would gain, and the
+   gap there */
 static PetscErrorCode WorthFirst(Tao tao, PetscReal terms)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -148,7 +150,8 @@ PetscErrorCode IPWorthEnergy(Tao tao, PetscReal *energy)
   PetscCall(IPWorthTerms(tao, &terms));
   if (ip->first.energy < 0.0) PetscCall(WorthFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *energy = PetscMax(PetscMax(IP_WORTH_TERMS, IP_WORTH_ROUNDING / (IP_WORTH_MULTIPLE * ip->tol)) * terms, IP_WORTH_FIRST * ip->first.energy);
+  *energy = PetscMax(PetscMax(IP_WORTH_TERMS, IP_WORTH_ROUNDING / (IP_WORTH_MULTIPLE * ip->tol)) * terms,
+    IP_WORTH_FIRST * ip->first.energy);
   *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
   if (ip->first.gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
   PetscFunctionReturn(0);
@@ -173,7 +176,8 @@ PetscErrorCode IPWorthOfResiduals(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What a relaxation of the inequality constraints is worth, over the same: their multipliers times what they are raised by */
+/* What a relaxation of the inequality constraints is worth, over the same: their multipliers times what they are
+   raised by */
 PetscErrorCode IPWorthOfRelaxation(Tao tao, PetscReal *work)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -199,7 +203,8 @@ PetscReal IPWorthForceUnit(const TAO_IPFILTER *ip)
   return ip->kkt.work_dual > 0.0 ? PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual) : ip->scale.dual;
 }
 
-/* The same at the end of the step dx, where the objective is what a quadratic one would be: at a start of zero its terms say nothing */
+/* The same at the end of the step dx, where the objective is what a quadratic one would be: at a start of zero its
+   terms say nothing */
 PetscErrorCode IPWorthForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -211,17 +216,20 @@ PetscErrorCode IPWorthForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
   if (!(ip->kkt.work_dual > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
   PetscCall(VecDot(tao->gradient, dx, &slope));
   energy = PetscAbsReal(ip->at.f + 0.5 * PetscRealPart(slope));
-  if (energy > ip->scale.energy) *unit = PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual * energy / ip->scale.energy);
+  if (energy > ip->scale.energy)
+    *unit = PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual * energy / ip->scale.energy);
   PetscFunctionReturn(0);
 }
 
-/* mu below which the method need not go: each of its products is within a tenth of the tolerance, and all together are within half of it */
+/* mu below which the method need not go: each of its products is within a tenth of the tolerance, and all together
+   are within half of it */
 PetscReal IPWorthLeastMu(const TAO_IPFILTER *ip)
 {
   PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale.product;
 
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
-  if (weight > 0.0 && ip->scale.energy < PETSC_INFINITY) mu = PetscMin(mu, 0.5 * IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy / weight);
+  if (weight > 0.0 && ip->scale.energy < PETSC_INFINITY)
+    mu = PetscMin(mu, 0.5 * IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy / weight);
   return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
 }

@@ -26,7 +26,9 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign,
   PetscCall(VecGetArrayRead(bound, &ba));
   if (other) PetscCall(VecGetArrayRead(other, &oa));
   PetscCall(VecGetArrayWrite(t, &ta));
-  for (PetscInt i = 0; i < n; i++) ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign) : PETSC_INFINITY;
+  for (PetscInt i = 0; i < n; i++)
+    ta[i] =
+      Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign) : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(t, &ta));
   if (other) PetscCall(VecRestoreArrayRead(other, &oa));
   PetscCall(VecRestoreArrayRead(bound, &ba));
@@ -85,10 +87,12 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether this solve begins with multipliers of the bounds that the caller gave; without those of the rows they are of no use */
+/* Whether this solve begins with multipliers of the bounds that the caller gave; without those of the rows they are
+   of no use */
 PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) && (!ip->mi || ip->given.warm_s));
+  return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) &&
+                     (!ip->mi || ip->given.warm_s));
 }
 
 /* Size of an unknown and its bound; all: of all unknowns */
@@ -99,10 +103,10 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
   return size > 0.0 ? size : (all > 0.0 ? all : 1.0);
 }
 
-/* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances.
-   The margin is a fraction of the bound's or of the unknown's own size, or, where both are zero, of that of all unknowns, and of the
-   distance between the bounds where that is less: a far bound that means none pushes nothing away from the other one. Next to nothing
-   of it where multipliers are given that tell how near to its bounds x belongs. */
+/* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances. The
+   margin is a fraction of the bound's or of the unknown's own size, or, where both are zero, of that of all unknowns,
+   and of the distance between the bounds where that is less: a far bound that means none pushes nothing away from the
+   other one. Next to nothing of it where multipliers are given that tell how near to its bounds x belongs. */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -121,13 +125,16 @@ PetscErrorCode IPBoundsPush(Tao tao)
     if (v[k]) PetscCall(VecGetArrayRead(v[k], &b[k]));
   PetscCall(VecGetArray(tao->solution, &x));
   for (PetscInt i = 0; i < n; i++) {
-    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
+    const PetscReal l    = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY,
+                    u    = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
     const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
     const PetscReal distance = hasl && hasu ? u - l : PETSC_INFINITY;
 
     if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;
-    if (hasl) x[i] = PetscMax(PetscRealPart(x[i]), l + push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), l, size)));
-    if (hasu) x[i] = PetscMin(PetscRealPart(x[i]), u - push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), u, size)));
+    if (hasl)
+      x[i] = PetscMax(PetscRealPart(x[i]), l + push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), l, size)));
+    if (hasu)
+      x[i] = PetscMin(PetscRealPart(x[i]), u - push * PetscMin(distance, BoundSize(PetscRealPart(x[i]), u, size)));
   }
   PetscCall(VecRestoreArray(tao->solution, &x));
   for (PetscInt k = 0; k < 2; k++)
@@ -179,8 +186,8 @@ PetscErrorCode IPBoundsCenter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of the bounds in TAO's convention, which has the gradient of f + DE^T c_E - DI^T c_I be DL + DU: those of upper bounds are
-   negative */
+/* Multipliers of the bounds in TAO's convention, which has the gradient of f + DE^T c_E - DI^T c_I be DL + DU: those
+   of upper bounds are negative */
 PetscErrorCode IPBoundsMultipliers(Tao tao, Vec DL, Vec DU)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

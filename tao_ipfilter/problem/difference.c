@@ -64,7 +64,8 @@ static PetscErrorCode DifferenceHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *c
   PetscCall(VecGetSize(x, &n));
   PetscCall(DifferencedGradient(tao, x, g));
   PetscCall(MatZeroEntries(H));
-  for (PetscInt j = 0; j < n; j++) PetscCall(DifferenceColumn(tao, x, g, j, PETSC_SQRT_MACHINE_EPSILON * (size > 0.0 ? size : 1.0), xj, gj, H));
+  for (PetscInt j = 0; j < n; j++)
+    PetscCall(DifferenceColumn(tao, x, g, j, PETSC_SQRT_MACHINE_EPSILON * (size > 0.0 ? size : 1.0), xj, gj, H));
   PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gj));

@@ -43,14 +43,17 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   if (alone) PetscCall(TaoComputeGradient(tao, tao->solution, tao->gradient));
   else PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->at.f, tao->gradient));
   PetscCall(IPFixedZero(tao, tao->gradient));
-  if (ip->me > ip->sides.nall) PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
-  if (ip->mi) PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
+  if (ip->me > ip->sides.nall)
+    PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
+  if (ip->mi)
+    PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
   if (ip->mi) PetscCall(IPJacobianInequality(tao));
   if (ip->me) PetscCall(IPJacobianEquality(tao));
   PetscFunctionReturn(0);
 }
 
-/* tao->DI = M lambda and tao->DE = y, scaled back: the multipliers of f + DE^T c_E - DI^T c_I, whose Hessian is asked for */
+/* tao->DI = M lambda and tao->DE = y, scaled back: the multipliers of f + DE^T c_E - DI^T c_I, whose Hessian is asked
+   for */
 PetscErrorCode IPSetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -17,7 +17,10 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(tao->solution, &rstart, &rend));
   for (PetscInt i = rend - 1; i >= rstart; i--) {
-    if (PetscRealPart(l[i - rstart]) > PetscRealPart(u[i - rstart]) || PetscIsNanScalar(l[i - rstart]) || PetscIsNanScalar(u[i - rstart]) || PetscRealPart(l[i - rstart]) >= PETSC_INFINITY || PetscRealPart(u[i - rstart]) <= PETSC_NINFINITY) first = i;
+    if (PetscRealPart(l[i - rstart]) > PetscRealPart(u[i - rstart]) || PetscIsNanScalar(l[i - rstart]) ||
+        PetscIsNanScalar(u[i - rstart]) || PetscRealPart(l[i - rstart]) >= PETSC_INFINITY ||
+        PetscRealPart(u[i - rstart]) <= PETSC_NINFINITY)
+      first = i;
   }
   PetscCallMPI(MPI_Allreduce(&first, &worst, 1, MPIU_INT, MPI_MIN, comm));
   if (worst == PETSC_MAX_INT) PetscFunctionReturn(0);
@@ -26,11 +29,13 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
     bounds[1] = PetscRealPart(u[worst - rstart]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_REAL, MPI_MAX, comm));
-  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Variable %" PetscInt_FMT " has lower bound %g and upper bound %g: there is no number between them", worst, (double)bounds[0], (double)bounds[1]);
+  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Variable %" PetscInt_FMT " has lower bound %g and upper bound %g: there is no number between them", worst,
+    (double)bounds[0], (double)bounds[1]);
 }
 
-/* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. *changed: it is another one
-   than in the last solve. */
+/* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. *changed: it
+   is another one than in the last solve. */
 PetscErrorCode IPFixedSetUp(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -87,7 +92,8 @@ PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
   PetscFunctionBegin;
   if (!ip->fixed) PetscFunctionReturn(0);
   PetscCall(PetscObjectTypeCompare((PetscObject)A, MATMPISBAIJ, &sbaij));
-  PetscCheck(!sbaij, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "Variables with equal bounds need a Hessian of type AIJ or BAIJ on more than one rank, not SBAIJ");
+  PetscCheck(!sbaij, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
+    "Variables with equal bounds need a Hessian of type AIJ or BAIJ on more than one rank, not SBAIJ");
   PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
   PetscCall(MatZeroRowsColumnsIS(A, ip->fixed, ip->stiff.hscale, NULL, NULL));
   PetscFunctionReturn(0);

@@ -19,7 +19,8 @@ PetscErrorCode IPHessianEvaluate(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(TaoComputeHessian(tao, tao->solution, tao->hessian, tao->hessian_pre));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &taken, MATSEQAIJ, MATMPIAIJ, MATSEQBAIJ, MATMPIBAIJ, MATSEQSBAIJ, MATMPISBAIJ, MATSEQDENSE, MATMPIDENSE, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &taken, MATSEQAIJ, MATMPIAIJ, MATSEQBAIJ, MATMPIBAIJ,
+    MATSEQSBAIJ, MATMPISBAIJ, MATSEQDENSE, MATMPIDENSE, ""));
   if (!taken && !hess->products) {
     PetscCall(IPMatrixConvert(H, &hess->converted));
     H = hess->converted;
@@ -40,13 +41,14 @@ static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(v, &rstart, &rend));
   PetscCall(VecGetArrayWrite(v, &a));
-  for (PetscInt i = rstart; i < rend; i++) a[i - rstart] = fmod(golden * (i + 1) * (i + 1 + 7 * probe), 1.0) < 0.5 ? 1.0 : -1.0;
+  for (PetscInt i = rstart; i < rend; i++)
+    a[i - rstart] = fmod(golden * (i + 1) * (i + 1 + 7 * probe), 1.0) < 0.5 ? 1.0 : -1.0;
   PetscCall(VecRestoreArrayWrite(v, &a));
   PetscFunctionReturn(0);
 }
 
-/* The diagonal of a matrix that gives products alone, from v . H v with v of ones and minus ones, whose other terms cancel in the mean: its size, to some
-   tens of per cent, and no less than a thousandth of the mean */
+/* The diagonal of a matrix that gives products alone, from v . H v with v of ones and minus ones, whose other terms
+   cancel in the mean: its size, to some tens of per cent, and no less than a thousandth of the mean */
 static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

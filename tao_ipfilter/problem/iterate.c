@@ -10,7 +10,8 @@ static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
   PetscFunctionReturn(0);
 }
 
-/* The point and the values of the constraints there; a layout of NULL: none. Slacks and multipliers are the caller's to make. */
+/* The point and the values of the constraints there; a layout of NULL: none. Slacks and multipliers are the caller's
+   to make. */
 PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *it)
 {
   PetscFunctionBegin;
@@ -29,8 +30,9 @@ static PetscErrorCode ReferenceInto(Vec from, Vec *to)
   PetscFunctionReturn(0);
 }
 
-/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the trial slacks: called
-   where any of them may have been made anew. The best iterate gets room for what the current one has. */
+/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the
+   trial slacks: called where any of them may have been made anew. The best iterate gets room for what the current one
+   has. */
 PetscErrorCode IPIterateBind(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

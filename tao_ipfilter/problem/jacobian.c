@@ -12,7 +12,8 @@ PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
   PetscFunctionReturn(0);
 }
 
-/* A copy with rows scaled and the columns of fixed variables zeroed, or the Jacobian itself where nothing is to be done */
+/* A copy with rows scaled and the columns of fixed variables zeroed, or the Jacobian itself where nothing is to be
+   done */
 static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
 {
   Vec mask;
@@ -45,8 +46,8 @@ static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
   PetscFunctionReturn(0);
 }
 
-/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or of products does not tell whether it
-   is, nor does its conversion have a pattern of its own: zeros may be dropped. */
+/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or
+   of products does not tell whether it is, nor does its conversion have a pattern of its own: zeros may be dropped. */
 static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
 {
   PetscObjectState state;
@@ -64,7 +65,8 @@ static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted,
   PetscFunctionReturn(0);
 }
 
-/* Rows of a matrix of this rank, by their numbers from its first one, or all of them: into another one from the row at on */
+/* Rows of a matrix of this rank, by their numbers from its first one, or all of them: into another one from the row
+   at on */
 static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows[], Mat to, PetscInt at)
 {
   PetscInt rstart;
@@ -101,7 +103,8 @@ static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* The caller's equality Jacobian, if it has one, with the rows of the inequality Jacobian that have equal bounds behind it on each rank */
+/* The caller's equality Jacobian, if it has one, with the rows of the inequality Jacobian that have equal bounds
+   behind it on each rank */
 static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -114,7 +117,8 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
   PetscCall(JacobianLongestRow(all, &longest));
   PetscCall(VecGetLocalSize(ip->at.ce, &m));
   PetscCall(VecGetLocalSize(tao->solution, &n));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)tao), m, n, PETSC_DETERMINE, PETSC_DETERMINE, PetscMin(longest, n), NULL, longest, NULL, stack));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)tao), m, n, PETSC_DETERMINE, PETSC_DETERMINE,
+    PetscMin(longest, n), NULL, longest, NULL, stack));
   PetscCall(MatSetOption(*stack, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
   PetscCall(MatGetOwnershipRange(*stack, &rstart, NULL));
   if (own) PetscCall(JacobianCopyRows(own, nown, NULL, *stack, rstart));
@@ -124,7 +128,8 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
   PetscFunctionReturn(0);
 }
 
-/* The same where rows have equal bounds, kept as converted matrices are. The inequality Jacobian has been taken over, and converted if need be. */
+/* The same where rows have equal bounds, kept as converted matrices are. The inequality Jacobian has been taken over,
+   and converted if need be. */
 static PetscErrorCode JacobianTakeStack(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -147,7 +152,9 @@ PetscErrorCode IPJacobianEquality(Tao tao)
 
   PetscFunctionBegin;
   if (ip->sides.nall) PetscCall(JacobianTakeStack(tao));
-  else PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality, &ip->jac.equality_stamp));
+  else
+    PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality,
+      &ip->jac.equality_stamp));
   PetscFunctionReturn(0);
 }
 
@@ -162,7 +169,8 @@ PetscErrorCode IPJacobianInequality(Tao tao)
     if (ip->rows.inequality) PetscCall(VecPointwiseMult(scale, ip->sides.sign, ip->rows.inequality));
     else PetscCall(VecCopy(ip->sides.sign, scale));
   }
-  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows.inequality, &ip->jac.converted[0], &ip->jac.inequality, &ip->jac.inequality_stamp));
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows.inequality, &ip->jac.converted[0],
+    &ip->jac.inequality, &ip->jac.inequality_stamp));
   if (scale) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &scale));
   PetscFunctionReturn(0);
 }

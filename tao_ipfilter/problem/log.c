@@ -1,7 +1,8 @@
 /* Events of -log_view. */
 #include "../ipfilterimpl.h"
 
-PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend, TAO_IPFilterReduced;
+PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend,
+  TAO_IPFilterReduced;
 
 static PetscBool registered = PETSC_FALSE;
 

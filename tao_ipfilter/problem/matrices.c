@@ -1,16 +1,20 @@
 /*
-   The caller's matrices by type. AIJ, and Hessians that are BAIJ, SBAIJ or dense, are taken as they are; what MatConvert() makes AIJ of is converted at every
-   evaluation; what gives products alone serves as a Hessian to solvers that need no more, and is read column by column where there are few.
+   The caller's matrices by type. AIJ, and Hessians that are BAIJ, SBAIJ or dense, are taken as they are; what
+   MatConvert() makes AIJ of is converted at every evaluation; what gives products alone serves as a Hessian to
+   solvers that need no more, and is read column by column where there are few.
 */
 #include "../ipfilterimpl.h"
 
-#define IP_COLUMNS_MAX 1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */
+#define IP_COLUMNS_MAX \
+  1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */
 
 /* Types that MatConvert() has a way for without rows at hand */
 static const char *const converted_types[] = {MATNEST, MATIS, MATHYPRE, MATTRANSPOSEVIRTUAL, NULL};
 
 /* Preconditioners that read the entries of their matrix. A type that is not here may be the caller's own. */
-static const char *const reading_pcs[] = {PCAMGF, PCHYPRE, PCGAMG, PCML, PCMG, PCHMG, PCBJACOBI, PCASM, PCGASM, PCSOR, PCEISENSTAT, PCLU, PCILU, PCCHOLESKY, PCICC, PCQR, PCSVD, PCREDUNDANT, PCTELESCOPE, PCPBJACOBI, PCVPBJACOBI, PCKACZMARZ, PCSPAI, PCBDDC, PCNN, PCFIELDSPLIT, PCTFS, PCDEFLATION, PCCP, NULL};
+static const char *const reading_pcs[] = {PCAMGF, PCHYPRE, PCGAMG, PCML, PCMG, PCHMG, PCBJACOBI, PCASM, PCGASM, PCSOR,
+  PCEISENSTAT, PCLU, PCILU, PCCHOLESKY, PCICC, PCQR, PCSVD, PCREDUNDANT, PCTELESCOPE, PCPBJACOBI, PCVPBJACOBI,
+  PCKACZMARZ, PCSPAI, PCBDDC, PCNN, PCFIELDSPLIT, PCTFS, PCDEFLATION, PCCP, NULL};
 
 static PetscErrorCode MatrixIsOneOf(PetscObject object, const char *const types[], PetscBool *is)
 {
@@ -83,7 +87,8 @@ PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* A fresh matrix into the kept one where the pattern is the same, so that what was made from it serves again; else in its place */
+/* A fresh matrix into the kept one where the pattern is the same, so that what was made from it serves again; else in
+   its place */
 PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
 {
   PetscBool same = PETSC_FALSE;
@@ -146,7 +151,10 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscCall(MatrixHasEntries(J, &has));
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
-  PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP, "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than %d unknowns, not %" PetscInt_FMT ": give it as AIJ", kind, type, IP_COLUMNS_MAX, n);
+  PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
+    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than "
+    "%d unknowns, not %" PetscInt_FMT ": give it as AIJ",
+    kind, type, IP_COLUMNS_MAX, n);
   PetscFunctionReturn(0);
 }
 
@@ -156,11 +164,15 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)v, VECNEST, &nest));
-  PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "TAOIPFILTER takes no %s of type nest, as MatCreateVecs() makes them for a MATNEST: a plain vector of the same layout will do", what);
+  PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
+    "TAOIPFILTER takes no %s of type nest, as MatCreateVecs() makes them for a MATNEST: a plain vector of the same "
+    "layout will do",
+    what);
   PetscFunctionReturn(0);
 }
 
-/* Refuses what cannot be worked with, and finds out whether the Hessian is used by products alone. *changed: other than in the last solve. */
+/* Refuses what cannot be worked with, and finds out whether the Hessian is used by products alone. *changed: other
+   than in the last solve. */
 PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -178,7 +190,10 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscCall(HessianReader(tao, &needed, &reader, &instead));
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
   PetscCall(MatGetType(tao->hessian, &type));
-  PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP, "A Hessian of type %s gives products alone, but %s reads entries, for no more than %d unknowns, not %" PetscInt_FMT ": give it as AIJ%s", type, reader, IP_COLUMNS_MAX, n, instead);
+  PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
+    "A Hessian of type %s gives products alone, but %s reads entries, for no more than %d unknowns, not %" PetscInt_FMT
+    ": give it as AIJ%s",
+    type, reader, IP_COLUMNS_MAX, n, instead);
   *changed          = (PetscBool)(ip->hess.products != (PetscBool)(!has && !needed));
   ip->hess.products = (PetscBool)(!has && !needed);
   PetscFunctionReturn(0);

@@ -69,7 +69,10 @@ PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
   PetscCall(VecGetLocalSize(p->target, &n));
   PetscCall(PairRead(2, v, a));
   PetscCall(VecGetArrayWrite(p->target, &target));
-  for (PetscInt i = 0; i < n; i++) target[i] = mu - (corrector_max > 0.0 ? PetscMax(-corrector_max, PetscMin(corrector_max, PetscRealPart(a[0][i] * a[1][i]))) : 0.0);
+  for (PetscInt i = 0; i < n; i++)
+    target[i] =
+      mu -
+      (corrector_max > 0.0 ? PetscMax(-corrector_max, PetscMin(corrector_max, PetscRealPart(a[0][i] * a[1][i]))) : 0.0);
   PetscCall(VecRestoreArrayWrite(p->target, &target));
   PetscCall(PairRestore(2, v, a));
   PetscFunctionReturn(0);
@@ -161,7 +164,8 @@ static PetscErrorCode PairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(PairRead(2, vv, a));
   for (PetscInt i = 0; i < n; i++) {
-    if (PetscRealPart(a[1][i]) < 0.0 && Present(a[0][i])) local = PetscMin(local, -tau * PetscRealPart(a[0][i]) / PetscRealPart(a[1][i]));
+    if (PetscRealPart(a[1][i]) < 0.0 && Present(a[0][i]))
+      local = PetscMin(local, -tau * PetscRealPart(a[0][i]) / PetscRealPart(a[1][i]));
   }
   PetscCall(PairRestore(2, vv, a));
   PetscCallMPI(MPI_Allreduce(&local, alpha, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)v)));
@@ -237,7 +241,8 @@ PetscErrorCode IPPairProducts(const IPPair *p, PetscReal mu, PetscReal *deviatio
 }
 
 /* largest (t + alpha_t dt)(z + alpha_z dz) and the sum of w times them; either may be NULL */
-PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal alpha_z, PetscReal *largest, PetscReal *sum)
+PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal alpha_z, PetscReal *largest,
+  PetscReal *sum)
 {
   const Vec          v[5] = {p->w, p->t, p->dt, p->z, p->dz};
   const PetscScalar *a[5];
@@ -298,7 +303,8 @@ PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
   PetscCall(VecGetLocalSize(p->t, &n));
   PetscCall(PairRead(2, v, a));
   PetscCall(VecGetArray(p->t, &t));
-  for (PetscInt i = 0; i < n; i++) t[i] = PetscMax(PetscRealPart(t[i]), least * PetscMin(length, PetscRealPart(a[0][i] / a[1][i])));
+  for (PetscInt i = 0; i < n; i++)
+    t[i] = PetscMax(PetscRealPart(t[i]), least * PetscMin(length, PetscRealPart(a[0][i] / a[1][i])));
   PetscCall(VecRestoreArray(p->t, &t));
   PetscCall(PairRestore(2, v, a));
   PetscFunctionReturn(0);
@@ -319,7 +325,8 @@ PetscErrorCode IPPairWeightedSquare(Tao tao, Vec v, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* Largest steps up to the given ones that keep a fraction 1 - tau of every t and z, in the blocks from first on; dual may be NULL */
+/* Largest steps up to the given ones that keep a fraction 1 - tau of every t and z, in the blocks from first on; dual
+   may be NULL */
 PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

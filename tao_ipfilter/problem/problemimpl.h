@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/problem: the problem as the iteration sees it: pairs, iterates, bounds, sides, scales of rows, Jacobians, Hessian.
-   Every file builds on those before it, and on the folders below.
+   The map of tao_ipfilter/problem: the problem as the iteration sees it: pairs, iterates, bounds, sides, scales of
+   rows, Jacobians, Hessian. Every file builds on those before it, and on the folders below.
 */
 #ifndef IPFILTER_PROBLEMIMPL_H
 #define IPFILTER_PROBLEMIMPL_H
@@ -72,7 +72,8 @@ typedef struct {
   PetscReal f;
 } IPIterate;
 
-/* A direction. Those of slacks, of the distances to bounds and of the pairs' multipliers stand in the pairs and follow from x. */
+/* A direction. Those of slacks, of the distances to bounds and of the pairs' multipliers stand in the pairs and
+   follow from x. */
 typedef struct {
   Vec       x, lambda, y;
   PetscReal norm; /* largest entry of x */
@@ -123,7 +124,8 @@ static inline PetscBool IPUndefined(PetscReal value)
 }
 
 /* log.c */
-PETSC_INTERN PetscLogEvent  TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend, TAO_IPFilterReduced;
+PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply,
+  TAO_IPFilterAppend, TAO_IPFilterReduced;
 PETSC_INTERN PetscErrorCode IPLogRegister(void);
 
 /* work.c */
@@ -147,7 +149,8 @@ PETSC_INTERN PetscErrorCode IPPairSafeguard(IPPair *, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairLift(IPPair *, Vec, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode IPPairWeightedSquare(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode IPCentralPair(Vec, Vec, PetscReal, Vec, Vec);
-PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual);
+PETSC_INTERN PetscErrorCode IPFractionToBoundary(Tao, PetscInt first, PetscReal tau, PetscReal *primal,
+  PetscReal *dual);
 
 /* iterate.c */
 PETSC_INTERN PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *);

@@ -1,9 +1,10 @@
 /*
-   A limited-memory approximation of the Hessian of the Lagrangian, where the caller gives none and differences would cost too much:
-   damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank.
+   A limited-memory approximation of the Hessian of the Lagrangian, where the caller gives none and differences would
+   cost too much: damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank.
 
-   The matrix that is assembled, and preconditioned, has sigma I in the place of the Hessian. Products with the condensed matrix add the
-   rest, of rank twice the history's length, which costs a Krylov method a few iterations more.
+   The matrix that is assembled, and preconditioned, has sigma I in the place of the Hessian. Products with the
+   condensed matrix add the rest, of rank twice the history's length, which costs a Krylov method a few iterations
+   more.
 */
 #include "../ipfilterimpl.h"
 
@@ -92,8 +93,8 @@ static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *o
   PetscFunctionReturn(0);
 }
 
-/* The changes of x and of the gradient of f + DE^T c_E - DI^T c_I since the last call, for the present multipliers; the last point and the
-   last Jacobians become the present ones. Either may be NULL, for no change. */
+/* The changes of x and of the gradient of f + DE^T c_E - DI^T c_I since the last call, for the present multipliers;
+   the last point and the last Jacobians become the present ones. Either may be NULL, for no change. */
 static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
 {
   TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
@@ -102,8 +103,10 @@ static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
   PetscFunctionBegin;
   if (s) PetscCall(VecWAXPY(s, -1.0, qn->x, tao->solution));
   if (y) PetscCall(VecWAXPY(y, -1.0, qn->gradient, tao->gradient));
-  if (ip->mi) PetscCall(AddJacobianChange(tao->jacobian_inequality, -1.0, tao->DI, &qn->inequality, &qn->inequality_state, y));
-  if (ip->me > ip->sides.nall) PetscCall(AddJacobianChange(tao->jacobian_equality, 1.0, tao->DE, &qn->equality, &qn->equality_state, y));
+  if (ip->mi)
+    PetscCall(AddJacobianChange(tao->jacobian_inequality, -1.0, tao->DI, &qn->inequality, &qn->inequality_state, y));
+  if (ip->me > ip->sides.nall)
+    PetscCall(AddJacobianChange(tao->jacobian_equality, 1.0, tao->DE, &qn->equality, &qn->equality_state, y));
   if (y) PetscCall(IPFixedZero(tao, y));
   PetscCall(VecCopy(tao->solution, qn->x));
   PetscCall(VecCopy(tao->gradient, qn->gradient));
@@ -151,7 +154,8 @@ static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &g));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &near));
-  PetscCall(QuasiNewtonSetScale(tao, H, PetscRealPart(curvature) > 0.0 && !PetscIsInfOrNanScalar(curvature) ? PetscRealPart(curvature) : 1.0));
+  PetscCall(QuasiNewtonSetScale(tao, H,
+    PetscRealPart(curvature) > 0.0 && !PetscIsInfOrNanScalar(curvature) ? PetscRealPart(curvature) : 1.0));
   qn->begun = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /*
-   Scaling of the constraints by their gradients at the start: a row d_i c_i, with d_i so small that its gradient is at most
-   row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are, whatever the units. All of
-   the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
+   Scaling of the constraints by their gradients at the start: a row d_i c_i, with d_i so small that its gradient is
+   at most row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are,
+   whatever the units. All of the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
 */
 #include "../ipfilterimpl.h"
 
@@ -54,7 +54,9 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->opt.scaling == IP_SCALING_NONE || (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0) PetscFunctionReturn(0);
+  if (ip->opt.scaling == IP_SCALING_NONE ||
+      (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0)
+    PetscFunctionReturn(0);
   if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
   if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
   *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);

@@ -27,9 +27,10 @@ static inline PetscBool Finite(PetscReal bound)
   return (PetscBool)(PetscAbsReal(bound) < PETSC_INFINITY);
 }
 
-/* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality constraint, rounding
-   apart */
-static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range, PetscBool *equal)
+/* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality
+   constraint, rounding apart */
+static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range,
+  PetscBool *equal)
 {
   *equal = (PetscBool)(Finite(l) && Finite(u) && u - l <= IP_TINY_STEP * PetscMax(PetscAbsReal(l), PetscAbsReal(u)));
   *sign  = *equal ? 0.0 : (Finite(l) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
@@ -55,10 +56,13 @@ static PetscErrorCode CheckRows(Tao tao, const PetscScalar l[], const PetscScala
     bounds[1] = PetscRealPart(u[worst - rstart]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_REAL, MPI_MAX, comm));
-  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Inequality constraint %" PetscInt_FMT " has lower bound %g above upper bound %g", worst, (double)bounds[0], (double)bounds[1]);
+  SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Inequality constraint %" PetscInt_FMT " has lower bound %g above upper bound %g", worst, (double)bounds[0],
+    (double)bounds[1]);
 }
 
-/* Fills sign, base and range, and lists the equality constraints; counts: rows that are no inequality, with a range, with equal bounds */
+/* Fills sign, base and range, and lists the equality constraints; counts: rows that are no inequality, with a range,
+   with equal bounds */
 static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
 {
   const PetscScalar *l, *u;
@@ -141,7 +145,8 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The ranges in the scale of the rows, and as wide as the relaxation makes them: called where one of these has changed */
+/* The ranges in the scale of the rows, and as wide as the relaxation makes them: called where one of these has
+   changed */
 PetscErrorCode IPSidesUpdateWidth(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -158,7 +163,8 @@ PetscErrorCode IPSidesUpdateWidth(Tao tao)
   PetscCall(VecGetLocalSize(sides->range, &n));
   PetscCall(VecGetArrayRead(sides->range, &range));
   PetscCall(VecGetArray(sides->width, &width));
-  for (PetscInt i = 0; i < n; i++) width[i] = Finite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax.by : PETSC_INFINITY;
+  for (PetscInt i = 0; i < n; i++)
+    width[i] = Finite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax.by : PETSC_INFINITY;
   PetscCall(VecRestoreArray(sides->width, &width));
   PetscCall(VecRestoreArrayRead(sides->range, &range));
   PetscFunctionReturn(0);
@@ -237,7 +243,8 @@ PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* DI from that of the rows as the iteration sees them, and from y of the equality constraints among them, in the caller's units */
+/* DI from that of the rows as the iteration sees them, and from y of the equality constraints among them, in the
+   caller's units */
 PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
 {
   const IPSides     *sides = &((TAO_IPFILTER *)tao->data)->sides;
@@ -279,8 +286,8 @@ PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers that the caller gave, a negative one for an upper bound, into the pairs. Sides that do not press get the mean
-   product of those that do. */
+/* Slacks and multipliers that the caller gave, a negative one for an upper bound, into the pairs. Sides that do not
+   press get the mean product of those that do. */
 PetscErrorCode IPSidesTakePairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -306,7 +313,9 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
     if (sign && PetscRealPart(sign[i]) == 0.0) s[i] = sides->constant;
     if (upper) upper[i] = Finite(PetscRealPart(t[i])) ? PetscMax(-PetscRealPart(z[i]), 0.0) : 0.0;
     if (upper && PetscRealPart(upper[i]) > 0.0) z[i] = 0.0;
-    sum[0] += PetscRealPart(w[i] * (PetscRealPart(z[i]) > 0.0 ? s[i] * z[i] : (upper && PetscRealPart(upper[i]) > 0.0 ? t[i] * upper[i] : 0.0)));
+    sum[0] += PetscRealPart(
+      w[i] *
+      (PetscRealPart(z[i]) > 0.0 ? s[i] * z[i] : (upper && PetscRealPart(upper[i]) > 0.0 ? t[i] * upper[i] : 0.0)));
     sum[1] += PetscRealPart(z[i]) > 0.0 || (upper && PetscRealPart(upper[i]) > 0.0) ? PetscRealPart(w[i]) : 0.0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
@@ -324,8 +333,8 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers of the rows as the caller gets them, from tao->DI: z of an upper bound is negative, a row that is no inequality
-   has no slack */
+/* Slacks and multipliers of the rows as the caller gets them, from tao->DI: z of an upper bound is negative, a row
+   that is no inequality has no slack */
 PetscErrorCode IPSidesReturnPairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;

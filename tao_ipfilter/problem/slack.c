@@ -61,7 +61,8 @@ PetscErrorCode IPSlackDirection(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Distances of slacks from their upper sides, which rounding has not made zero, into t of the pair or into its trial vector */
+/* Distances of slacks from their upper sides, which rounding has not made zero, into t of the pair or into its trial
+   vector */
 PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
@@ -76,7 +77,10 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
   PetscCall(VecGetArrayRead(ip->sides.width, &width));
   PetscCall(VecGetArrayRead(s, &slack));
   PetscCall(VecGetArrayWrite(trial ? ceiling->trial : ceiling->t, &t));
-  for (PetscInt i = 0; i < n; i++) t[i] = PetscRealPart(width[i]) < PETSC_INFINITY ? PetscMax(PetscRealPart(width[i] - slack[i]), PETSC_MACHINE_EPSILON * PetscRealPart(width[i])) : PETSC_INFINITY;
+  for (PetscInt i = 0; i < n; i++)
+    t[i] = PetscRealPart(width[i]) < PETSC_INFINITY
+             ? PetscMax(PetscRealPart(width[i] - slack[i]), PETSC_MACHINE_EPSILON * PetscRealPart(width[i]))
+             : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(trial ? ceiling->trial : ceiling->t, &t));
   PetscCall(VecRestoreArrayRead(s, &slack));
   PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
@@ -99,7 +103,8 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
   for (PetscInt i = 0; i < n; i++) {
     PetscReal above = 0.0;
 
-    if (ip->sides.width && PetscRealPart(width[i]) < PETSC_INFINITY) above = PetscMax(PetscRealPart(out[i] - width[i]), 0.0);
+    if (ip->sides.width && PetscRealPart(width[i]) < PETSC_INFINITY)
+      above = PetscMax(PetscRealPart(out[i] - width[i]), 0.0);
     out[i] = PetscMin(PetscRealPart(out[i]), 0.0) + above;
   }
   if (ip->sides.width) PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
@@ -107,7 +112,8 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* s between 0 and width with rho (s - q) = mu/s - mu/(width - s), by bisection: the left side less the right one rises from -inf to inf */
+/* s between 0 and width with rho (s - q) = mu/s - mu/(width - s), by bisection: the left side less the right one
+   rises from -inf to inf */
 static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscReal width)
 {
   const PetscInt halvings = 100;
@@ -122,7 +128,8 @@ static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscR
   return PetscMin(PetscMax(0.5 * (low + high), PETSC_MACHINE_EPSILON * width), (1.0 - PETSC_MACHINE_EPSILON) * width);
 }
 
-/* The point of the central path that penalties of the rows' stiffness bend, as IPCentralPair(), between two sides where there are two */
+/* The point of the central path that penalties of the rows' stiffness bend, as IPCentralPair(), between two sides
+   where there are two */
 PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -166,7 +173,8 @@ PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
   PetscCall(VecGetArrayRead(ip->sides.width, &width));
   PetscCall(VecGetArray(s, &sa));
   for (PetscInt i = 0; i < n; i++)
-    if (PetscRealPart(width[i]) < PETSC_INFINITY) sa[i] = PetscMin(PetscRealPart(sa[i]), (1.0 - fraction) * PetscRealPart(width[i]));
+    if (PetscRealPart(width[i]) < PETSC_INFINITY)
+      sa[i] = PetscMin(PetscRealPart(sa[i]), (1.0 - fraction) * PetscRealPart(width[i]));
   PetscCall(VecRestoreArray(s, &sa));
   PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
   PetscFunctionReturn(0);

@@ -18,7 +18,8 @@ PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
   *v = NULL;
   if (!layout) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->lent[space][k]) k++;
-  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are lent", IP_MAX_WORK);
+  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are lent",
+    IP_MAX_WORK);
   if (!work->v[space][k]) PetscCall(VecDuplicate(layout, &work->v[space][k]));
   work->lent[space][k] = PETSC_TRUE;
   *v                   = work->v[space][k];
@@ -33,7 +34,8 @@ PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
   PetscFunctionBegin;
   if (!*v) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->v[space][k] != *v) k++;
-  PetscCheck(k < IP_MAX_WORK && work->lent[space][k], PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "Not a scratch vector that is lent");
+  PetscCheck(k < IP_MAX_WORK && work->lent[space][k], PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB,
+    "Not a scratch vector that is lent");
   work->lent[space][k] = PETSC_FALSE;
   *v                   = NULL;
   PetscFunctionReturn(0);

@@ -1,11 +1,13 @@
 /*
    The contact problem on the subspace, as a linear complementarity problem of the constraints' size. With w eliminated,
 
-     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,   gap = C lambda - JZ y - h >= 0 in the others,
+     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,   gap = C lambda - JZ y - h >=
+     0 in the others,
 
-   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. Block principal pivoting (Portugal, Judice and Vicente,
-   A comparison of block pivoting and interior-point algorithms for linear least squares problems with nonnegative variables, 1994) is the
-   primal-dual active set method that exchanges one row at a time where exchanging all does not help, and so ends.
+   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. Block principal pivoting
+   (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
+   squares problems with nonnegative variables, 1994) is the primal-dual active set method that exchanges one row at a
+   time where exchanging all does not help, and so ends.
 */
 #include "../ipfilterimpl.h"
 #include <petscblaslapack.h>
@@ -53,7 +55,8 @@ static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* L L^T = C_AA, its diagonal raised by as little as makes dependent rows no obstacle; *factored is false where no small number does */
+/* L L^T = C_AA, its diagonal raised by as little as makes dependent rows no obstacle; *factored is false where no
+   small number does */
 static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, PetscBool *factored)
 {
   const PetscReal first = 1e-13, last = 1e-8;
@@ -101,7 +104,8 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
   PetscFunctionReturn(0);
 }
 
-/* H = T + V^T V, its diagonal raised by as little as a body needs that no active constraint holds; *factored is false where H is indefinite */
+/* H = T + V^T V, its diagonal raised by as little as a body needs that no active constraint holds; *factored is false
+   where H is indefinite */
 static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
@@ -161,7 +165,9 @@ static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c
   PetscCall(PetscBLASIntCast(s->k, &k));
   for (PetscInt i = 0; i < s->m; i++) s->gap[i] = -s->h[i];
   if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, s->gap, &inc));
-  for (PetscInt i = 0; i < set->n; i++) PetscCallBLAS("BLASaxpy", BLASaxpy_(&m, &s->lambda[set->rows[i]], IPComplianceColumn(c, set->rows[i]), &inc, s->gap, &inc));
+  for (PetscInt i = 0; i < set->n; i++)
+    PetscCallBLAS("BLASaxpy",
+      BLASaxpy_(&m, &s->lambda[set->rows[i]], IPComplianceColumn(c, set->rows[i]), &inc, s->gap, &inc));
   PetscFunctionReturn(0);
 }
 
@@ -203,8 +209,10 @@ static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscB
   }
 }
 
-/* lambda, gap and y of the contact problem, from the last active set; *steps: systems solved; *solved is false where it has no end */
-PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
+/* lambda, gap and y of the contact problem, from the last active set; *steps: systems solved; *solved is false where
+   it has no end */
+PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
+  PetscBool *solved)
 {
   const PetscInt patience = 5, limit = 200;
   PetscInt       least = PETSC_MAX_INT, left = patience;

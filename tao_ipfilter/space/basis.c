@@ -1,6 +1,7 @@
 /*
-   The directions P of the filtered subspace, which outlive a solve: zero on the constraints' unknowns W, with their products Q = K P and
-   Gram matrix P^T K P. Appended they are K-orthonormal; a new W leaves them as they are but for W, and corrects Q and the Gram matrix.
+   The directions P of the filtered subspace, which outlive a solve: zero on the constraints' unknowns W, with their
+   products Q = K P and Gram matrix P^T K P. Appended they are K-orthonormal; a new W leaves them as they are but for
+   W, and corrects Q and the Gram matrix.
 */
 #include "../ipfilterimpl.h"
 #include <petscblaslapack.h>
@@ -39,7 +40,8 @@ static PetscErrorCode BasisSolve(const IPBasis *b, PetscReal h[])
   PetscFunctionReturn(0);
 }
 
-/* d = d - P h and, where it is given, Kd = Kd - Q h, with h = (P^T K P)^-1 Q^T d; *removed: h^T P^T K P h, the energy taken out */
+/* d = d - P h and, where it is given, Kd = Kd - Q h, with h = (P^T K P)^-1 Q^T d; *removed: h^T P^T K P h, the energy
+   taken out */
 static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *removed)
 {
   PetscReal *h, *s;
@@ -74,8 +76,8 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
 }
 
 /*
-   Appends d, which is zero on W, made K-orthonormal to the others: a second projection where the first took out half of its energy.
-   *appended is false where rounding is all that is left of it, or K is not positive along it.
+   Appends d, which is zero on W, made K-orthonormal to the others: a second projection where the first took out half
+   of its energy. *appended is false where rounding is all that is left of it, or K is not positive along it.
 */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
@@ -85,7 +87,8 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
   PetscScalar     energy;
 
   PetscFunctionBegin;
-  PetscCheck(n < b->max, PetscObjectComm((PetscObject)d), PETSC_ERR_PLIB, "There is room for %" PetscInt_FMT " directions only", b->max);
+  PetscCheck(n < b->max, PetscObjectComm((PetscObject)d), PETSC_ERR_PLIB,
+    "There is room for %" PetscInt_FMT " directions only", b->max);
   PetscCall(BasisTake(b, d));
   PetscCall(BasisProject(b, b->p[n], NULL, &removed));
   PetscCall(MatMult(K, b->p[n], b->q[n]));
@@ -94,7 +97,8 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
     PetscCall(BasisProject(b, b->p[n], b->q[n], &again));
     PetscCall(VecDot(b->p[n], b->q[n], &energy));
   }
-  *appended = (PetscBool)(PetscRealPart(energy) > eps * removed && !PetscIsInfOrNanReal(PetscRealPart(energy)) && again <= removed);
+  *appended = (PetscBool)(PetscRealPart(energy) > eps * removed && !PetscIsInfOrNanReal(PetscRealPart(energy)) &&
+                          again <= removed);
   if (!*appended) PetscFunctionReturn(0);
   PetscCall(VecScale(b->p[n], 1.0 / PetscSqrtReal(PetscRealPart(energy))));
   PetscCall(VecScale(b->q[n], 1.0 / PetscSqrtReal(PetscRealPart(energy))));
@@ -106,7 +110,8 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
   PetscFunctionReturn(0);
 }
 
-/* Keeps the directions that are marked, in their order, and the vectors of the others for later ones; the Gram matrix is to be factored */
+/* Keeps the directions that are marked, in their order, and the vectors of the others for later ones; the Gram matrix
+   is to be factored */
 static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
 {
   PetscInt n = 0;
@@ -174,8 +179,8 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* T of n x n, columns by falling worth: the directions P T that make T^T E T diagonal and T^T P^T K P T = I, of the first n directions; E, in
-   columns of length max, is overwritten */
+/* T of n x n, columns by falling worth: the directions P T that make T^T E T diagonal and T^T P^T K P T = I, of the
+   first n directions; E, in columns of length max, is overwritten */
 static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[], PetscReal T[])
 {
   PetscReal   *G, *values, *work, size;
@@ -198,7 +203,8 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
   PetscFunctionReturn(0);
 }
 
-/* The first k of the n vectors become their combinations with the columns of T, of length n; some rows at a time, so that it takes no memory */
+/* The first k of the n vectors become their combinations with the columns of T, of length n; some rows at a time, so
+   that it takes no memory */
 static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], Vec v[])
 {
   const PetscInt  chunk = 128;
@@ -224,7 +230,8 @@ static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], 
   PetscFunctionReturn(0);
 }
 
-/* The Gram matrix where the first n directions have become k orthonormal ones, their couplings to the others included */
+/* The Gram matrix where the first n directions have become k orthonormal ones, their couplings to the others included
+ */
 static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
   PetscReal *old;
@@ -245,7 +252,8 @@ static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const
   PetscFunctionReturn(0);
 }
 
-/* Keeps the last directions, and of the others' span the `best` of largest worth p^T E p / p^T K p; E, of columns of length max, is overwritten */
+/* Keeps the last directions, and of the others' span the `best` of largest worth p^T E p / p^T K p; E, of columns of
+   length max, is overwritten */
 PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscReal E[])
 {
   const PetscInt n = b->n - last;
@@ -296,8 +304,10 @@ static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], Pet
   PetscFunctionReturn(0);
 }
 
-/* p - E a and q - K E a for direction j, E a being its part at the rows; entries of the old q, and of K E a, at the rows */
-static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const PetscInt rows[], PetscReal a[], PetscReal q[], PetscReal Ka[], Vec work[2])
+/* p - E a and q - K E a for direction j, E a being its part at the rows; entries of the old q, and of K E a, at the
+   rows */
+static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const PetscInt rows[], PetscReal a[],
+  PetscReal q[], PetscReal Ka[], Vec work[2])
 {
   PetscFunctionBegin;
   PetscCall(VecCopy(b->p[j], work[0]));
@@ -311,7 +321,8 @@ static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const 
 }
 
 /* The Gram matrix of p - E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, of entries at n rows of this rank each */
-static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a[], const PetscReal q[], const PetscReal Ka[])
+static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a[], const PetscReal q[],
+  const PetscReal Ka[])
 {
   PetscReal *change;
 
@@ -319,10 +330,12 @@ static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a
   PetscCall(PetscCalloc1(b->n * b->n, &change));
   for (PetscInt j = 0; j < b->n; j++) {
     for (PetscInt i = 0; i < b->n; i++) {
-      for (PetscInt k = 0; k < n; k++) change[i + j * b->n] += a[k + i * n] * (Ka[k + j * n] - q[k + j * n]) - a[k + j * n] * q[k + i * n];
+      for (PetscInt k = 0; k < n; k++)
+        change[i + j * b->n] += a[k + i * n] * (Ka[k + j * n] - q[k + j * n]) - a[k + j * n] * q[k + i * n];
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)(b->n * b->n), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->p[0])));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)(b->n * b->n), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)b->p[0])));
   for (PetscInt j = 0; j < b->n; j++) {
     for (PetscInt i = 0; i < b->n; i++) b->gram[i + j * b->max] += 0.5 * (change[i + j * b->n] + change[j + i * b->n]);
   }

@@ -1,8 +1,10 @@
 /*
-   Where W has a body whole, or a mechanism, K_WW is singular. Unknowns at which a pivot of it vanishes get a companion each, tied to it by a spring and touched by nothing
-   else: with springs it is definite, and as companions go where their unknowns go, nothing is held. What companions move by are coordinates y like those of directions:
+   Where W has a body whole, or a mechanism, K_WW is singular. Unknowns at which a pivot of it vanishes get a
+   companion each, tied to it by a spring and touched by nothing else: with springs it is definite, and as companions
+   go where their unknowns go, nothing is held. What companions move by are coordinates y like those of directions:
 
-     1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + what directions have,   Q_W = -E D, P^T K P = D.
+     1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + what directions have,   Q_W
+     = -E D, P^T K P = D.
 */
 #include "../ipfilterimpl.h"
 
@@ -14,7 +16,8 @@ PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve with K by its factors tells that K is singular but for rounding: what a load of all unknowns is worth there, of what it is worth if each was alone */
+/* Whether a solve with K by its factors tells that K is singular but for rounding: what a load of all unknowns is
+   worth there, of what it is worth if each was alone */
 PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
 {
   const PetscReal most  = 1e7;
@@ -81,7 +84,8 @@ static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pi
   PetscFunctionReturn(0);
 }
 
-/* Takes them from K's pivots, and adds their springs to K, as stiff as its diagonal is; none where that is not positive */
+/* Takes them from K's pivots, and adds their springs to K, as stiff as its diagonal is; none where that is not
+   positive */
 PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *c)
 {
   const PetscReal    raise = 2.0; /* above any pivot of such a matrix, which is 1 at most */

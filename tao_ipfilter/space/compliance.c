@@ -1,6 +1,6 @@
 /*
-   What the constraints' own unknowns W give way by: C = J_W K_WW^-1 J_W^T, column by column as rows of it are asked for. On the first rank
-   alone, which has all of W.
+   What the constraints' own unknowns W give way by: C = J_W K_WW^-1 J_W^T, column by column as rows of it are asked
+   for. On the first rank alone, which has all of W.
 */
 #include "../ipfilterimpl.h"
 #include "../../pc_amgf/mumps.h"
@@ -130,7 +130,8 @@ PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt r
     c->maxcolumns = PetscMin(c->m, c->ncolumns + 2 * nmissing);
     PetscCall(PetscRealloc((size_t)c->maxcolumns * (size_t)c->m * sizeof(PetscReal), &c->C));
   }
-  for (PetscInt k = 0; k < nmissing; k += chunk) PetscCall(ComplianceAppend(c, PetscMin(chunk, nmissing - k), missing + k));
+  for (PetscInt k = 0; k < nmissing; k += chunk)
+    PetscCall(ComplianceAppend(c, PetscMin(chunk, nmissing - k), missing + k));
   PetscCall(PetscFree(missing));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /*
-   The space of the filtered subspace method within one solve, which filteredsubspace.c and newtonsubspace.c lead: V = span{e_i : i in W} + span(P),
-   the contact problem on V about a centre, and further directions, each an application of the preconditioner B of K alone to what the
-   problem on V leaves of the residual.
+   The space of the filtered subspace method within one solve, which filteredsubspace.c and newtonsubspace.c lead: V =
+   span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
+   of the preconditioner B of K alone to what the problem on V leaves of the residual.
 */
 #include "../ipfilterimpl.h"
 
@@ -57,7 +57,8 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and these constraints, with all directions there are */
+/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and
+   these constraints, with all directions there are */
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -138,8 +139,9 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscFunctionReturn(0);
 }
 
-/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so answers most to other
-   constraints and gaps. The reduced problem is to be centred anew, at its solution, so that nothing of that is lost. */
+/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so
+   answers most to other constraints and gaps. The reduced problem is to be centred anew, at its solution, so that
+   nothing of that is lost. */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
   IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
@@ -155,8 +157,8 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program, where it is negative, too: with the
-   constraints in it it may not be */
+/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program,
+   where it is negative, too: with the constraints in it it may not be */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -176,7 +178,8 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscFunctionReturn(0);
 }
 
-/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a solve, and where it fails */
+/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a
+   solve, and where it fails */
 static PetscErrorCode FilteredPrecondition(Tao tao, IPKept *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -253,8 +256,8 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* What the present Hessian has, with the active rows that slacks and multipliers tell; in the beginning also what this solve alone has. *possible is
-   false where K_WW is not positive definite. */
+/* What the present Hessian has, with the active rows that slacks and multipliers tell; in the beginning also what
+   this solve alone has. *possible is false where K_WW is not positive definite. */
 PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -263,7 +266,8 @@ PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possibl
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, basis));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c,
+    basis, possible));
   PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));

@@ -1,14 +1,17 @@
 /*
-   The filtered subspace method, for min f(x), c_I(x) >= 0 with a quadratic f, linear c_I, and constraints that touch few unknowns W.
+   The filtered subspace method, for min f(x), c_I(x) >= 0 with a quadratic f, linear c_I, and constraints that touch
+   few unknowns W.
 
-   V = span{e_i : i in W} + span(P). In turn: the contact problem is solved exactly on V (reduced.c); the residual r = J^T lambda - grad f
-   that is left, zero on W, is made from the caller's own gradient; one application of the preconditioner B of K alone gives the direction
-   B r, made zero on W and K-orthonormal to P (basis.c). With a fixed active set this is CG preconditioned by the `fbf` cycle of PCAMGF;
-   where the set changes nothing is lost, and P serves the next solve with the same K, whatever its constraints and loads.
+   V = span{e_i : i in W} + span(P). In turn: the contact problem is solved exactly on V (reduced.c); the residual r =
+   J^T lambda - grad f that is left, zero on W, is made from the caller's own gradient; one application of the
+   preconditioner B of K alone gives the direction B r, made zero on W and K-orthonormal to P (basis.c). With a fixed
+   active set this is CG preconditioned by the `fbf` cycle of PCAMGF; where the set changes nothing is lost, and P
+   serves the next solve with the same K, whatever its constraints and loads.
 */
 #include "../ipfilterimpl.h"
 
-/* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which then serves all solves */
+/* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which
+   then serves all solves */
 static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
 {
   PC pc;
@@ -20,8 +23,8 @@ static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *facto
   PetscFunctionReturn(0);
 }
 
-/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton systems, as tolerances of
-   a Krylov method do */
+/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton
+   systems, as tolerances of a Krylov method do */
 static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
@@ -29,16 +32,20 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscBool        amg, factored;
 
   PetscFunctionBegin;
-  *applies = (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
+  *applies =
+    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
+                !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms.n) PetscFunctionReturn(0);
   PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
-  if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM) *applies = PETSC_FALSE;
+  if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
+    *applies = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
-/* Takes W: the constraints' unknowns with their neighbours, so that what the preconditioner does not know of ends within it, unless that is too much of all, or
-   K may be indefinite there, where constraints do not hold it. Whether the constraints touch few enough unknowns, and some; auto: few against all. */
+/* Takes W: the constraints' unknowns with their neighbours, so that what the preconditioner does not know of ends
+   within it, unless that is too much of all, or K may be indefinite there, where constraints do not hold it. Whether
+   the constraints touch few enough unknowns, and some; auto: few against all. */
 static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -94,7 +101,8 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* The same of c_I, whose terms may be much larger than what they add up to: where a solution is foreseen all rows that are closed are next to zero before and after */
+/* The same of c_I, whose terms may be much larger than what they add up to: where a solution is foreseen all rows
+   that are closed are next to zero before and after */
 static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
 {
   const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
@@ -134,7 +142,8 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscFunctionReturn(0);
 }
 
-/* To x = centre + v, with the forces of the constraints there. Back again, and *moved is false, where the problem is not quadratic. */
+/* To x = centre + v, with the forces of the constraints there. Back again, and *moved is false, where the problem is
+   not quadratic. */
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -198,8 +207,9 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPKept *kept, Vec r, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* -ip->rx without its part on W. *exact is false where the reduced problem has left something that it should have made vanish, by rounding
-   or as the problem is not quadratic: that part, the violation of the constraints, or what holds up the rest for long. */
+/* -ip->rx without its part on W. *exact is false where the reduced problem has left something that it should have
+   made vanish, by rounding or as the problem is not quadratic: that part, the violation of the constraints, or what
+   holds up the rest for long. */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -211,13 +221,14 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecNorm(r, NORM_2, &all));
   PetscCall(VecISSet(r, ip->filtered.W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
-  *exact = (PetscBool)(off > 0.5 * all && PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
+  *exact = (PetscBool)(off > 0.5 * all &&
+                       PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
   if (ip->filtered.nfutile && ip->filtered.nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
-/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left; twice as many as so far until a digit is
-   gained, as the rate says nothing while the active set is looked for */
+/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left;
+   twice as many as so far until a digit is gained, as the rate says nothing while the active set is looked for */
 static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
@@ -235,9 +246,9 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPKept *kept, PetscBool *possi
   PetscFunctionReturn(0);
 }
 
-/* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it led; *done is false
-   where neither is possible, or helps. With norm terms, whose reduced problem is solved to a tolerance, what is left may lie along directions
-   that there are, none of them new */
+/* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it
+   led; *done is false where neither is possible, or helps. With norm terms, whose reduced problem is solved to a
+   tolerance, what is left may lie along directions that there are, none of them new */
 PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -269,7 +280,8 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* The first point: of a quadratic program the solution of the first reduced problem, else the start with the multipliers there */
+/* The first point: of a quadratic program the solution of the first reduced problem, else the start with the
+   multipliers there */
 static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -317,7 +329,8 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
   PetscFunctionReturn(0);
 }
 
-/* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the constraints is not */
+/* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the
+   constraints is not */
 PetscErrorCode IPFilteredEnd(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

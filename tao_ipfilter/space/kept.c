@@ -1,4 +1,5 @@
-/* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner and directions of K. */
+/* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner
+   and directions of K. */
 #include "../ipfilterimpl.h"
 
 /* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */
@@ -59,17 +60,20 @@ static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
 }
 
 /*
-   Tells PCAMGF, which has K for its operator, how often it will be applied: in this solve so often beyond what it was, and in those that are
-   to come with the same K. Nothing is known before the first one.
+   Tells PCAMGF, which has K for its operator, how often it will be applied: in this solve so often beyond what it
+   was, and in those that are to come with the same K. Nothing is known before the first one.
 */
 static PetscErrorCode KeptExpect(Tao tao, IPKept *kept, PetscReal left)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal later = 0.7, factored = 10.0; /* applications of a later solve against a first one's, and solves with factors */
-  const PetscReal n = ip->rec.napplications + left, solves = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal later    = 0.7,
+                  factored = 10.0; /* applications of a later solve against a first one's, and solves with factors */
+  const PetscReal n        = ip->rec.napplications + left,
+                  solves   = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
 
   PetscFunctionBegin;
-  PetscCall(PCAMGFExpect(kept->pc, left + later * n * solves, PetscMin(factored, left) + PetscMin(factored, n) * solves));
+  PetscCall(
+    PCAMGFExpect(kept->pc, left + later * n * solves, PetscMin(factored, left) + PetscMin(factored, n) * solves));
   PetscFunctionReturn(0);
 }
 
@@ -82,8 +86,10 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored, &why));
-  if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0))) PetscFunctionReturn(0);
-  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n", factored ? "direct (MUMPS)" : "CG with AMG", why));
+  if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0)))
+    PetscFunctionReturn(0);
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
+    factored ? "direct (MUMPS)" : "CG with AMG", why));
   PetscFunctionReturn(0);
 }
 
@@ -132,7 +138,8 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPKept *kept, Mat K, PetscBool *pos
   PetscFunctionReturn(0);
 }
 
-/* Changes from the AMG to a factorization where so many applications are still to come in this solve that it pays; no directions are lost */
+/* Changes from the AMG to a factorization where so many applications are still to come in this solve that it pays; no
+   directions are lost */
 PetscErrorCode IPKeptReconsider(Tao tao, IPKept *kept, PetscReal left, PetscBool *possible)
 {
   PetscBool amgf, before, after;
@@ -144,7 +151,9 @@ PetscErrorCode IPKeptReconsider(Tao tao, IPKept *kept, PetscReal left, PetscBool
   PetscCall(PCAMGFGetFactored(kept->pc, &before, NULL));
   PetscCall(KeptExpect(tao, kept, left));
   PetscCall(PCAMGFGetFactored(kept->pc, &after, NULL));
-  if (after != before) PetscCall(KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess.H, ((TAO_IPFILTER *)tao->data)->hess.H, possible));
+  if (after != before)
+    PetscCall(
+      KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess.H, ((TAO_IPFILTER *)tao->data)->hess.H, possible));
   PetscFunctionReturn(0);
 }
 
@@ -169,11 +178,13 @@ PetscErrorCode IPKeptHold(Tao tao, IPKept *kept, PetscBool *possible)
   PetscFunctionReturn(0);
 }
 
-/* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides what no machine is short of; more than
-   the AMG itself costs so many projections a direction. Newton's steps cost a product with the new K a direction, and their Gram matrix. */
+/* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides
+   what no machine is short of; more than the AMG itself costs so many projections a direction. Newton's steps cost a
+   product with the new K a direction, and their Gram matrix. */
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
-  const PetscReal held = 4300.0, share = 0.15, spare = 64e6, direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
+  const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
+                  direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
   const PetscReal fewest = 80.0, limit = 160.0;
   const PetscInt  newton = 48;
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -188,7 +199,8 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
   PetscFunctionReturn(0);
 }
 
-/* Brings it up to date with K, the constraints' unknowns and the fixed variables; *possible is false where the preconditioner cannot be */
+/* Brings it up to date with K, the constraints' unknowns and the fixed variables; *possible is false where the
+   preconditioner cannot be */
 PetscErrorCode IPKeptUpdate(Tao tao, IPKept *kept, PetscBool *possible)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -231,7 +243,8 @@ PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
   PetscFunctionReturn(0);
 }
 
-/* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of another kind keeps its own */
+/* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of
+   another kind keeps its own */
 PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
   IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
@@ -258,7 +271,8 @@ PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
 {
   PetscFunctionBegin;
-  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "There is one solve to come at least, not %" PetscInt_FMT, n);
+  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "There is one solve to come at least, not %" PetscInt_FMT, n);
   ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
   PetscFunctionReturn(0);
 }
@@ -275,9 +289,10 @@ PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   Level: advanced
 
   Notes:
-  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with that Hessian,
-  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by this call. Directions are multiplied anew where
-  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
+  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
+that Hessian, whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on
+another one by this call. Directions are multiplied anew where the values of the Hessian have changed, and given up with
+another Hessian or another type of `PC`.
 
   The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
 
@@ -305,7 +320,8 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
-- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many as 64 MB and 15 % of an AMG's memory hold, 48 where the objective is not quadratic
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many
+as 64 MB and 15 % of an AMG's memory hold, 48 where the objective is not quadratic
 
   Level: advanced
 
@@ -321,7 +337,8 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
 }
 
 /*@
-  TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace method can choose its preconditioner
+  TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace
+method can choose its preconditioner
 
   Logically Collective
 
@@ -332,7 +349,8 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
   Level: advanced
 
   Note:
-  A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
+  A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is
+`PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
 @*/

@@ -1,7 +1,7 @@
 /*
-   The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w + P y. Its data, of the
-   constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for as long as W and K stay, with springs to companions where it is singular.
-   Norm terms add their two rows each.
+   The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w +
+   P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
+   as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
 */
 #include "../ipfilterimpl.h"
 
@@ -12,11 +12,14 @@ typedef struct {
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a symmetric pattern */
+  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a
+                                symmetric pattern */
 } ReducedGather;
 
-/* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the diagonal lack nothing. */
-static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt i[], PetscInt j[], PetscScalar v[], PetscCount *n)
+/* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
+   diagonal lack nothing. */
+static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt i[], PetscInt j[],
+  PetscScalar v[], PetscCount *n)
 {
   const PetscInt    *columns;
   const PetscScalar *values;
@@ -148,7 +151,8 @@ static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
 }
 
 /* J_W, and T_W below it where there are norm terms */
-static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
+  PetscBool first, Mat *S)
 {
   Mat JW, TW;
 
@@ -216,7 +220,8 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
   PetscFunctionBegin;
   s->m    = r->m + 2 * r->nterms;
   s->kmax = r->companions.n + basis->max;
-  PetscCall(PetscMalloc4((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
+  PetscCall(
+    PetscMalloc4((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
   PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
   PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
   if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
@@ -266,7 +271,9 @@ static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies
   PetscFunctionBegin;
   PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
   PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
-  for (PetscInt i = 0; i <= j; i++) s->T[i + j * s->kmax] = s->T[j + i * s->kmax] = energies[i] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
+  for (PetscInt i = 0; i <= j; i++)
+    s->T[i + j * s->kmax] = s->T[j + i * s->kmax] =
+      energies[i] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
   s->G[j] = energies[j];
   PetscFunctionReturn(0);
 }
@@ -292,7 +299,8 @@ static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
 }
 
 /* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, IS W, Vec x, Vec c, const IPBasis *basis, PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, IS W, Vec x, Vec c,
+  const IPBasis *basis, PetscBool *definite)
 {
   PetscMPIInt     rank;
   IS              all, mine;
@@ -426,7 +434,9 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
     s->length = PetscMax(s->length, PetscMax(PetscAbsReal(s->gap[i]), PetscAbsReal(s->h[i])));
   }
   PetscCall(PetscArrayzero(s->y, s->kmax));
-  for (PetscInt j = 0; j < s->k; j++) s->t[j] = ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - (j < r->companions.n ? 0.0 : pg[j - r->companions.n]);
+  for (PetscInt j = 0; j < s->k; j++)
+    s->t[j] =
+      ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - (j < r->companions.n ? 0.0 : pg[j - r->companions.n]);
   PetscFunctionReturn(0);
 }
 
@@ -453,7 +463,8 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the directions' energy */
+/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the
+   directions' energy */
 PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
   const IPReducedSystem *s      = &r->system;
@@ -463,7 +474,8 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, Petsc
   PetscCall(PetscArrayzero(E, n));
   if (r->first) {
     for (PetscInt j = 0; j < basis->n; j++) {
-      for (PetscInt i = 0; i < basis->n; i++) E[i + j * basis->max] = basis->gram[i + j * basis->max] - s->T[before + i + (before + j) * s->kmax];
+      for (PetscInt i = 0; i < basis->n; i++)
+        E[i + j * basis->max] = basis->gram[i + j * basis->max] - s->T[before + i + (before + j) * s->kmax];
     }
   }
   PetscCallMPI(MPI_Bcast(E, (PetscMPIInt)n, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
@@ -504,8 +516,8 @@ static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if there are any.
-   r->nactive, r->nsteps: of this solve. */
+/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
+   there are any. r->nactive, r->nsteps: of this solve. */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;

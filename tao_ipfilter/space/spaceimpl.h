@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/space: the filtered subspace: directions, the reduced problem, its active sets and the laws of norm terms.
-   Every file builds on those before it, and on the folders below.
+   The map of tao_ipfilter/space: the filtered subspace: directions, the reduced problem, its active sets and the laws
+   of norm terms. Every file builds on those before it, and on the folders below.
 */
 #ifndef IPFILTER_SPACEIMPL_H
 #define IPFILTER_SPACEIMPL_H
@@ -24,7 +24,8 @@ typedef struct {
   PetscReal *C;      /* the columns */
 } IPCompliance;
 
-/* Unknowns on W, by their places in it, that have a companion, and the springs between them; on the first rank but for n: companions.c */
+/* Unknowns on W, by their places in it, that have a companion, and the springs between them; on the first rank but
+   for n: companions.c */
 typedef struct {
   PetscInt   n, *row;
   PetscReal *spring;
@@ -35,7 +36,8 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
   return c->C + (size_t)c->column[row] * (size_t)c->m;
 }
 
-/* The contact problem with w eliminated, as activeset.c and termlaws.c state it: constraints, and below them two rows a norm term */
+/* The contact problem with w eliminated, as activeset.c and termlaws.c state it: constraints, and below them two rows
+   a norm term */
 typedef struct {
   PetscInt   m, k, kmax;       /* rows; companions and directions, and room for them */
   PetscReal *JZ, *T, *h, *t;   /* columns of length m and kmax */
@@ -154,12 +156,14 @@ PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
 /* activeset.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
-PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps,
+  PetscBool *solved);
 
 /* termsystem.c */
 PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R);
 PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
-PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[], const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
+PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[],
+  const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
 PETSC_INTERN PetscErrorCode IPTermSystemAssemble(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *, const PetscReal f[], PetscReal v[]);
 
@@ -169,10 +173,12 @@ PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[
 
 /* termdense.c */
 PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);
-PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved);
 
 /* termsolve.c */
-PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[],
+  PetscReal ry[], PetscBool *solved);
 
 /* termlaws.c */
 PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *);
@@ -191,13 +197,15 @@ PETSC_INTERN PetscReal      IPTermLawsMerit(const IPTermSet *, const IPReducedSy
 PETSC_INTERN PetscErrorCode IPTermLawsRenew(IPTermSet *, const IPReducedSystem *);
 
 /* termpath.c */
-PETSC_INTERN PetscErrorCode IPTermPathFollow(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *followed);
+PETSC_INTERN PetscErrorCode IPTermPathFollow(IPTermSet *, const IPReducedSystem *, PetscInt *steps,
+  PetscBool *followed);
 
 /* termset.c */
 PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
 
 /* reduced.c */
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c, const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c,
+  const IPBasis *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);

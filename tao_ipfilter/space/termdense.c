@@ -1,4 +1,5 @@
-/* Solves the systems of termsystem.c by dense factors, where GMRES gives up: soft bodies, along which motions of all sizes are worth next to nothing. C is made once. */
+/* Solves the systems of termsystem.c by dense factors, where GMRES gives up: soft bodies, along which motions of all
+   sizes are worth next to nothing. C is made once. */
 #include "../ipfilterimpl.h"
 #include <petscblaslapack.h>
 
@@ -25,7 +26,8 @@ static PetscErrorCode TermDenseMakeCompliance(IPTermSystem *t)
 }
 
 /* B_v times columns of length m, in the rows' scale, into those of N, by a factor and the columns' own scale */
-static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscInt n, const PetscReal columns[], PetscReal factor, const PetscReal scale[], PetscInt ld, PetscReal N[])
+static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscInt n, const PetscReal columns[], PetscReal factor,
+  const PetscReal scale[], PetscInt ld, PetscReal N[])
 {
   PetscFunctionBegin;
   for (PetscInt j = 0; j < n; j++) {
@@ -55,16 +57,19 @@ static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *
     PetscInt           nc;
 
     PetscCall(MatGetRow(t->Bf, i, &nc, &columns, &values));
-    for (PetscInt c = 0; c < nc; c++) N[i + (size_t)columns[c] * (size_t)ld] += t->scale[i] * t->scale[columns[c]] * PetscRealPart(values[c]);
+    for (PetscInt c = 0; c < nc; c++)
+      N[i + (size_t)columns[c] * (size_t)ld] += t->scale[i] * t->scale[columns[c]] * PetscRealPart(values[c]);
     PetscCall(MatRestoreRow(t->Bf, i, &nc, &columns, &values));
     for (PetscInt j = 0; j < k; j++) N[m + j + (size_t)i * (size_t)ld] = t->scale[i] * s->JZ[i + (size_t)j * (size_t)m];
   }
-  for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(N + m + (size_t)(m + j) * (size_t)ld, s->T + j * s->kmax, k));
+  for (PetscInt j = 0; j < k; j++)
+    PetscCall(PetscArraycpy(N + m + (size_t)(m + j) * (size_t)ld, s->T + j * s->kmax, k));
   PetscFunctionReturn(0);
 }
 
 /* Overwrites r_f and r_y with the solution; *solved is false where the matrix is singular */
-PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[], PetscBool *solved)
+PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved)
 {
   const PetscInt m = t->m, k = s->k;
   PetscReal     *N, *x;

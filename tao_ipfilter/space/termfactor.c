@@ -1,16 +1,18 @@
 /*
-   The preconditioner of the systems of termsystem.c: what the lumped one is to FETI (Farhat and Roux, A method of finite element tearing and interconnecting
-   and its parallel solution algorithm, 1991),
+   The preconditioner of the systems of termsystem.c: what the lumped one is to FETI (Farhat and Roux, A method of
+   finite element tearing and interconnecting and its parallel solution algorithm, 1991),
 
      (B_v C + B_f)^-1 ~ A^-1 (B_v R D K_WW D R^T + B_f) A^-1,   A = B_v R D R^T + B_f,   D = diag(K_WW)^-1,
 
-   exact were R square, and H = T + RZ^T (...)^-1 B_v RZ with it for y. A is sparse, and like a mass matrix: ILU(0) does. The condition number is a small one
-   whatever the mesh. Old factors serve other B_v and B_f for as long as GMRES is quick with them.
+   exact were R square, and H = T + RZ^T (...)^-1 B_v RZ with it for y. A is sparse, and like a mass matrix: ILU(0)
+   does. The condition number is a small one whatever the mesh. Old factors serve other B_v and B_f for as long as
+   GMRES is quick with them.
 */
 #include "../ipfilterimpl.h"
 #include <petscblaslapack.h>
 
-/* Incomplete factors of A in the rows' scale, which makes its diagonal 1 or so: it is as well conditioned as a mass matrix */
+/* Incomplete factors of A in the rows' scale, which makes its diagonal 1 or so: it is as well conditioned as a mass
+   matrix */
 static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
 {
   const PetscReal tiny = 1e-12;
@@ -119,12 +121,16 @@ static PetscErrorCode TermFactorAppend(IPTermSystem *t, const IPReducedSystem *s
     PetscCall(IPTermFactorApply(t, t->v, t->V + (size_t)t->k * m));
   }
   if (!added || !mb) PetscFunctionReturn(0);
-  PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &k, &added, &mb, &one, s->JZ, &mb, t->V + old * m, &mb, &zero, t->ZV + old * (size_t)s->kmax, &ld));
-  if (before) PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &added, &before, &mb, &one, s->JZ + old * m, &mb, t->V, &mb, &zero, t->ZV + old, &ld));
+  PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &k, &added, &mb, &one, s->JZ, &mb, t->V + old * m, &mb, &zero,
+                              t->ZV + old * (size_t)s->kmax, &ld));
+  if (before)
+    PetscCallBLAS("BLASgemm",
+      BLASgemm_("T", "N", &added, &before, &mb, &one, s->JZ + old * m, &mb, t->V, &mb, &zero, t->ZV + old, &ld));
   PetscFunctionReturn(0);
 }
 
-/* L U = H = T + RZ^T V, its diagonal raised by as little as a body needs that nothing holds; *factored is false where H is singular */
+/* L U = H = T + RZ^T V, its diagonal raised by as little as a body needs that nothing holds; *factored is false where
+   H is singular */
 static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal shift = 1e-14;

@@ -1,9 +1,12 @@
 /*
-   The laws of constraints and norm terms on the subspace, friction among them. With w eliminated and f = (lambda, tau), v the motion of all rows,
+   The laws of constraints and norm terms on the subspace, friction among them. With w eliminated and f = (lambda,
+   tau), v the motion of all rows,
 
-     v = C f - RZ y - h,   T y + RZ^T f = t,   lambda >= 0, v_n >= 0, lambda v_n = 0,   tau = P(tau - rho v_t), P the projection to |tau| <= b(lambda),
+     v = C f - RZ y - h,   T y + RZ^T f = t,   lambda >= 0, v_n >= 0, lambda v_n = 0,   tau = P(tau - rho v_t), P the
+     projection to |tau| <= b(lambda),
 
-   where R = [J; T], C = R K_WW^-1 R^T and RZ = R K_WW^-1 Q_W: which rows take part, how they move, and how far they are from their laws.
+   where R = [J; T], C = R K_WW^-1 R^T and RZ = R K_WW^-1 Q_W: which rows take part, how they move, and how far they
+   are from their laws.
 */
 #include "../ipfilterimpl.h"
 #include <petscblaslapack.h>
@@ -71,7 +74,8 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   PetscCall(PetscBLASIntCast(s->k, &k));
   PetscCall(IPTermSystemApplyCompliance(&set->system, s->lambda, s->gap));
   for (PetscInt i = 0; i < s->m; i++) set->system.v[i] = -s->h[i];
-  if (k && m) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, set->system.v, &inc));
+  if (k && m)
+    PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, set->system.v, &inc));
   set->length = PetscMax(s->length, TermLawsLargest(s->m, set->system.v));
   for (PetscInt i = 0; i < s->m; i++) s->gap[i] += set->system.v[i];
   PetscFunctionReturn(0);
@@ -92,7 +96,8 @@ PetscReal IPTermLawsGiveWay(const IPTermSet *set, PetscInt row)
   return PetscMax(gives[first], row < set->m ? 0.0 : gives[first + 1]);
 }
 
-/* The rows that take part, as far as anything gives way to them: closed constraints, and the terms that can have a force. The others have none. */
+/* The rows that take part, as far as anything gives way to them: closed constraints, and the terms that can have a
+   force. The others have none. */
 static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal rounding = 1e-14; /* of what gives way most: tangents have that of directions that are held */
@@ -160,13 +165,15 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscFunctionReturn(0);
 }
 
-/* How far f and v are from the laws, an energy: the sum over all rows, constraints by min(lambda / rho, v), terms by |tau - P(tau - rho v)| / rho, squared times rho */
+/* How far f and v are from the laws, an energy: the sum over all rows, constraints by min(lambda / rho, v), terms by
+   |tau - P(tau - rho v)| / rho, squared times rho */
 PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal merit = 0.0;
 
   for (PetscInt i = 0; i < set->m; i++) {
-    const PetscReal gives = set->system.gives[i], off = set->takes[i] ? PetscMin(s->lambda[i] * gives, s->gap[i]) : PetscMin(0.0, s->gap[i]);
+    const PetscReal gives = set->system.gives[i],
+                    off   = set->takes[i] ? PetscMin(s->lambda[i] * gives, s->gap[i]) : PetscMin(0.0, s->gap[i]);
 
     if (gives > 0.0) merit += PetscSqr(off) / gives;
   }
@@ -175,7 +182,8 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 
     if (!set->takes[IPTermLawsRow(set, i)]) continue;
     IPTermLawsMotion(set, s, i, v);
-    merit += set->rho[i] * PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
+    merit += set->rho[i] *
+             PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
   }
   return merit;
 }

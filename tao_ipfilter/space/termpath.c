@@ -3,8 +3,9 @@
 
      lambda w = m,  v_n = w,  lambda > 0,  w > 0,     r tau = -b(lambda) v_t,  r = sqrt(|v_t|^2 + e^2),
 
-   for m and e that go to zero, as interior point methods do for the first; the second linearized as it stands, not divided by r (Chan, Golub and Mulet, A nonlinear primal-dual
-   method for total variation-based image restoration, 1999), is as good where a term sticks as where it slips. What is closed in the end is where Newton's method begins.
+   for m and e that go to zero, as interior point methods do for the first; the second linearized as it stands, not
+   divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
+   1999), is as good where a term sticks as where it slips. What is closed in the end is where Newton's method begins.
 */
 #include "../ipfilterimpl.h"
 
@@ -15,7 +16,8 @@ typedef struct {
   PetscReal  m, e;
 } TermPath;
 
-/* The same force for all constraints, such that they move each other as far as they are to be moved; w as large as that */
+/* The same force for all constraints, such that they move each other as far as they are to be moved; w as large as
+   that */
 static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, TermPath *path)
 {
   PetscReal length = 0.0, moved = 0.0, force;
@@ -49,7 +51,8 @@ static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, Te
 /* Equation and coefficients of a constraint */
 static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i)
 {
-  const PetscReal gives = set->system.gives[i], lambda = s->lambda[i], w = path->w[i], size = lambda + (gives > 0.0 ? w / gives : 0.0);
+  const PetscReal gives = set->system.gives[i], lambda = s->lambda[i], w = path->w[i],
+                  size = lambda + (gives > 0.0 ? w / gives : 0.0);
   const PetscReal by_v = set->takes[i] ? lambda / size : 0.0, by_f = set->takes[i] ? w / size : PetscMax(gives, 1.0);
 
   PetscFunctionBegin;
@@ -59,12 +62,14 @@ static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSyste
 }
 
 /* Of a term: by_v of its two motions; by_f of its two forces and of its constraint's, for component a */
-static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i, PetscInt a, PetscReal by_v[3], PetscReal by_f[3], PetscReal *F)
+static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i, PetscInt a,
+  PetscReal by_v[3], PetscReal by_f[3], PetscReal *F)
 {
-  const PetscReal *dead = &set->dead[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)], bound = IPTermLawsBound(set, s, i), force = PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
-  const PetscBool  sticks = (PetscBool)(bound >= PETSC_INFINITY);
-  const PetscReal  inside = force > bound ? bound / force : 1.0;
-  PetscReal        v[2], r, size;
+  const PetscReal *dead = &set->dead[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)],
+                  bound = IPTermLawsBound(set, s, i), force = PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
+  const PetscBool sticks = (PetscBool)(bound >= PETSC_INFINITY);
+  const PetscReal inside = force > bound ? bound / force : 1.0;
+  PetscReal       v[2], r, size;
 
   IPTermLawsMotion(set, s, i, v);
   r    = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + path->e * path->e);
@@ -109,7 +114,8 @@ static PetscReal TermPathToBoundary(PetscReal x, PetscReal dx, PetscReal alpha)
 }
 
 /* A step of Newton's method on the smooth laws; alpha: its length */
-static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal *alpha, PetscBool *solved)
+static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal *alpha,
+  PetscBool *solved)
 {
   const PetscReal rtol = 1e-6;
   PetscReal      *dw;
@@ -146,8 +152,7 @@ static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, Ter
 /* The next m and e: the less of the present ones the longer the last step was */
 static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal alpha)
 {
-  const PetscReal fraction = alpha > 0.9 ? 0.1 : alpha > 0.3 ? 0.3
-                                                             : 0.7;
+  const PetscReal fraction = alpha > 0.9 ? 0.1 : alpha > 0.3 ? 0.3 : 0.7;
   PetscReal       force    = 0.0;
 
   path->product = 0.0;
@@ -160,7 +165,8 @@ static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, Term
   path->e = path->m / force;
 }
 
-/* f, v and y at the end of the path, with what is closed there; *followed is false where it has none. *steps: systems solved are added. */
+/* f, v and y at the end of the path, with what is closed there; *followed is false where it has none. *steps: systems
+   solved are added. */
 PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *followed)
 {
   const PetscInt  limit = 100;
@@ -178,7 +184,8 @@ PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscI
     PetscCall(TermPathStep(set, s, &path, &alpha, followed));
     (*steps)++;
   }
-  for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(set->takes[i] && s->lambda[i] * set->system.gives[i] > path.w[i]);
+  for (PetscInt i = 0; i < set->m; i++)
+    set->closed[i] = (PetscBool)(set->takes[i] && s->lambda[i] * set->system.gives[i] > path.w[i]);
   PetscCall(IPTermLawsRenew(set, s));
   PetscCall(PetscFree(path.w));
   PetscFunctionReturn(0);

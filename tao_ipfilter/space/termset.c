@@ -1,8 +1,8 @@
 /*
-   The laws of termlaws.c by a semi-smooth Newton method (Alart and Curnier, A mixed formulation for frictional contact
-   problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set algorithm for three-dimensional
-   contact problems with Coulomb friction, 2008): rows are open or closed, terms stick, v_t = 0, or slip, tau = b d with d along tau - rho v_t. The
-   systems are not symmetric: termsystem.c.
+   The laws of termlaws.c by a semi-smooth Newton method (Alart and Curnier, A mixed formulation for frictional
+   contact problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active
+   set algorithm for three-dimensional contact problems with Coulomb friction, 2008): rows are open or closed, terms
+   stick, v_t = 0, or slip, tau = b d with d along tau - rho v_t. The systems are not symmetric: termsystem.c.
 */
 #include "../ipfilterimpl.h"
 
@@ -21,7 +21,8 @@ static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   return changed;
 }
 
-/* The bound of a term; where its constraint has just closed, by the force that opens it again were nothing else to move */
+/* The bound of a term; where its constraint has just closed, by the force that opens it again were nothing else to
+   move */
 static PetscReal TermSetForeseeBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal gives = i < set->m ? set->system.gives[i] : 0.0;
@@ -62,7 +63,8 @@ static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
   }
 }
 
-/* The equations of the rows that take part, lengths: v of closed and sticking rows, (tau - bound d) / rho of slipping ones; largest: of all */
+/* The equations of the rows that take part, lengths: v of closed and sticking rows, (tau - bound d) / rho of slipping
+   ones; largest: of all */
 static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal largest = 0.0;
@@ -91,8 +93,8 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   The derivative of a row's equation by the v of all rows and by f: coefficients by_v of the two rows of the term, by_f of its two forces and
-   of its constraint's. A closed or sticking row has by_v = 1 at itself.
+   The derivative of a row's equation by the v of all rows and by f: coefficients by_v of the two rows of the term,
+   by_f of its two forces and of its constraint's. A closed or sticking row has by_v = 1 at itself.
 */
 static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], PetscReal by_f[2], PetscReal *by_lambda)
 {
@@ -106,19 +108,21 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
     const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b], across = one - way[a] * way[b];
 
     by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
-    by_v[b] = set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive; /* a dead direction is across the way */
+    by_v[b] =
+      set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive; /* a dead direction is across the way */
   }
   if (i >= 0 && set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
 }
 
-/* One row of the system, its diagonal raised by as little as makes dependent rows no obstacle. Rows of terms depend on one another wherever some of what they
-   touch is held: their residuals, to which the diagonal adds nothing, are what counts. A row that takes no part leaves its force as it is. */
+/* One row of the system, its diagonal raised by as little as makes dependent rows no obstacle. Rows of terms depend
+   on one another wherever some of what they touch is held: their residuals, to which the diagonal adds nothing, are
+   what counts. A row that takes no part leaves its force as it is. */
 static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
 {
   const PetscReal shift = 1e-13, terms = 1e-9, gives = IPTermLawsGiveWay(set, row);
   PetscInt        a = 0, n = 0, columns[3];
-  const PetscInt  i       = IPTermLawsOfRow(set, row, &a);
-  PetscReal       by_v[3] = {0.0, 0.0, 0.0}, by_f[3] = {0.0, 0.0, 0.0}, scale = i < 0 ? 1.0 : PetscSqrtReal(set->rho[i]);
+  const PetscInt  i = IPTermLawsOfRow(set, row, &a);
+  PetscReal by_v[3] = {0.0, 0.0, 0.0}, by_f[3] = {0.0, 0.0, 0.0}, scale = i < 0 ? 1.0 : PetscSqrtReal(set->rho[i]);
 
   PetscFunctionBegin;
   if (i < 0 && gives > 0.0) scale = 1.0 / PetscSqrtReal(gives);
@@ -156,9 +160,10 @@ static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], Pets
   for (PetscInt i = 0; i < n; i++) x[i] = x0[i] + alpha * (x[i] - x0[i]);
 }
 
-/* Back along the last step, from where f, v and y were and the directions off by `directions`, to the point on it with the least energy of what laws and directions
-   are off by: v is linear */
-static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[], const PetscReal y[], PetscReal directions)
+/* Back along the last step, from where f, v and y were and the directions off by `directions`, to the point on it
+   with the least energy of what laws and directions are off by: v is linear */
+static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[],
+  const PetscReal y[], PetscReal directions)
 {
   const PetscInt halvings = 8;
   PetscReal      least = IPTermLawsMerit(set, s), best = 1.0, alpha = 1.0, *trial;
@@ -226,8 +231,10 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
-/* Newton's method in so many steps; *steps: systems solved are added. *first: what laws and directions were off by in the beginning, negative: it is now. */
-static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first, PetscInt *steps, PetscBool *solved)
+/* Newton's method in so many steps; *steps: systems solved are added. *first: what laws and directions were off by in
+   the beginning, negative: it is now. */
+static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first,
+  PetscInt *steps, PetscBool *solved)
 {
   const PetscInt  cycles = 25;
   const PetscReal exact = 1e-12, rounding = 1e-9, enough = 1e-3, coarse = 1e-1, fine = 1e-10;
@@ -243,7 +250,9 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
     PetscCall(IPTermLawsResidualOfDirections(set, s));
     norm    = TermSetNorm(set, s);
     *solved = (PetscBool)(k > 0 && !changed && norm <= enough * *first);
-    if (k > 0 && (largest <= exact * set->length || (largest <= rounding * set->length && largest > 0.5 * before)) && norm <= 0.1 * *first) *solved = PETSC_TRUE;
+    if (k > 0 && (largest <= exact * set->length || (largest <= rounding * set->length && largest > 0.5 * before)) &&
+        norm <= 0.1 * *first)
+      *solved = PETSC_TRUE;
     if (*solved) PetscFunctionReturn(0);
     if (*first < 0.0) *first = norm;
     before = largest;
@@ -256,9 +265,9 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
   PetscFunctionReturn(0);
 }
 
-/* f (in s->lambda), v (in s->gap) and y, from the last ones, to a small part of what the laws and the directions are off by there, as the directions to come
-   leave much more; *steps: systems solved; *solved is false where Newton's method has no end. Where v and f are right but for rounding, it does not matter
-   what rounding takes them for. */
+/* f (in s->lambda), v (in s->gap) and y, from the last ones, to a small part of what the laws and the directions are
+   off by there, as the directions to come leave much more; *steps: systems solved; *solved is false where Newton's
+   method has no end. Where v and f are right but for rounding, it does not matter what rounding takes them for. */
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
 {
   const PetscInt soon = 40, limit = 100;

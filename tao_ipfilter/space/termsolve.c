@@ -9,7 +9,8 @@ typedef struct {
 } TermSolveShell;
 
 /* a += factor RZ y, and b += RZ^T f, each where it is wanted */
-static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor, const PetscReal y[], PetscReal a[], const PetscReal f[], PetscReal b[])
+static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor, const PetscReal y[], PetscReal a[],
+  const PetscReal f[], PetscReal b[])
 {
   const PetscReal one = 1.0;
   PetscBLASInt    m, k, inc = 1;
@@ -43,7 +44,8 @@ static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
   for (PetscInt i = 0; i < t->m; i++) t->f[i] = t->scale[i] * PetscRealPart(x[i]);
   PetscCall(IPTermSystemApplyCompliance(t, t->f, t->v));
   PetscCall(TermSolveCouple(solve->s, -1.0, x + t->m, t->v, NULL, NULL));
-  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, solve->s->T, &kmax, x + t->m, &inc, &zero, b + t->m, &inc));
+  if (k)
+    PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, solve->s->T, &kmax, x + t->m, &inc, &zero, b + t->m, &inc));
   PetscCall(TermSolveCouple(solve->s, 1.0, NULL, NULL, t->f, b + t->m));
   PetscCall(VecPlaceArray(t->r, t->v));
   PetscCall(VecPlaceArray(t->z, b));
@@ -113,7 +115,8 @@ static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, 
 }
 
 /* x: the solution of the system with b on the right, from x on, by the factors there are */
-static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, PetscInt limit, Vec b, Vec x, PetscInt *its, PetscBool *converged)
+static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, PetscInt limit, Vec b, Vec x,
+  PetscInt *its, PetscBool *converged)
 {
   KSPConvergedReason reason;
   KSP                ksp;
@@ -130,7 +133,8 @@ static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, Pe
 }
 
 /* b = (r_f, r_y), or back, with the rows' scale */
-static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, PetscReal rf[], PetscReal ry[], PetscBool back)
+static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, PetscReal rf[], PetscReal ry[],
+  PetscBool back)
 {
   PetscScalar *a;
 
@@ -146,9 +150,11 @@ static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, Pe
   PetscFunctionReturn(0);
 }
 
-/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors serve while they are not much slower than they were when new: soft bodies
-   leave GMRES 20 to 30 iterations with any. Before the end of so many there are new ones. */
-static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool keep, PetscBool *converged)
+/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors serve while they
+   are not much slower than they were when new: soft bodies leave GMRES 20 to 30 iterations with any. Before the end
+   of so many there are new ones. */
+static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[],
+  PetscBool keep, PetscBool *converged)
 {
   IPTermSystem  *t   = solve->system;
   const PetscInt old = PetscMax(20, 2 * t->fresh), slow = PetscMax(12, t->fresh + t->fresh / 2), limit = 120;
@@ -176,8 +182,10 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution to a relative residual, or what GMRES has made of it where there is no room for dense factors; *solved is false where there is none */
-PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[], PetscBool *solved)
+/* Overwrites r_f and r_y with the solution to a relative residual, or what GMRES has made of it where there is no
+   room for dense factors; *solved is false where there is none */
+PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved)
 {
   const PetscBool dense = IPTermDenseFits(t);
   TermSolveShell  solve = {.system = t, .s = s};

@@ -3,7 +3,8 @@
 
      (B_v C + B_f) f - B_v RZ y = r_f,   RZ^T f + T y = r_y,   C = R K_WW^-1 R^T,
 
-   B_v and B_f made of blocks of a constraint and its term; K_WW is factored, and C is applied. Solved in termsolve.c, with the preconditioner of termfactor.c.
+   B_v and B_f made of blocks of a constraint and its term; K_WW is factored, and C is applied. Solved in termsolve.c,
+   with the preconditioner of termfactor.c.
 */
 #include "../ipfilterimpl.h"
 
@@ -93,7 +94,8 @@ static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* Of sequential K_WW and R, the rows of m constraints and below them two a term, n terms; with room for so many directions */
+/* Of sequential K_WW and R, the rows of m constraints and below them two a term, n terms; with room for so many
+   directions */
 PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R)
 {
   PetscFunctionBegin;
@@ -108,7 +110,8 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscCall(VecDuplicate(t->r, &t->z));
   PetscCall(VecDuplicate(t->r, &t->S));
   PetscCall(PetscMalloc4(t->m, &t->gives, t->m, &t->scale, t->m, &t->f, t->m, &t->v));
-  PetscCall(PetscMalloc4((size_t)t->m * (size_t)kmax, &t->V, kmax * kmax, &t->ZV, kmax * kmax, &t->H, kmax, &t->pivots));
+  PetscCall(
+    PetscMalloc4((size_t)t->m * (size_t)kmax, &t->V, kmax * kmax, &t->ZV, kmax * kmax, &t->H, kmax, &t->pivots));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bf));
   PetscCall(TermSystemMakeRows(t));
@@ -117,7 +120,8 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
 }
 
 /* Coefficients of one row: of v and of f, at the rows of its constraint and its term, n <= 3 */
-PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[], const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
+PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[],
+  const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
 {
   PetscFunctionBegin;
   PetscCall(MatSetValues(t->Bv, 1, &row, n, columns, by_v, INSERT_VALUES));

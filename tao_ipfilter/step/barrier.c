@@ -23,8 +23,9 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
    to the percents that the linear solves aim at: pairs, not forces, follow mu. */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
-  const IPKKT    *k     = &ip->kkt;
-  const PetscReal limit = ip->opt.kappa_epsilon * mu, balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
+  const IPKKT    *k       = &ip->kkt;
+  const PetscReal limit   = ip->opt.kappa_epsilon * mu,
+                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
 
   return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
 }
@@ -38,7 +39,8 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
-    const PetscReal next = PetscMax(IPWorthLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+    const PetscReal next =
+      PetscMax(IPWorthLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -88,8 +90,8 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no model foresaw has made of them: no more than a few times
-   those of the start */
+/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no
+   model foresaw has made of them: no more than a few times those of the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -113,9 +115,9 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives and linear
-   constraints, whose affine step tells what mu can become: it is left for the monotone one where they show themselves as
-   something else, and while the KKT error does not fall. */
+/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives
+   and linear constraints, whose affine step tells what mu can become: it is left for the monotone one where they show
+   themselves as something else, and while the KKT error does not fall. */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,8 +1,9 @@
-/* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough curvature. */
+/* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough
+   curvature. */
 #include "../ipfilterimpl.h"
 
-/* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than d^T |diag(H)| d, in
-   which an unknown of another unit counts no more than the others do. */
+/* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than
+   d^T |diag(H)| d, in which an unknown of another unit counts no more than the others do. */
 static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -83,9 +84,9 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
   PetscFunctionReturn(0);
 }
 
-/* d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the unknowns and D on the
-   slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A step that rounding makes of x has no
-   curvature to speak of. */
+/* d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the
+   unknowns and D on the slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A
+   step that rounding makes of x has no curvature to speak of. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -102,7 +103,9 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
   if (ip->mi) PetscCall(CurvatureAddSlacks(tao, &curvature, &square));
   if (ip->me) PetscCall(CurvatureAddEqualities(tao, &curvature));
   *passes = (PetscBool)(curvature >= kappa * square);
-  if (!*passes) PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature, (double)(kappa * square)));
+  if (!*passes)
+    PetscCall(PetscInfo(tao, "Curvature %g of the direction is below %g; regularizing\n", (double)curvature,
+      (double)(kappa * square)));
   PetscFunctionReturn(0);
 }
 
@@ -123,12 +126,14 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
     largest = PetscMax(largest, product);
     total += sum;
   }
-  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product && IPWorthWithin(ip, total));
+  *finish =
+    (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product && IPWorthWithin(ip, total));
   PetscFunctionReturn(0);
 }
 
-/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no less than last. With bounds
-   alone also a few percent of b: those forces may be small against what the start had, and no direction at all would do. */
+/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no
+   less than last. With bounds alone also a few percent of b: those forces may be small against what the start had,
+   and no direction at all would do. */
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
   PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
@@ -138,7 +143,8 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal
 }
 
 /* dx, and the direction of the equality constraints' multipliers, by whatever solves for them */
-static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target, PetscBool *usable)
+static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target,
+  PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -175,7 +181,8 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
     PetscCall(IPWorthForceUnitAfter(tao, ip->dir.x, &last));
     last *= factor;
   }
-  if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last) PetscCall(DirectionWouldFinish(tao, &finish));
+  if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last)
+    PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {
     PetscCall(DirectionSolveUnknowns(tao, rhs, ce, PETSC_FALSE, last, usable));
     if (*usable) PetscCall(IPBackSubstitute(tao, rc));
@@ -214,8 +221,8 @@ static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
 }
 
-/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and the
-   guess of the direction proper. */
+/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and
+   the guess of the direction proper. */
 static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

@@ -1,8 +1,8 @@
 /* A step of the problem without its bounds, from which a start between them is predicted. */
 #include "../ipfilterimpl.h"
 
-/* The step, to a tenth of its residual; of no use where the Hessian is not convex along it, or has no positive diagonal that an AMG could be
-   built from */
+/* The step, to a tenth of its residual; of no use where the Hessian is not convex along it, or has no positive
+   diagonal that an AMG could be built from */
 static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -32,7 +32,8 @@ static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The trial point after the step, which leaves a margin to the bounds, but for no more than a part of the distance between two */
+/* The trial point after the step, which leaves a margin to the bounds, but for no more than a part of the distance
+   between two */
 static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -49,7 +50,8 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
     if (v[k]) PetscCall(VecGetArrayRead(v[k], &b[k]));
   PetscCall(VecGetArray(ip->trial.x, &x));
   for (PetscInt i = 0; i < n; i++) {
-    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY, u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
+    const PetscReal l = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY,
+                    u = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
     const PetscReal m = PetscMin(margin, part * (u - l));
 
     if (l > PETSC_NINFINITY) x[i] = PetscMax(PetscRealPart(x[i]), l + m);
@@ -73,7 +75,8 @@ static PetscErrorCode FreeMeasure(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the step, if that lowers the objective; *energy is the mean size of the step times that of the gradient there, per unknown */
+/* Moves x along the step, if that lowers the objective; *energy is the mean size of the step times that of the
+   gradient there, per unknown */
 PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -92,7 +95,8 @@ PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
   PetscCall(FreeTrial(tao, margin * step));
   PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
   *moved = (PetscBool)(!IPUndefined(ip->trial.f) && ip->trial.f < ip->at.f);
-  PetscCall(PetscInfo(tao, "Step without bounds: mean size %g, objective from %g to %g\n", (double)step, (double)ip->at.f, (double)ip->trial.f));
+  PetscCall(PetscInfo(tao, "Step without bounds: mean size %g, objective from %g to %g\n", (double)step,
+    (double)ip->at.f, (double)ip->trial.f));
   if (!*moved) PetscFunctionReturn(0);
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));

@@ -4,8 +4,8 @@
 */
 #include "../ipfilterimpl.h"
 
-/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the domain of
-   the objective nothing else is evaluated. */
+/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the
+   domain of the objective nothing else is evaluated. */
 static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -29,7 +29,8 @@ static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, Pe
 static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
 {
   if (slope >= 0.0) return PETSC_FALSE;
-  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) > ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
+  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) >
+                     ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
 }
 
 /* Violation that theta's limits are fractions and multiples of */
@@ -42,14 +43,18 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = &ip->search;
-  const PetscReal trace = 1e-10, worth = 1e-2, factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
+  const PetscReal trace = 1e-10, worth = 1e-2,
+                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
 
-  return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
+  return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY
+                                            : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
 }
 
-/* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching condition promises, or that
-   there is no violation that could fall instead: the iterate left behind then stays out of the filter (equations (18) to (20) there) */
-static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi, PetscBool *accepted, PetscBool *objective)
+/* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching
+   condition promises, or that there is no violation that could fall instead: the iterate left behind then stays out
+   of the filter (equations (18) to (20) there) */
+static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi,
+  PetscBool *accepted, PetscBool *objective)
 {
   TAO_IPFILTER    *ip     = (TAO_IPFILTER *)tao->data;
   IPSearch        *search = &ip->search;
@@ -64,7 +69,10 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
   *objective = (PetscBool)(alone || (switches && armijo));
   if (theta > opt->theta_max_fact * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
   else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
-  else *accepted = (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta || change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
+  else
+    *accepted =
+      (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta ||
+                  change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
   descends = *accepted;
   if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
   if (!*accepted) search->blocked = descends;
@@ -78,12 +86,14 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
   PetscReal       least = ip->opt.gamma_theta;
 
   if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
-  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip)) least = PetscMin(least, ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
+  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip))
+    least = PetscMin(least,
+      ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
   return PetscMax(ip->opt.gamma_alpha * least, 1e-12);
 }
 
-/* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own step. A slack so
-   small that J^T D J would drown the Hessian in rounding is lifted, by next to nothing. */
+/* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own
+   step. A slack so small that J^T D J would drown the Hessian in rounding is lifted, by next to nothing. */
 static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -101,7 +111,8 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   if (ip->mi) {
     PetscCall(VecAXPY(ip->at.lambda, alpha, ip->dir.lambda));
     PetscCall(VecMin(ip->at.s, NULL, &ip->relax.least_slack));
-    if (ip->opt.scaling == IP_SCALING_PROBLEM) PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiff.rho, ip->scale.length, IP_LEAST_SLACK));
+    if (ip->opt.scaling == IP_SCALING_PROBLEM)
+      PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiff.rho, ip->scale.length, IP_LEAST_SLACK));
   }
   if (ip->me) PetscCall(VecAXPY(ip->at.y, alpha, ip->dir.y));
   ip->search.alpha      = alpha;
@@ -109,8 +120,8 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   PetscFunctionReturn(0);
 }
 
-/* Whether residuals of the constraints at the trial point are other than the 1 - alpha times the present ones that linear
-   constraints leave */
+/* Whether residuals of the constraints at the trial point are other than the 1 - alpha times the present ones that
+   linear constraints leave */
 static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -152,9 +163,10 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
   PetscFunctionReturn(0);
 }
 
-/* The corrections proper: the residuals rc and ce of the first trial point, and then of each correction's, with those of the iterate they
-   were made from, give another direction */
-static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau, Vec rc, Vec ce, PetscBool *ok)
+/* The corrections proper: the residuals rc and ce of the first trial point, and then of each correction's, with those
+   of the iterate they were made from, give another direction */
+static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
+  Vec rc, Vec ce, PetscBool *ok)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   PetscReal     step = alpha, last = theta;
@@ -184,9 +196,10 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
   PetscFunctionReturn(0);
 }
 
-/* Second-order correction (section 2.4 there), where the first trial point violates the constraints more than the iterate. The
-   direction is as it was where no correction is accepted. */
-static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau, PetscBool *ok)
+/* Second-order correction (section 2.4 there), where the first trial point violates the constraints more than the
+   iterate. The direction is as it was where no correction is accepted. */
+static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
+  PetscBool *ok)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPDirection   first = {.norm = 0.0};
@@ -214,8 +227,9 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Steps that descend, and that the filter alone shortens several times in a row, creep along what iterates of another valley have left in it: it is cleared then, a few times
-   a solve (IPOPT's filter_reset_trigger and max_filter_resets) */
+/* Steps that descend, and that the filter alone shortens several times in a row, creep along what iterates of another
+   valley have left in it: it is cleared then, a few times a solve (IPOPT's filter_reset_trigger and
+   max_filter_resets) */
 static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 {
   const PetscInt patience = 5, limit = 5;

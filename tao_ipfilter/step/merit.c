@@ -1,4 +1,5 @@
-/* What the line search weighs against each other: theta, the violation of the constraints, and phi, the barrier function. */
+/* What the line search weighs against each other: theta, the violation of the constraints, and phi, the barrier
+   function. */
 #include "../ipfilterimpl.h"
 
 /* theta: c - s in the norm of the weights and c_E, both per unit of their references */
@@ -123,6 +124,7 @@ PetscErrorCode IPMeritFilterAdd(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->opt.gamma_theta) * ip->search.theta, ip->search.phi - ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta));
+  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->opt.gamma_theta) * ip->search.theta,
+    ip->search.phi - ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta));
   PetscFunctionReturn(0);
 }

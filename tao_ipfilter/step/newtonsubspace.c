@@ -1,13 +1,14 @@
 /*
-   Newton's method on the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic, as the energy of bodies
-   at finite strain. At each iterate the model
+   Newton's method on the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
+   as the energy of bodies at finite strain. At each iterate the model
 
      min 1/2 d^T H d + grad f^T d,  c_I + J d >= 0
 
-   is solved on V as filteredsubspace.c solves a quadratic program, to a fraction of the residual. d is the model's minimizer on V, with multipliers
-   M lambda, so that grad f^T d = -d^T H d - lambda^T M c_I: a direction of descent for f + nu sum m max(-c_I, 0) with nu beyond the multipliers,
-   however few directions V has. c_I being linear, d leads from feasible points to feasible ones, at any length up to 1. V outlives
-   the step: with another H only the products H P are made anew.
+   is solved on V as filteredsubspace.c solves a quadratic program, to a fraction of the residual. d is the model's
+   minimizer on V, with multipliers M lambda, so that grad f^T d = -d^T H d - lambda^T M c_I: a direction of descent
+   for f + nu sum m max(-c_I, 0) with nu beyond the multipliers, however few directions V has. c_I being linear, d
+   leads from feasible points to feasible ones, at any length up to 1. V outlives the step: with another H only the
+   products H P are made anew.
 */
 #include "../ipfilterimpl.h"
 
@@ -71,8 +72,8 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPKept *kept, Vec d, Vec r, Pe
   PetscFunctionReturn(0);
 }
 
-/* Solves the model until its residual is within the target, or no direction is added to those that have halved the present one; *solved is false
-   where it has no minimum */
+/* Solves the model until its residual is within the target, or no direction is added to those that have halved the
+   present one; *solved is false where it has no minimum */
 static PetscErrorCode NewtonSolveModel(Tao tao, IPKept *kept, PetscReal target, Vec d, Vec force, PetscBool *solved)
 {
   const PetscReal enough = 0.5 * ((TAO_IPFILTER *)tao->data)->kkt.dual_norm;
@@ -155,8 +156,9 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionReturn(0);
 }
 
-/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers included, and without the violation that the model has in
-   proportion to the step; *ok is false where it does not, or the model is not convex along d */
+/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers
+   included, and without the violation that the model has in proportion to the step; *ok is false where it does not,
+   or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -187,7 +189,8 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(NewtonViolation(tao, ip->trial.c, &rest));
     PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] <= ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
+    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] <=
+                      ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
   }
   PetscFunctionReturn(0);
 }
@@ -212,8 +215,8 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* The residual that the model's solution may have: a fraction of the present one, the smaller the closer the end is, as Newton's method then leaves
-   less; no less than convergence asks for */
+/* The residual that the model's solution may have: a fraction of the present one, the smaller the closer the end is,
+   as Newton's method then leaves less; no less than convergence asks for */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
 {
   const PetscReal largest = 0.1, smallest = 1e-3;
@@ -241,8 +244,8 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The step d of the present point's model, whose Hessian is shifted until it is convex; *found is false where no small shift helps. At the first
-   point the model is there already. */
+/* The step d of the present point's model, whose Hessian is shifted until it is convex; *found is false where no
+   small shift helps. At the first point the model is there already. */
 static PetscErrorCode NewtonFindStep(Tao tao, IPKept *kept, Vec d, Vec force, PetscBool *found)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,5 @@
-/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the violations v. */
+/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the
+   violations v. */
 #include "../ipfilterimpl.h"
 
 /* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = -rho v */
@@ -77,8 +78,8 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of no use
-   along a direction in which it is not convex */
+/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of
+   no use along a direction in which it is not convex */
 static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -127,7 +128,8 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic program always */
+/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic
+   program always */
 static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -152,13 +154,15 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscCall(VecAXPY(r, -1.0, ip->trial.c));
   PetscCall(VecNorm(r, NORM_2, &error));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
-  *hold = (PetscBool)(error <= tolerance * change && PetscAbsReal(ip->at.f + f - ip->trial.f) <= tolerance * (alpha * PetscAbsScalar(gd) + alpha * alpha * PetscAbsScalar(dHd)));
+  *hold = (PetscBool)(error <= tolerance * change &&
+                      PetscAbsReal(ip->at.f + f - ip->trial.f) <=
+                        tolerance * (alpha * PetscAbsScalar(gd) + alpha * alpha * PetscAbsScalar(dHd)));
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the penalized
-   objective; *moved is false where it does not, where the problem's models do not reach so far, or where equality constraints
-   stand against it */
+/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the
+   penalized objective; *moved is false where it does not, where the problem's models do not reach so far, or where
+   equality constraints stand against it */
 PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

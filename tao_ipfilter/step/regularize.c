@@ -1,13 +1,15 @@
 /*
-   Inertia-free regularization (Chiang and Zavala 2016): the direction must show enough curvature and the Krylov method must not meet a
-   negative one, else delta M_u is added to the Hessian and grows.
+   Inertia-free regularization (Chiang and Zavala 2016): the direction must show enough curvature and the Krylov
+   method must not meet a negative one, else delta M_u is added to the Hessian and grows.
 */
 #include "../ipfilterimpl.h"
 
 /* First delta after none: the last one shrunk; else grown, faster while none has worked yet */
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
 {
-  if (ip->shift.delta == 0.0) return ip->shift.last > 0.0 ? PetscMax(ip->opt.delta_shrink * ip->shift.last, PETSC_MACHINE_EPSILON * unit) : ip->opt.delta_first * unit;
+  if (ip->shift.delta == 0.0)
+    return ip->shift.last > 0.0 ? PetscMax(ip->opt.delta_shrink * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
+                                : ip->opt.delta_first * unit;
   return (ip->shift.last > 0.0 ? ip->opt.delta_grow : ip->opt.delta_grow_first) * ip->shift.delta;
 }
 
@@ -52,9 +54,9 @@ void IPRegularized(TAO_IPFILTER *ip)
   ip->bar.curved = PETSC_TRUE;
 }
 
-/* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing to solve
-   there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A matrix with an entry that is
-   not a number is a failure. */
+/* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing
+   to solve there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A
+   matrix with an entry that is not a number is a failure. */
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -75,7 +77,8 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 
 /* Solves with delta raised, from first times its unit on, until the caller's solve calls its solution usable, and tells
    whether that was reached. A solver that fails is not helped by a larger delta. */
-PetscErrorCode IPRegularize(Tao tao, PetscReal first, PetscErrorCode (*assemble)(Tao), PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
+PetscErrorCode IPRegularize(Tao tao, PetscReal          first, PetscErrorCode (*assemble)(Tao),
+  PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   PetscReal     unit = 1.0, least = PETSC_NINFINITY;

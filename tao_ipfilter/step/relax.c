@@ -1,7 +1,8 @@
 /*
-   Constraints without an interior, as x >= 0, y >= 0, -x y >= 0 are: no central path leads to their solutions, and slacks vanish
-   before mu does. All inequality constraints are then relaxed, to c_I + r >= 0 with r a hundredth of the tolerance times their
-   size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by more).
+   Constraints without an interior, as x >= 0, y >= 0, -x y >= 0 are: no central path leads to their solutions, and
+   slacks vanish before mu does. All inequality constraints are then relaxed, to c_I + r >= 0 with r a hundredth of
+   the tolerance times their size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by
+   more).
 */
 #include "../ipfilterimpl.h"
 
@@ -29,19 +30,20 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->relax.least_slack <= IP_LEAST_SLACK * ip->scale.length);
 }
 
-/* The same, or its multiplier on the central path of a mu that does not fall is so much larger than what balances the objective's
-   gradient that no slack of a constraint with an interior would be so small. Far from feasible points that happens on the way. Without
-   scales nothing says what balances. */
+/* The same, or its multiplier on the central path of a mu that does not fall is so much larger than what balances the
+   objective's gradient that no slack of a constraint with an interior would be so small. Far from feasible points
+   that happens on the way. Without scales nothing says what balances. */
 static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
 {
   const PetscReal met = 1e-4;
 
   if (ip->opt.scaling == IP_SCALING_NONE) return RelaxRounding(ip);
-  return (PetscBool)(RelaxRounding(ip) || (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
+  return (PetscBool)(RelaxRounding(ip) ||
+                     (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
 }
 
-/* Relaxes the constraints by a fraction of the tolerance times their size, which is taken when they are relaxed first. mu becomes no
-   more than what the width that they have now admits at large multipliers. */
+/* Relaxes the constraints by a fraction of the tolerance times their size, which is taken when they are relaxed
+   first. mu becomes no more than what the width that they have now admits at large multipliers. */
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -53,7 +55,8 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   if (!ip->relax.times) ip->relax.size = PetscMax(size, ip->first.length);
   ip->relax.times++;
   ip->relax.by = fraction * ip->tol * ip->relax.size;
-  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack, (double)ip->relax.by));
+  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack,
+    (double)ip->relax.by));
   ip->mu = PetscMax(IPWorthLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * ip->relax.by * ip->scale.balance));
   PetscCall(RelaxCenter(tao, ip->relax.by - before));
   PetscCall(IPFilterSetReset(&ip->filter));

@@ -3,17 +3,19 @@
 
      psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), beyond an upper side c_I,i - range,
 
-   each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to bounds. The Hessian as
-   metric lets an elastic body follow its surface. Its matrix is the condensed one with D = m/zeta in the violated rows, and
-   the augmented one with delta = zeta/w^2, so that the solvers of the iteration proper serve here too.
+   each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to
+   bounds. The Hessian as metric lets an elastic body follow its surface. Its matrix is the condensed one with D =
+   m/zeta in the violated rows, and the augmented one with delta = zeta/w^2, so that the solvers of the iteration
+   proper serve here too.
 */
 #include "../ipfilterimpl.h"
 
-#define IP_RESTORE_MAX     200  /* steps */
-#define IP_RESTORE_METRIC  0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
-#define IP_RESTORE_SMALL   1e-3 /* relative gradient of a violation that may be a minimum */
-#define IP_RESTORE_DROWNED 1e8  /* growth of the Hessian, by multipliers, that leaves nothing of the objective's to steps */
-#define IP_RESTORE_LEAST   1e-6 /* of one that is, if it does not fall */
+#define IP_RESTORE_MAX    200  /* steps */
+#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
+#define IP_RESTORE_DROWNED \
+  1e8 /* growth of the Hessian, by multipliers, that leaves nothing of the objective's to steps */
+#define IP_RESTORE_LEAST 1e-6 /* of one that is, if it does not fall */
 
 /* psi at the point of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
@@ -130,8 +132,9 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not. The next step's model gets more of the metric the
-   worse this one was, and less where a whole step gains as much as the model promises at least, but for a fraction: half of the slope */
+/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not. The next step's
+   model gets more of the metric the worse this one was, and less where a whole step gains as much as the model
+   promises at least, but for a fraction: half of the slope */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -173,8 +176,8 @@ static PetscErrorCode RestoreTakeTrial(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path, but no further from the
-   constraint's value than a violation well below theta0 allows */
+/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path, but
+   no further from the constraint's value than a violation well below theta0 allows */
 static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -204,7 +207,8 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
   PetscFunctionReturn(0);
 }
 
-/* Whether the filter accepts the present x with slacks that belong to it, at clearly less violation than at the start */
+/* Whether the filter accepts the present x with slacks that belong to it, at clearly less violation than at the start
+ */
 static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accepted)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -293,7 +297,8 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the entries of psi's gradient whose descent a bound stops so soon that psi changes by no more than the given limit */
+/* Zeroes the entries of psi's gradient whose descent a bound stops so soon that psi changes by no more than the given
+   limit */
 static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal max_change)
 {
   const PetscScalar *t;
@@ -312,8 +317,8 @@ static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal ma
   PetscFunctionReturn(0);
 }
 
-/* |J^T r| / (|J| |r|), without what bounds stop, with the constraints' gradients J at the start of the restoration: 0 where psi is
-   stationary */
+/* |J^T r| / (|J| |r|), without what bounds stop, with the constraints' gradients J at the start of the restoration: 0
+   where psi is stationary */
 static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -332,7 +337,8 @@ static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* |J| in the weights of psi, here or at the start of the solve: where it vanishes, its gradients are no measure of themselves */
+/* |J| in the weights of psi, here or at the start of the solve: where it vanishes, its gradients are no measure of
+   themselves */
 static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -369,9 +375,10 @@ static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before it. *descent is false
-   where the bounds' barrier turns the step away from less violation. */
-static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient, PetscBool *descent)
+/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before
+   it. *descent is false where the bounds' barrier turns the step away from less violation. */
+static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient,
+  PetscBool *descent)
 {
   const PetscReal stationary = 1e-12;
   PetscBool       usable     = PETSC_FALSE;
@@ -391,9 +398,10 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Steps until the filter accepts the point, or the violation falls no longer: its relative gradient, which may fall for longer, then is
-   *gradient at least */
-static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck, PetscReal *least)
+/* Steps until the filter accepts the point, or the violation falls no longer: its relative gradient, which may fall
+   for longer, then is *gradient at least */
+static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck,
+  PetscReal *least)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
   const PetscReal no_change = 1e-8, falling = 0.9;
@@ -410,7 +418,8 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
     PetscBool       descent = PETSC_TRUE, falls;
 
     PetscCall(RestoreStep(tao, size, psi, &alpha, &gradient, &descent));
-    PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k, (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore.zeta));
+    PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k,
+      (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore.zeta));
     falls = (PetscBool)(*psi < (1.0 - no_change) * before);
     if (falls) {
       idle   = 0;
@@ -428,8 +437,9 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 }
 
 /*
-  Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then tells whether
-  because the violation has a minimum that is not zero: it falls no longer, and its gradient is small but for what bounds stop.
+  Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then
+  tells whether because the violation has a minimum that is not zero: it falls no longer, and its gradient is small
+  but for what bounds stop.
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
@@ -447,7 +457,8 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
   PetscCall(RestoreAccepts(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore.D));
-  *infeasible = (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search.theta_ref);
+  *infeasible =
+    (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search.theta_ref);
   PetscCall(IPBoundsCenter(tao));
   if (*ok) PetscCall(RestoreLeave(tao));
   PetscFunctionReturn(0);

@@ -54,7 +54,8 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Without a penalty step, or an objective that resists one, the stiffness is that of multipliers which balance the gradient, over the constraints' mean value */
+/* Without a penalty step, or an objective that resists one, the stiffness is that of multipliers which balance the
+   gradient, over the constraints' mean value */
 static PetscErrorCode GradientStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -68,12 +69,13 @@ static PetscErrorCode GradientStiffness(Tao tao)
   PetscCall(VecNorm(force, NORM_2, &transmitted));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
   PetscCall(MeanMagnitude(tao, ip->at.c, &length));
-  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0) PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
+  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0)
+    PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
   PetscFunctionReturn(0);
 }
 
-/* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and only the bounds will end it: mean per pair of
-   bounds */
+/* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and
+   only the bounds will end it: mean per pair of bounds */
 static PetscErrorCode BoundsWorth(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
@@ -105,8 +107,9 @@ static PetscErrorCode BoundsWorth(Tao tao, PetscReal *worth)
   PetscFunctionReturn(0);
 }
 
-/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure there. Constraints that
-   all happen to be active there say nothing: pairs start with a gap that is worth something beside the objective. */
+/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure
+   there. Constraints that all happen to be active there say nothing: pairs start with a gap that is worth something
+   beside the objective. */
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -154,7 +157,8 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscFunctionReturn(0);
 }
 
-/* Whether the caller's slacks and multipliers solve the problem already, or nearly so: they are kept then, with their mean product as mu */
+/* Whether the caller's slacks and multipliers solve the problem already, or nearly so: they are kept then, with their
+   mean product as mu */
 static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
@@ -231,7 +235,8 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD) PetscCall(IPFreeStep(tao, &moved, &mean));
+  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
+    PetscCall(IPFreeStep(tao, &moved, &mean));
   if (moved) ip->mu = ip->opt.mu_start * mean;
   else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));

@@ -79,7 +79,8 @@ PETSC_INTERN PetscErrorCode IPBarrierFromAffine(Tao);
 /* regularize.c */
 PETSC_INTERN PetscErrorCode IPRegularizeMore(Tao);
 PETSC_INTERN void           IPRegularized(TAO_IPFILTER *);
-PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *), PetscBool *);
+PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao), PetscErrorCode (*)(Tao, PetscBool *),
+  PetscBool *);
 
 /* direction.c */
 PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);

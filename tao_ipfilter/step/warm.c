@@ -23,7 +23,8 @@ PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
 {
   const PetscBool own = (PetscBool)(ip->me > ip->sides.nall);
 
-  return (PetscBool)(ip->me && ip->opt.start == IP_START_WARM && (!own || ip->given.warm_y) && (!ip->sides.nall || ip->given.warm_s));
+  return (PetscBool)(ip->me && ip->opt.start == IP_START_WARM && (!own || ip->given.warm_y) &&
+                     (!ip->sides.nall || ip->given.warm_s));
 }
 
 /* Those multipliers */
@@ -68,8 +69,8 @@ PetscErrorCode IPWarmMeanProduct(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Pairs whose product is next to nothing, of mu, put on the central path: z decides where it is the larger one against the stiffness of
-   the Hessian, x moves then. rho: |diagonal of H|. */
+/* Pairs whose product is next to nothing, of mu, put on the central path: z decides where it is the larger one
+   against the stiffness of the Hessian, x moves then. rho: |diagonal of H|. */
 static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBool *moved)
 {
   const PetscReal    least = 1e-2;

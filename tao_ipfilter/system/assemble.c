@@ -1,14 +1,17 @@
 /*
    The condensed matrix A = H + ... + J^T D J in memory.
 
-   A has H's type, except that it is AIJ for a dense H, and BAIJ where one process has an SBAIJ H, unless the preconditioner factors
-   SBAIJ: H then takes half the memory, while products with A and hypre work on whole rows. A's pattern is the union of H's and J^T J's and is
-   preallocated; while H is unchanged only the rows that J^T D J touches are written again, so a constant H is copied once.
+   A has H's type, except that it is AIJ for a dense H, and BAIJ where one process has an SBAIJ H, unless the
+   preconditioner factors SBAIJ: H then takes half the memory, while products with A and hypre work on whole rows. A's
+   pattern is the union of H's and J^T J's and is preallocated; while H is unchanged only the rows that J^T D J
+   touches are written again, so a constant H is copied once.
 */
 #include "../ipfilterimpl.h"
 
-/* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on */
-static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n, PetscInt cols[])
+/* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on
+ */
+static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n,
+  PetscInt cols[])
 {
   PetscFunctionBegin;
   *n           = 0;
@@ -93,7 +96,8 @@ static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij,
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &dense, MATSEQDENSE, MATMPIDENSE, ""));
   PetscCall(MatGetType(H, type));
-  PetscCheck(aij || *baij || *sbaij || dense, PetscObjectComm((PetscObject)H), PETSC_ERR_SUP, "TAOIPFILTER takes a Hessian of type AIJ, BAIJ, SBAIJ or dense, not %s", *type);
+  PetscCheck(aij || *baij || *sbaij || dense, PetscObjectComm((PetscObject)H), PETSC_ERR_SUP,
+    "TAOIPFILTER takes a Hessian of type AIJ, BAIJ, SBAIJ or dense, not %s", *type);
   if (dense) *type = MATAIJ;
   PetscFunctionReturn(0);
 }

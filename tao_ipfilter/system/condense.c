@@ -54,7 +54,8 @@ static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
   const IPRows *rows = &cond->rows;
 
   PetscFunctionBegin;
-  *changed = (PetscBool)(!cond->JtDJ || cond->J_nonzero != rows->stamp.pattern_state || cond->J_id != rows->stamp.pattern_id);
+  *changed =
+    (PetscBool)(!cond->JtDJ || cond->J_nonzero != rows->stamp.pattern_state || cond->J_id != rows->stamp.pattern_id);
   if (*changed) {
     PetscCall(MatDestroy(&cond->DJ));
     PetscCall(MatDestroy(&cond->JtDJ));
@@ -63,7 +64,8 @@ static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
     cond->J_id      = rows->stamp.pattern_id;
   } else PetscCall(MatCopy(rows->J, cond->DJ, SAME_NONZERO_PATTERN));
   PetscCall(MatDiagonalScale(cond->DJ, rows->D, NULL));
-  PetscCall(MatTransposeMatMult(rows->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, &cond->JtDJ));
+  PetscCall(MatTransposeMatMult(rows->J, cond->DJ, *changed ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT,
+    &cond->JtDJ));
   if (*changed) PetscCall(TouchedRows(cond));
   PetscFunctionReturn(0);
 }
@@ -103,7 +105,8 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
     *shifted = PETSC_TRUE;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sigma));
-  if (ip->shift.delta > 0.0 && ip->given.primal_mass) PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
+  if (ip->shift.delta > 0.0 && ip->given.primal_mass)
+    PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
   else if (ip->shift.delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift.delta));
   PetscFunctionReturn(0);
 }
@@ -131,7 +134,8 @@ static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
 /* Whether nothing is ever added to H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && ip->shift.delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n &&
+                     ip->shift.delta == 0.0);
 }
 
 /* A = H itself */
@@ -165,7 +169,8 @@ static PetscErrorCode WriteSum(Tao tao)
     PetscCall(IPSubspaceUpdate(tao));
     PetscCall(IPSubspaceSwitch(tao));
   }
-  pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero || cond->H_id != ((PetscObject)H)->id);
+  pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero ||
+                        cond->H_id != ((PetscObject)H)->id);
   values  = (PetscBool)(pattern || state != cond->H_state);
   PetscCall(UpdateShift(tao, &shifted));
   cond->H_state   = state;

@@ -1,4 +1,5 @@
-/* The condensed matrix where the Hessian gives products alone: H + Sigma + J^T D J + delta M_u as a MATSHELL, with its diagonal. */
+/* The condensed matrix where the Hessian gives products alone: H + Sigma + J^T D J + delta M_u as a MATSHELL, with
+   its diagonal. */
 #include "../ipfilterimpl.h"
 
 /* y = J^T D J x + y */

@@ -1,8 +1,8 @@
 /*
-   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and the rows of norm terms, which have to
-   do with what is filtered, and hold bodies where nothing else does. Where equality constraints are condensed,
-   D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists it; in a restoration step what the
-   augmented system would eliminate to, 1/delta.
+   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and
+   the rows of norm terms, which have to do with what is filtered, and hold bodies where nothing else does. Where
+   equality constraints are condensed, D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the
+   stiffness that resists it; in a restoration step what the augmented system would eliminate to, 1/delta.
 */
 #include "../ipfilterimpl.h"
 
@@ -27,7 +27,8 @@ static PetscBool RowsSamePattern(const IPStamp *a, const IPStamp *b)
   return (PetscBool)(a->pattern_id == b->pattern_id && a->pattern_state == b->pattern_state);
 }
 
-/* Copies the rows of J into those of the stacked matrix, from one of this rank's on; counts them instead where there are counts */
+/* Copies the rows of J into those of the stacked matrix, from one of this rank's on; counts them instead where there
+   are counts */
 static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[], PetscInt onz[])
 {
   PetscInt rstart, rend, cstart, cend;
@@ -64,7 +65,8 @@ static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
   PetscCall(PetscMalloc2(m[0] + m[1], &dnz, m[0] + m[1], &onz));
   PetscCall(RowsCopy(upper, NULL, 0, dnz, onz));
   PetscCall(RowsCopy(lower, NULL, m[0], dnz, onz));
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)upper), m[0] + m[1], n, PETSC_DETERMINE, N, 0, dnz, 0, onz, stacked));
+  PetscCall(
+    MatCreateAIJ(PetscObjectComm((PetscObject)upper), m[0] + m[1], n, PETSC_DETERMINE, N, 0, dnz, 0, onz, stacked));
   PetscCall(PetscFree2(dnz, onz));
   PetscFunctionReturn(0);
 }
@@ -78,8 +80,10 @@ static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
   PetscInt          rstart, m;
 
   PetscFunctionBegin;
-  if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], stamp)) PetscFunctionReturn(0);
-  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) || !RowsSamePattern(&rows->source[1], stamp)) {
+  if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], stamp))
+    PetscFunctionReturn(0);
+  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) ||
+      !RowsSamePattern(&rows->source[1], stamp)) {
     PetscCall(MatDestroy(&rows->J));
     PetscCall(RowsCreateStacked(jac->inequality, lower, &rows->J));
   }
@@ -140,7 +144,8 @@ static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
   mean = PetscRealPart(sum) / n;
   PetscCall(VecGetLocalSize(weights, &n));
   PetscCall(VecGetArray(weights, &w));
-  for (PetscInt i = 0; i < n; i++) w[i] = mean > 0.0 ? 1.0 / (multiple * PetscMax(PetscRealPart(w[i]), 1e-2 * mean)) : 1.0;
+  for (PetscInt i = 0; i < n; i++)
+    w[i] = mean > 0.0 ? 1.0 / (multiple * PetscMax(PetscRealPart(w[i]), 1e-2 * mean)) : 1.0;
   PetscCall(VecRestoreArray(weights, &w));
   PetscFunctionReturn(0);
 }

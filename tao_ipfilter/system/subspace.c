@@ -1,4 +1,5 @@
-/* What PCAMGF is to filter: the unknowns that the constraints touch, and whether the constraints are stiff enough for it. */
+/* What PCAMGF is to filter: the unknowns that the constraints touch, and whether the constraints are stiff enough for
+   it. */
 #include "../ipfilterimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
@@ -25,7 +26,8 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
       PetscCall(MatGetRow(J, i, &nc, &cols, &v));
       for (PetscInt k = 0; k < nc; k++) {
         if (!pass) local = PetscMax(local, PetscAbsScalar(v[k]));
-        else if (PetscAbsScalar(v[k]) > ip->opt.filter_threshold * largest) PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
+        else if (PetscAbsScalar(v[k]) > ip->opt.filter_threshold * largest)
+          PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
       }
       PetscCall(MatRestoreRow(J, i, &nc, &cols, &v));
     }
@@ -56,7 +58,8 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   IS            filter;
 
   PetscFunctionBegin;
-  if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state) PetscFunctionReturn(0);
+  if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state)
+    PetscFunctionReturn(0);
   PetscCall(IPSubspaceOf(tao, rows->J, &filter));
   cond->filter_id    = rows->stamp.value_id;
   cond->filter_state = rows->stamp.value_state;
@@ -68,8 +71,8 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Marks the unknowns of a set in v by numbers so irregular that couplings to them do not cancel: squares, as a fraction of the places alone is linear, but for whole numbers, and
-   an operator of differences makes nothing of it */
+/* Marks the unknowns of a set in v by numbers so irregular that couplings to them do not cancel: squares, as a
+   fraction of the places alone is linear, but for whole numbers, and an operator of differences makes nothing of it */
 static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
   const PetscReal golden = 0.6180339887498949;
@@ -80,7 +83,8 @@ static PetscErrorCode SubspaceMark(IS set, Vec v)
   PetscCall(VecSet(v, 0.0));
   PetscCall(ISGetLocalSize(set, &n));
   PetscCall(ISGetIndices(set, &rows));
-  for (PetscInt i = 0; i < n; i++) PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i] * rows[i], 1.0), INSERT_VALUES));
+  for (PetscInt i = 0; i < n; i++)
+    PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i] * rows[i], 1.0), INSERT_VALUES));
   PetscCall(ISRestoreIndices(set, &rows));
   PetscCall(VecAssemblyBegin(v));
   PetscCall(VecAssemblyEnd(v));
@@ -138,7 +142,8 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscCall(VecGetArrayRead(hessian, &h));
   PetscCall(VecGetArrayRead(product, &c));
   for (PetscInt r = 0; r < cond->ntouched; r++) {
-    const PetscReal hii = PetscRealPart(h[cond->touched[r] - rstart]), cii = PetscRealPart(c[cond->touched[r] - rstart]);
+    const PetscReal hii = PetscRealPart(h[cond->touched[r] - rstart]),
+                    cii = PetscRealPart(c[cond->touched[r] - rstart]);
 
     if (cii > 0.0) local = PetscMax(local, hii > 0.0 ? cii / hii : PETSC_INFINITY);
   }
@@ -150,7 +155,8 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionReturn(0);
 }
 
-/* Switches the filter of a PCAMGF on where J^T D J has become stiff against H, off where it has not; counts the systems */
+/* Switches the filter of a PCAMGF on where J^T D J has become stiff against H, off where it has not; counts the
+   systems */
 PetscErrorCode IPSubspaceSwitch(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -166,6 +172,7 @@ PetscErrorCode IPSubspaceSwitch(Tao tao)
   ip->lin.filtered = (PetscBool)(ip->lin.filter_forced || ratio > ip->opt.filter_switch);
   ip->rec.nfiltered += ip->lin.filtered;
   PetscCall(PCAMGFSetFilterActive(pc, ip->lin.filtered));
-  PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio, ip->lin.filtered ? "on" : "off"));
+  PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio,
+    ip->lin.filtered ? "on" : "off"));
   PetscFunctionReturn(0);
 }

@@ -7,7 +7,8 @@
 
 #include "../measure/measureimpl.h"
 
-/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too, or of norm terms */
+/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too,
+   or of norm terms */
 typedef struct {
   Mat     J; /* NULL: none */
   Vec     D; /* their weights */

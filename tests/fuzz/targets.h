@@ -1,6 +1,7 @@
 /*
-   What is fuzzed: bytes as a scene file, up to its mesh, and bytes as the Gmsh file of one body. Both must end with a mesh or
-   with one sentence, whatever the bytes are. tests/fuzz_corpus.c runs the corpus, tests/fuzz/scene.c and gmsh.c fuzz.
+   What is fuzzed: bytes as a scene file, up to its mesh, and bytes as the Gmsh file of one body. Both must end with a
+   mesh or with one sentence, whatever the bytes are. tests/fuzz_corpus.c runs the corpus, tests/fuzz/scene.c and
+   gmsh.c fuzz.
 */
 #ifndef FUZZ_TARGETS_H
 #define FUZZ_TARGETS_H
@@ -47,7 +48,10 @@ static inline PetscErrorCode FuzzMeshScene(const char file[])
 static inline PetscErrorCode FuzzMeshGmsh(const char file[])
 {
   char      name[] = "bar", *path;
-  SceneBody body   = {.name = name, .shape = SHAPE_GMSH, .material = {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3}, .gmsh = {.volume = name}};
+  SceneBody body   = {.name = name,
+      .shape                = SHAPE_GMSH,
+      .material             = {.type = MATERIAL_LINEAR, .young = 1, .poisson = 0.3},
+      .gmsh                 = {.volume = name}};
   DM        dm;
 
   PetscFunctionBeginUser;

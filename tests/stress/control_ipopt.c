@@ -1,6 +1,7 @@
 /*
    IPOPT beside TAOIPFILTER on distributed control: the problem of tests/ipfilter_control.c, with IPOPT's defaults.
-   Arguments: points in each direction, alpha, and if need be the bound of the state. A program of its own, as nlp_ipopt.c.
+   Arguments: points in each direction, alpha, and if need be the bound of the state. A program of its own, as
+   nlp_ipopt.c.
 */
 #include "ipopt_run.h"
 #include <math.h>
@@ -94,7 +95,8 @@ static Bool Constraints(Index n, Number *x, Bool fresh, Index m, Number *c, User
   return TRUE;
 }
 
-static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *value, UserDataPtr user)
+static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *value,
+  UserDataPtr user)
 {
   int at = 0;
 
@@ -118,7 +120,8 @@ static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, In
   return TRUE;
 }
 
-static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda, Index nonzeros, Index *row, Index *column, Number *value, UserDataPtr user)
+static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda,
+  Index nonzeros, Index *row, Index *column, Number *value, UserDataPtr user)
 {
   const Grid *g = user;
 
@@ -137,10 +140,11 @@ static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Numb
 
 int main(int argc, char **argv)
 {
-  Grid                         g         = {.n = argc > 1 ? atoi(argv[1]) : 32, .alpha = argc > 2 ? atof(argv[2]) : 1e-4};
-  const double                 state_max = argc > 3 ? atof(argv[3]) : 2e19;
-  const int                    points = g.n * g.n, nonzeros = 2 * points + 4 * g.n * (g.n - 1);
-  double                      *x = calloc(2 * points, sizeof(*x)), *lower = calloc(2 * points, sizeof(*x)), *upper = calloc(2 * points, sizeof(*x)), *zero = calloc(points, sizeof(*x)), f, begin;
+  Grid         g         = {.n = argc > 1 ? atoi(argv[1]) : 32, .alpha = argc > 2 ? atof(argv[2]) : 1e-4};
+  const double state_max = argc > 3 ? atof(argv[3]) : 2e19;
+  const int    points = g.n * g.n, nonzeros = 2 * points + 4 * g.n * (g.n - 1);
+  double      *x = calloc(2 * points, sizeof(*x)), *lower = calloc(2 * points, sizeof(*x)),
+         *upper = calloc(2 * points, sizeof(*x)), *zero = calloc(points, sizeof(*x)), f, begin;
   IpoptProblem                 problem;
   enum ApplicationReturnStatus status;
 
@@ -150,11 +154,13 @@ int main(int argc, char **argv)
     upper[k] = k % 2 ? 2e19 : state_max;
   }
   begin   = RunSeconds(CLOCK_PROCESS_CPUTIME_ID);
-  problem = CreateIpoptProblem(2 * points, lower, upper, points, zero, zero, nonzeros, 2 * points, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
+  problem = CreateIpoptProblem(2 * points, lower, upper, points, zero, zero, nonzeros, 2 * points, 0, Objective,
+    Constraints, Gradient, Jacobian, Hessian);
   RunPrepare(problem);
   AddIpoptIntOption(problem, "print_level", argc > 4 ? atoi(argv[4]) : 0);
   status = IpoptSolve(problem, x, NULL, &f, NULL, NULL, NULL, &g);
-  printf("%d x %d: objective %.10e, %d steps, %.2f s of CPU; IPOPT's status %d\n", g.n, g.n, f, g.record.iterations, RunSeconds(CLOCK_PROCESS_CPUTIME_ID) - begin, (int)status);
+  printf("%d x %d: objective %.10e, %d steps, %.2f s of CPU; IPOPT's status %d\n", g.n, g.n, f, g.record.iterations,
+    RunSeconds(CLOCK_PROCESS_CPUTIME_ID) - begin, (int)status);
   FreeIpoptProblem(problem);
   free(x), free(lower), free(upper), free(zero);
   return status == Solve_Succeeded ? 0 : 1;

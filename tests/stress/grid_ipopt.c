@@ -1,6 +1,7 @@
 /*
-   IPOPT beside TAOIPFILTER on the problems of ipfilter_grid.h, with IPOPT's defaults, from 0. Arguments: the problem, the unknowns in a row.
-   One line, as `ipfilter_grid -report`. A program of its own, without PETSc: IPOPT brings another MUMPS, and another MPI, than PETSc.
+   IPOPT beside TAOIPFILTER on the problems of ipfilter_grid.h, with IPOPT's defaults, from 0. Arguments: the problem,
+   the unknowns in a row. One line, as `ipfilter_grid -report`. A program of its own, without PETSc: IPOPT brings
+   another MUMPS, and another MPI, than PETSc.
 */
 #include "../ipfilter_grid.h"
 #include "ipopt_run.h"
@@ -68,7 +69,8 @@ static double Surface(const Grid *grid, const double *u, double *g, double *H)
         double    gradient[3], hessian[3][3];
 
         if (i + side < -1 || i + side > n || j + side < -1 || j + side > n) continue;
-        area += GridTriangle(1.0 / (n + 1.0), Value(grid, u, i, j), Value(grid, u, ii[1], j), Value(grid, u, i, jj[2]), gradient, hessian);
+        area += GridTriangle(1.0 / (n + 1.0), Value(grid, u, i, j), Value(grid, u, ii[1], j), Value(grid, u, i, jj[2]),
+          gradient, hessian);
         for (int r = 0; r < 3; r++) {
           if (!Inside(grid, ii[r], jj[r])) continue;
           if (g) g[ii[r] + n * jj[r]] += gradient[r];
@@ -131,7 +133,8 @@ static Bool Constraints(Index N, Number *u, Bool fresh, Index m, Number *c, User
   return TRUE;
 }
 
-static Bool Jacobian(Index N, Number *u, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
+static Bool Jacobian(Index N, Number *u, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *v,
+  UserDataPtr user)
 {
   (void)N;
   (void)u;
@@ -146,7 +149,8 @@ static Bool Jacobian(Index N, Number *u, Bool fresh, Index m, Index nonzeros, In
 }
 
 /* An entry outside the grid is a zero on the diagonal */
-static Bool Hessian(Index N, Number *u, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda, Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
+static Bool Hessian(Index N, Number *u, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda,
+  Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
 {
   const Grid *grid        = user;
   const int   of[STENCIL] = {0, 3, 1, 0}; /* in the five entries of K */
@@ -158,7 +162,8 @@ static Bool Hessian(Index N, Number *u, Bool fresh, Number factor, Index m, Numb
   if (v) memset(v, 0, (size_t)nonzeros * sizeof(*v));
   if (v && grid->problem == GRID_SURFACE) Surface(grid, u, NULL, v);
   for (int e = 0; e < STENCIL * N; e++) {
-    const int node = e / STENCIL, k = e % STENCIL, i = node % grid->n, j = node / grid->n, inside = Inside(grid, Column(k, i), Row(k, j));
+    const int node = e / STENCIL, k = e % STENCIL, i = node % grid->n, j = node / grid->n,
+              inside = Inside(grid, Column(k, i), Row(k, j));
 
     if (!v) {
       row[e]    = node;
@@ -182,9 +187,10 @@ static void Fill(Grid *grid, double *lower, double *upper)
 
 int main(int argc, char **argv)
 {
-  Grid                         grid = {.problem = argc > 2 ? GridFind(argv[1]) : -1, .n = argc > 2 ? atoi(argv[2]) : 0};
-  const size_t                 N    = (size_t)grid.n * (size_t)grid.n;
-  double                      *u = calloc(N, sizeof(*u)), *lower = calloc(N, sizeof(*u)), *upper = calloc(N, sizeof(*u)), f, none = 0.0, violation = 0.0, wall, cpu;
+  Grid         grid = {.problem = argc > 2 ? GridFind(argv[1]) : -1, .n = argc > 2 ? atoi(argv[2]) : 0};
+  const size_t N    = (size_t)grid.n * (size_t)grid.n;
+  double      *u = calloc(N, sizeof(*u)), *lower = calloc(N, sizeof(*u)), *upper = calloc(N, sizeof(*u)), f, none = 0.0,
+         violation = 0.0, wall, cpu;
   IpoptProblem                 problem;
   enum ApplicationReturnStatus status;
 
@@ -192,7 +198,8 @@ int main(int argc, char **argv)
   grid.v    = calloc(5 * N, sizeof(*grid.v));
   grid.load = calloc(N, sizeof(*grid.load));
   Fill(&grid, lower, upper);
-  problem = CreateIpoptProblem((Index)N, lower, upper, 0, &none, &none, 0, (Index)(STENCIL * N), 0, Objective, Constraints, Gradient, Jacobian, Hessian);
+  problem = CreateIpoptProblem((Index)N, lower, upper, 0, &none, &none, 0, (Index)(STENCIL * N), 0, Objective,
+    Constraints, Gradient, Jacobian, Hessian);
   RunPrepare(problem);
   wall   = RunSeconds(CLOCK_MONOTONIC);
   cpu    = RunSeconds(CLOCK_PROCESS_CPUTIME_ID);
@@ -200,7 +207,8 @@ int main(int argc, char **argv)
   wall   = RunSeconds(CLOCK_MONOTONIC) - wall;
   cpu    = RunSeconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
   for (size_t k = 0; k < N; k++) violation = fmax(violation, fmax(lower[k] - u[k], u[k] - upper[k]));
-  printf("%s|%s|%.15e|%.1e|%d|0|%.2f|%.2f\n", grid_names[grid.problem], status == Solve_Succeeded ? "CONVERGED" : "DIVERGED", f, violation, grid.record.iterations, wall, cpu);
+  printf("%s|%s|%.15e|%.1e|%d|0|%.2f|%.2f\n", grid_names[grid.problem],
+    status == Solve_Succeeded ? "CONVERGED" : "DIVERGED", f, violation, grid.record.iterations, wall, cpu);
   FreeIpoptProblem(problem);
   return 0;
 }

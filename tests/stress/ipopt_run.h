@@ -10,9 +10,11 @@ typedef struct {
   int iterations;
 } RunRecord;
 
-static Bool RunCount(Index mode, Index iteration, Number f, Number inf_pr, Number inf_du, Number mu, Number d_norm, Number regularization, Number alpha_du, Number alpha_pr, Index trials, UserDataPtr user)
+static Bool RunCount(Index mode, Index iteration, Number f, Number inf_pr, Number inf_du, Number mu, Number d_norm,
+  Number regularization, Number alpha_du, Number alpha_pr, Index trials, UserDataPtr user)
 {
-  (void)mode, (void)f, (void)inf_pr, (void)inf_du, (void)mu, (void)d_norm, (void)regularization, (void)alpha_du, (void)alpha_pr, (void)trials;
+  (void)mode, (void)f, (void)inf_pr, (void)inf_du, (void)mu, (void)d_norm, (void)regularization, (void)alpha_du,
+    (void)alpha_pr, (void)trials;
   ((RunRecord *)user)->iterations = iteration;
   return TRUE;
 }

@@ -1,7 +1,8 @@
 /*
-   IPOPT beside TAOIPFILTER: the problems of a file that nlp.py wrote, from the same formulas and starts, with IPOPT's defaults.
-   Arguments: the file, the number of the first problem to solve, and if need be a tolerance. One line a problem, as nlp_tao.c.
-   A program of its own, without PETSc's library: IPOPT brings another MUMPS, and another MPI, than PETSc.
+   IPOPT beside TAOIPFILTER: the problems of a file that nlp.py wrote, from the same formulas and starts, with IPOPT's
+   defaults. Arguments: the file, the number of the first problem to solve, and if need be a tolerance. One line a
+   problem, as nlp_tao.c. A program of its own, without PETSc's library: IPOPT brings another MUMPS, and another MPI,
+   than PETSc.
 */
 #include "nlp_read.h"
 #include "../ipfilter_expression.h"
@@ -96,7 +97,8 @@ static Bool Constraints(Index n, Number *x, Bool fresh, Index m, Number *c, User
   return TRUE;
 }
 
-static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
+static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, Index *row, Index *column, Number *v,
+  UserDataPtr user)
 {
   Context *ctx = user;
 
@@ -118,7 +120,8 @@ static Bool Jacobian(Index n, Number *x, Bool fresh, Index m, Index nonzeros, In
 }
 
 /* Lower triangle of the Hessian of factor f + lambda^T c */
-static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda, Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
+static Bool Hessian(Index n, Number *x, Bool fresh, Number factor, Index m, Number *lambda, Bool fresh_lambda,
+  Index nonzeros, Index *row, Index *column, Number *v, UserDataPtr user)
 {
   Context *ctx = user;
   Jet      sum, jet;
@@ -159,34 +162,23 @@ static const char *Ending(enum ApplicationReturnStatus status)
 static const char *Name(enum ApplicationReturnStatus status)
 {
   switch (status) {
-  case Solve_Succeeded:
-    return "solved";
-  case Solved_To_Acceptable_Level:
-    return "acceptable";
-  case Infeasible_Problem_Detected:
-    return "infeasible";
-  case Diverging_Iterates:
-    return "diverging";
-  case Feasible_Point_Found:
-    return "feasible point";
-  case Search_Direction_Becomes_Too_Small:
-    return "step too small";
-  case Maximum_Iterations_Exceeded:
-    return "iteration limit";
-  case Restoration_Failed:
-    return "restoration failed";
-  case Error_In_Step_Computation:
-    return "no step computed";
-  case Not_Enough_Degrees_Of_Freedom:
-    return "too few unknowns";
-  case Invalid_Number_Detected:
-    return "not a number";
-  default:
-    return "other failure";
+  case Solve_Succeeded: return "solved";
+  case Solved_To_Acceptable_Level: return "acceptable";
+  case Infeasible_Problem_Detected: return "infeasible";
+  case Diverging_Iterates: return "diverging";
+  case Feasible_Point_Found: return "feasible point";
+  case Search_Direction_Becomes_Too_Small: return "step too small";
+  case Maximum_Iterations_Exceeded: return "iteration limit";
+  case Restoration_Failed: return "restoration failed";
+  case Error_In_Step_Computation: return "no step computed";
+  case Not_Enough_Degrees_Of_Freedom: return "too few unknowns";
+  case Invalid_Number_Detected: return "not a number";
+  default: return "other failure";
   }
 }
 
-/* Largest violation of bounds and constraints, relative to the bounds and to the rows of the Jacobian where those are above 1 */
+/* Largest violation of bounds and constraints, relative to the bounds and to the rows of the Jacobian where those are
+   above 1 */
 static double Violation(const Context *ctx, const double x[], const double lower[], const double upper[])
 {
   double violation = 0.0;
@@ -208,12 +200,14 @@ static double Violation(const Context *ctx, const double x[], const double lower
 }
 
 /* f: at x */
-static void Report(Context *ctx, enum ApplicationReturnStatus status, const double x[], const double lower[], const double upper[], double seconds)
+static void Report(Context *ctx, enum ApplicationReturnStatus status, const double x[], const double lower[],
+  const double upper[], double seconds)
 {
   Jet f;
 
   ExpressionEvaluate(ctx->p->objective, x, NULL, &f);
-  printf("%s|%s|%.12e|%.1e|%d|%d|%.5f|%s\n", ctx->p->name, Ending(status), f.v, Violation(ctx, x, lower, upper), ctx->record.iterations, ctx->npoints, seconds, Name(status));
+  printf("%s|%s|%.12e|%.1e|%d|%d|%.5f|%s\n", ctx->p->name, Ending(status), f.v, Violation(ctx, x, lower, upper),
+    ctx->record.iterations, ctx->npoints, seconds, Name(status));
   fflush(stdout);
 }
 
@@ -226,7 +220,8 @@ static IpoptProblem CreateProblem(Context *ctx, double lower[], double upper[], 
     least[i] = 0.0;
     most[i]  = i < ctx->mi ? 2e19 : 0.0;
   }
-  problem = CreateIpoptProblem(ctx->n, lower, upper, ctx->m, least, most, ctx->m * ctx->n, ctx->n * (ctx->n + 1) / 2, 0, Objective, Constraints, Gradient, Jacobian, Hessian);
+  problem = CreateIpoptProblem(ctx->n, lower, upper, ctx->m, least, most, ctx->m * ctx->n, ctx->n * (ctx->n + 1) / 2, 0,
+    Objective, Constraints, Gradient, Jacobian, Hessian);
   RunPrepare(problem);
   if (tolerance > 0.0) {
     AddIpoptNumOption(problem, "tol", tolerance);
@@ -245,7 +240,8 @@ static void Solve(const NLP *p, double tolerance)
   Split(p->inequalities, ctx.c, &ctx.m);
   ctx.mi = ctx.m;
   Split(p->equalities, ctx.c, &ctx.m);
-  for (const char *s = p->start; *s; s++) ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
+  for (const char *s = p->start; *s; s++)
+    ctx.n += !isspace((unsigned char)s[0]) && (isspace((unsigned char)s[1]) || !s[1]);
   Read(p->start, ctx.n, x, NULL);
   Read(p->bounds, ctx.n, lower, upper);
   problem = CreateProblem(&ctx, lower, upper, tolerance);

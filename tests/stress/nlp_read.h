@@ -1,4 +1,5 @@
-/* Shared by nlp_tao.c and nlp_ipopt.c: the problems of ipfilter_nlp.h, and those of a file that nlp.py writes, a field a line */
+/* Shared by nlp_tao.c and nlp_ipopt.c: the problems of ipfilter_nlp.h, and those of a file that nlp.py writes, a
+   field a line */
 #ifndef NLP_READ_H
 #define NLP_READ_H
 

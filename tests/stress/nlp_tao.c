@@ -1,4 +1,5 @@
-static char help[] = "A solver of TAO, ipfilter unless -tao_type names another, on problems that tests/stress/nlp.py wrote.\n\
+static char help[] =
+  "A solver of TAO, ipfilter unless -tao_type names another, on problems that tests/stress/nlp.py wrote.\n\
   -problems FILE    the problems; without it, those of tests/ipfilter_nlp.h are printed as Python reads them\n\
   -first K          begin with the problem number K\n\
 A line a problem: name, how it ended, objective, violation, iterations, points evaluated, seconds, sentence.\n\n";
@@ -33,7 +34,8 @@ static PetscErrorCode ReportProblem(const FormulasProblem *problem, double secon
   PetscCall(FormulasGather(problem->x, a));
   ExpressionEvaluate(formulas->p->objective, a, NULL, &f);
   PetscCall(FormulasViolation(problem, PETSC_TRUE, &violation));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.12e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.5f|%s\n", formulas->p->name, Ending(reason, sentence), (double)f.v, (double)violation, its, npoints, seconds, sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.12e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.5f|%s\n",
+    formulas->p->name, Ending(reason, sentence), (double)f.v, (double)violation, its, npoints, seconds, sentence));
   fflush(stdout);
   PetscFunctionReturn(0);
 }
@@ -60,7 +62,8 @@ static PetscErrorCode PrintProblems(void)
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(problems); i++) {
     NLP p = problems[i];
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n%.16g\n%d\n%s\n", p.name, p.optimum, (int)p.end, p.others ? p.others : ""));
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "%s\n%.16g\n%d\n%s\n", p.name, p.optimum, (int)p.end, p.others ? p.others : ""));
     for (int k = 0; k < NLP_FIELDS; k++) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", *NLPField(&p, k)));
   }
   PetscFunctionReturn(0);
