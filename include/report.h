@@ -15,13 +15,13 @@ typedef struct {
   PetscReal   mortar_moment[3]; /* [force length] */
   PetscReal   normal_force; /* sum of the sizes of the rows' forces: the integral of the pressure, the size of the force
                                where the face is plane [force] */
-  PetscReal area;           /* covered area about the vertices in contact [length^2] */
-  PetscReal pressure;       /* largest of the contact pressure's field [force/length^2] */
-  PetscBool rubs;           /* has friction */
-  PetscReal shear_force;    /* sum of the sizes of the rows' forces of friction [force] */
-  PetscReal stick_area;     /* covered area about the vertices in contact that friction holds, */
-  PetscReal slip_area;      /* and about those that slip against it [length^2]; both 0 without friction */
-  PetscReal dissipated; /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
+  PetscReal   area;         /* covered area about the vertices in contact [length^2] */
+  PetscReal   pressure;     /* largest of the contact pressure's field [force/length^2] */
+  PetscBool   rubs;         /* has friction */
+  PetscReal   shear_force;  /* sum of the sizes of the rows' forces of friction [force] */
+  PetscReal   stick_area;   /* covered area about the vertices in contact that friction holds, */
+  PetscReal   slip_area;    /* and about those that slip against it [length^2]; both 0 without friction */
+  PetscReal   dissipated; /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
 } PairReport;
 
 /* A face with prescribed displacements, symmetry planes too. Where several prescribe one row they share its reaction
@@ -98,25 +98,25 @@ typedef struct {
   PetscReal action_reaction; /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal error_estimate;  /* discretization error in the energy norm over sqrt(2 energy); its square is the relative
                                 error in energy; NaN: no estimate was made */
-  PetscReal *body_errors;    /* parts of the bodies, whose squares sum to its square; NULL: none was made */
-  PetscReal  contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
-  PetscReal  reaction[3]; /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if
+  PetscReal   *body_errors;  /* parts of the bodies, whose squares sum to its square; NULL: none was made */
+  PetscReal    contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
+  PetscReal    reaction[3]; /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if
                              none is [force] */
-  PetscInt       nramps;  /* of the scene, the load itself first */
-  RampReport    *ramps;
-  PetscInt       npairs; /* of the scene, in its order; 0 before the first solve that converged */
-  PairReport    *pairs;
-  PetscInt       nfaces; /* with prescribed displacements, in the order in which the scene names them first */
-  FaceReport    *faces;
-  PetscInt       nbodies;
-  BodyReport    *bodies;
-  PetscReal      dissipated;        /* by friction, all pairs since the start [force length] */
-  PetscReal      balance;           /* largest of the bodies' */
-  PetscReal      weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */
-  PetscInt       nprobes;           /* of the scene: points */
-  ProbeReport   *probes;
-  PetscInt       nlines; /* points of all lines in turn */
-  ProbeReport   *lines;
+  PetscInt     nramps;      /* of the scene, the load itself first */
+  RampReport  *ramps;
+  PetscInt     npairs; /* of the scene, in its order; 0 before the first solve that converged */
+  PairReport  *pairs;
+  PetscInt     nfaces; /* with prescribed displacements, in the order in which the scene names them first */
+  FaceReport  *faces;
+  PetscInt     nbodies;
+  BodyReport  *bodies;
+  PetscReal    dissipated;        /* by friction, all pairs since the start [force length] */
+  PetscReal    balance;           /* largest of the bodies' */
+  PetscReal    weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */
+  PetscInt     nprobes;           /* of the scene: points */
+  ProbeReport *probes;
+  PetscInt     nlines; /* points of all lines in turn */
+  ProbeReport *lines;
   PetscLogDouble solve_time; /* optimizer alone, its linear solves included [s] */
   PetscLogDouble step_time;  /* all of the load step but what is written of it [s] */
   PetscBool      converged;
@@ -178,12 +178,12 @@ typedef struct {
   PetscReal  recovery;  /* relative error in energy by stress recovery, largest of the load steps */
   PetscReal  change;    /* relative change of energy or of any pair's force since the coarser mesh, largest of the load
                            steps; NaN: there was none */
-  PetscReal growth;     /* unknowns over those of the coarser mesh; NaN as well */
-  PetscReal error; /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from
+  PetscReal  growth;    /* unknowns over those of the coarser mesh; NaN as well */
+  PetscReal  error;  /* of the mesh, relative, in energy and contact force: from the change, without a coarser mesh from
                       recovery */
-  PetscBool      unseen;    /* it changed by more than recovery accounts for */
-  PetscReal      algebraic; /* of the solver, relative, in energy */
-  PetscInt       amg_applications;
+  PetscBool  unseen; /* it changed by more than recovery accounts for */
+  PetscReal  algebraic; /* of the solver, relative, in energy */
+  PetscInt   amg_applications;
   PetscLogDouble time; /* [s] */
 } AccuracyLevel;
 

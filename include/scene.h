@@ -79,11 +79,11 @@ typedef struct {
   Material    material;
   ElementType element;
   PetscInt  order; /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
-  PetscReal grading[3];     /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
+  PetscReal grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
                                half_ellipse:     core along depth, core across, ring to the arc; 0: 1 */
-  PetscInt         even[3]; /* equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt         layers;  /* half_ellipse: cells along the axis; octants: cells across the shell */
-  PetscBool        curved;  /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  PetscInt  even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt  layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
+  PetscBool curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
   SceneTubeArc     tube;
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
@@ -107,8 +107,8 @@ typedef enum {
 #define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
 
 typedef struct {
-  char *name;
-  char *face;         /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>"
+  char     *name;
+  char     *face;     /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>"
                          SCENE_WHOLE_BODY */
   PetscBool fixed[3]; /* which components are prescribed */
   PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
@@ -237,7 +237,7 @@ typedef struct {
   SceneSpring       *springs;
   PetscReal weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube
                              root of the volume; 0: they are not */
-  PetscInt          nforces;
+  PetscInt  nforces;
   SceneBodyForce   *forces;
   PetscInt          ntemperatures;
   SceneTemperature *temperatures;

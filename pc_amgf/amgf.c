@@ -42,66 +42,72 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    Options Database Keys:
 +  -pc_amgf_cycle <fbf>             - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
 .  -pc_amgf_filter_file <file>      - binary file with the `IS` of filtered unknowns; by default none
-.  -pc_amgf_detect <0>              - filter the unknowns whose diagonal entry exceeds this many times the median of the
-positive diagonal entries; 0: off .  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed
-operator; -1: never; 0 or `auto`: when the cost grows; the cycle `bfb` has the default 1 .  -pc_amgf_amg_lag_ratio <1.5>
-- automatic lag: growth of the cost that calls for a rebuild, at least 1 .  -amgf_amg_pc_type <hypre>        - the AMG,
-B; any symmetric `PC`, with all of its options under the prefix `amgf_amg_` .  -amgf_filter_ksp_type <preonly>  - the
-Krylov method of the filtered system, with all of its options under the prefix `amgf_filter_` .  -amgf_filter_pc_type
-<cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars .  -pc_amgf_filter_ranks <0>        - how
-many ranks the direct solver has, unless its type is given; 0: one for every 10,000 rows .  -pc_amgf_factor <false> -
-`true`: B is a Cholesky factorization of the operator by MUMPS, with the options prefix `amgf_factor_`; `auto`: where
-`PCAMGFExpect()` says that it is the cheaper
+.  -pc_amgf_detect <0>              - filter the unknowns whose diagonal entry exceeds this many times the median of
+                                      the positive diagonal entries; 0: off
+.  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed operator; -1: never; 0 or `auto`: when
+                                      the cost grows; the cycle `bfb` has the default 1
+.  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
+.  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix
+                                      `amgf_amg_`
+.  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the
+                                      prefix `amgf_filter_`
+.  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
+.  -pc_amgf_filter_ranks <0>        - how many ranks the direct solver has, unless its type is given; 0: one for every
+                                      10,000 rows
+.  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options
+                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says
+                                      that it is the cheaper
 -  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
 
    Level: intermediate
 
    Notes:
-   For symmetric, or complex Hermitian, positive definite A (n x n) that multigrid handles well but for a subspace of
-small dimension n_c, the range of P: contact or penalty rows, interface conditions, inclusions of high contrast. With Q
-= P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by (I-QA)(I-BA)(I-QA) in `fbf`; `additive`
-is B + Q. With complex scalars, P^T stands for the conjugate transpose.
+   For symmetric, or complex Hermitian, positive definite A (n x n) that multigrid handles well but for a
+   subspace of small dimension n_c, the range of P: contact or penalty rows, interface conditions, inclusions of high
+   contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by (I-QA)(I-BA)(I-QA)
+   in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
 
-   If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff part,
-the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1. `fbf` and
-`additive` need no omega: they are positive definite with any positive definite B.
+   If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff
+   part, the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1.
+   `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
 
    The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat`
-composed on the Pmat under "amgf_filter", which the next application takes up if it comes later than the set-up;
-`-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B; where none was named
-or detected that is said once, unless `PCAMGFSetFilterOptional()`.
+   composed on the Pmat under "amgf_filter", which the next application takes up if it comes later than the set-up;
+   `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B; where none was
+   named or detected that is said once, unless `PCAMGFSetFilterOptional()`.
 
-   The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries a
-row, no aggressive level, one sweep of l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or 0.7
-for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate, and a smoothed
-interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with Cholesky, with
-   complex scalars LU, by MUMPS, on the first few ranks where it is small (`PCAMGFSetFilterRanks()`); if PETSc has none,
-by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What the user sets wins.
+   The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries
+   a row, no aggressive level, one sweep of l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or
+   0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate, and a
+   smoothed interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with
+   Cholesky, with complex scalars LU, by MUMPS, on the first few ranks where it is small (`PCAMGFSetFilterRanks()`);
+   if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What
+   the user sets wins.
 
-   The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix in
-`bfb` uses the Pmat too, unless `PCSetUseAmat()`.
+   The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix
+   in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
 
    If the subspace and the nonzero pattern of the operator stay, new values are filled into the old structures and the
-symbolic factorization is kept.
+   symbolic factorization is kept.
 
    The operator may be AIJ, BAIJ or (real scalars) SBAIJ, on any number of ranks, as far as the AMG takes them
-(`PCHYPRE` takes all three, `PCGAMG` AIJ only).
+   (`PCHYPRE` takes all three, `PCGAMG` AIJ only).
 
-   The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle lacks most smoothers: there B is
-taken to be symmetric.
+   The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle lacks most smoothers: there B
+   is taken to be symmetric.
 
    If an inner set-up fails, the owner `KSP` ends with `KSP_DIVERGED_PC_FAILED`, or with an error under
-`-ksp_error_if_not_converged`.
+   `-ksp_error_if_not_converged`.
 
    References:
 .  * - S. Petrides, T. Hartland, Tz. Kolev, C. S. Lee, M. Puso, J. Solberg, E. B. Chin, J. Wang, C. Petra, AMG with
-filtering: an efficient preconditioner for interior point methods in large-scale contact mechanics optimization,
-arXiv:2505.18576, 2025.
+      filtering: an efficient preconditioner for
+   interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`,
-`PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
+          `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFSetFilterRanks()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`,
-`PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
+          `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
 {

@@ -166,8 +166,8 @@ PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
   Level: intermediate
 
   Note:
-  `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not satisfy;
-see `PCAMGFSetAMGLag()`.
+  `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not
+  satisfy; see `PCAMGFSetAMGLag()`.
 
 .seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFGetCycle()`
 @*/
@@ -214,18 +214,18 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 
   Options Database Keys:
 + -pc_amgf_filter_file <file> - binary file that `ISLoad()` reads the set from at the first `PCSetUp()`; by default none
-- -pc_amgf_detect <0>         - at every set-up, the unknowns whose diagonal entry exceeds this many times the median of
-the positive diagonal entries; 0: off
+- -pc_amgf_detect <0>         - at every set-up, the unknowns whose diagonal entry exceeds this many times the median
+                                of the positive diagonal entries; 0: off
 
   Level: intermediate
 
   Notes:
   The set is the union over all ranks: entries may repeat, need no order, and may name rows owned by other ranks, so
-  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error of
-`PCSetUp()`.
+  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error
+  of `PCSetUp()`.
 
   Takes precedence over an object composed on the operator, then a file, then detection. Replaces a `Mat` set by
-`PCAMGFSetFilterInterpolation()`.
+  `PCAMGFSetFilterInterpolation()`.
 
   If the set of unknowns and the operator's nonzero pattern stay, the symbolic factorization is kept.
 
@@ -255,7 +255,7 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
   `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
 
   Takes precedence over an object composed on the operator, then a file, then detection. Replaces an `IS` set by
-`PCAMGFSetFilterIS()`.
+  `PCAMGFSetFilterIS()`.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
 @*/
@@ -305,8 +305,8 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
 
   Notes:
   For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor
-solved. What was set up before is kept: when the filter is switched on again, and subspace and nonzero pattern have
-stayed, the symbolic factorization is reused.
+  solved. What was set up before is kept: when the
+  filter is switched on again, and subspace and nonzero pattern have stayed, the symbolic factorization is reused.
 
   `PCAMGFGetFilterSize()` gives the dimension of the last set-up with the filter on.
 
@@ -328,14 +328,15 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
-it on the standard error stream; `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns
+             of it on the standard error stream;
+             `PETSC_TRUE`: it does not
 
   Level: intermediate
 
   Note:
-  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty is
-never warned of.
+  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty
+  is never warned of.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
 @*/
@@ -365,13 +366,16 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 
   Notes:
   The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make
-indefinite; automatic for the other cycles.
+  indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
-reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal
-entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has failed. The
-iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the AMG was built;
-what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next changed operator.
+  reduction
+  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry
+  of the operator outside the subspace has
+  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns
+  the preconditioner, compared with its first solve after the AMG was
+  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
+  changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
 @*/
@@ -426,7 +430,7 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
 
   Note:
   A type set on it replaces the default, BoomerAMG, and PCAMGF's defaults for it. It reads its options, with prefix
-`-amgf_amg_`, at the first `PCSetUp()`.
+  `-amgf_amg_`, at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`
 @*/
@@ -458,7 +462,7 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 
   Note:
   A type set on it replaces the default, `KSPPREONLY` with Cholesky, or LU with complex scalars. It reads its options,
-with prefix `-amgf_filter_`, at the first `PCSetUp()`.
+  with prefix `-amgf_filter_`, at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetAMGPC()`
 @*/

@@ -270,7 +270,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
   Options Database Keys:
 + -pc_amgf_factor <false>     - `false`, `true` or `auto`
 - -pc_amgf_factor_share <0.4> - auto: share of the machine's memory, taken to be that of all ranks, which the factors
-may take by MUMPS's estimate
+                                may take by MUMPS's estimate
 
   Level: intermediate
 
@@ -292,7 +292,7 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 
 /*@
   PCAMGFExpect - tells how often the preconditioner of the present operator will be applied, so that
-`PC_AMGF_FACTOR_AUTO` can choose
+  `PC_AMGF_FACTOR_AUTO` can choose
 
   Collective
 
@@ -304,10 +304,11 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the
-AMG by the entries of the operator. Call it before the first `PCSetUp()`, and again when more is known: a change from
-the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the pattern of the operator
-stays. Operators of more than 500,000 unknowns keep the AMG.
+  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory;
+  the AMG by the entries of the operator. Call it before the
+  first `PCSetUp()`, and again when more is known: a change from the AMG to the factorization comes with the next
+  `PCSetUp()`. There is no way back while the
+  pattern of the operator stays. Operators of more than 500,000 unknowns keep the AMG.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/

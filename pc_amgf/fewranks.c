@@ -275,7 +275,7 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
 
   Notes:
   Of the default solver, a factorization by MUMPS. A solver that the user chose for the filter, with
-`-amgf_filter_pc_type` or on its `KSP`, has all ranks.
+  `-amgf_filter_pc_type` or on its `KSP`, has all ranks.
 
   The factors of some thousand rows are of little work: on many ranks it is their messages that take the time.
 
@@ -299,8 +299,8 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 . pc - the preconditioner, of type `PCAMGF`, after its set-up
 
   Output Parameter:
-. negative - their number, that of negative eigenvalues of P^T A P; -1 where it is not known, for it was not factored by
-Cholesky with MUMPS
+. negative - their number, that of negative eigenvalues of P^T A P; -1 where it is not known, for it was not factored
+             by Cholesky with MUMPS
 
   Level: advanced
 

@@ -267,7 +267,7 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
   fraction of the products s_i z_i would have off the solution if that is larger.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`,
-`TaoIPFilterSetWarmStartBounds()`
+          `TaoIPFilterSetWarmStartBounds()`
 @*/
 PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 {
@@ -281,7 +281,7 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 
 /*@
   TaoIPFilterSetWarmStartEquality - Sets multipliers of the equality constraints from which `-tao_ipfilter_start warm`
-begins
+  begins
 
   Logically Collective
 
@@ -307,7 +307,7 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
 
 /*@
   TaoIPFilterSetWarmStartBounds - Sets multipliers of the bounds on variables from which `-tao_ipfilter_start warm`
-begins
+  begins
 
   Logically Collective
 
@@ -319,9 +319,10 @@ begins
   Level: intermediate
 
   Notes:
-  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance
-to a bound and its multiplier have next to no product. Where there are inequality constraints,
-`TaoIPFilterSetWarmStart()` must give theirs, too.
+  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose
+  distance to a bound and its
+  multiplier have next to no product. Where there are inequality constraints, `TaoIPFilterSetWarmStart()` must give
+  theirs, too.
 
   With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
 
@@ -352,7 +353,8 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
 
   Note:
   With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is
-alone; zero where there is none, or both are equal.
+  alone; zero where
+  there is none, or both are equal.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/
@@ -381,10 +383,11 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
 
   Notes:
   `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a
-force.
+  force.
 
   With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two
-bounds is the sum of both, that of a row with equal bounds has either sign.
+  bounds is the sum of both,
+  that of a row with equal bounds has either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/
@@ -431,8 +434,8 @@ PetscErrorCode TaoIPFilterGetKSPIterations(Tao tao, PetscInt *n, const PetscInt 
 
   Output Parameters:
 + scaled   - the measure that decides convergence: dimensionless, or absolute with `-tao_ipfilter_kkt mass`; may be NULL
-- unscaled - largest absolute entry of grad f - J^T M lambda - bound multipliers, c - s and s z, in the problem's units;
-may be NULL
+- unscaled - largest absolute entry of grad f - J^T M lambda - bound multipliers, c - s and s z, in the problem's
+             units; may be NULL
 
   Level: intermediate
 
@@ -485,7 +488,7 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 
   Options Database Key:
 . -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0:
-always
+                                     always
 
   Level: intermediate
 
@@ -501,7 +504,7 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 
 /*@
   TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` had to be shifted to be convex
-enough
+  enough
 
   Not Collective
 
@@ -517,7 +520,8 @@ enough
 
   Note:
   For the energy of an elastic body a shift tells that the tangent stiffness was not positive definite along a
-direction: the body was at or past a limit or bifurcation point on the way to its equilibrium.
+  direction:
+  the body was at or past a limit or bifurcation point on the way to its equilibrium.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`
 @*/
@@ -532,7 +536,7 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
 
 /*@
   TaoIPFilterGetFallbacks - Gets what the linear algebra of the last `TaoSolve()` had to do beyond one Krylov solve a
-system
+  system
 
   Not Collective
 
@@ -551,7 +555,7 @@ system
   All counts are zero in a solve without difficulties, but for refinements.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterFallbacks`, `TaoIPFilterGetReason()`, `PCAMGFSetAMGLag()`,
-`PCAMGFSetFilterActive()`
+          `PCAMGFSetFilterActive()`
 @*/
 PetscErrorCode TaoIPFilterGetFallbacks(Tao tao, TaoIPFilterFallbacks *fallbacks)
 {

@@ -191,7 +191,7 @@ int main(int argc, char **argv)
    test:
       suffix: transpose
       nsize: {{1 3}}
-      args: -oracle 0 -general {{0 1}} -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative
--amgf_amg_pc_composite_pcs jacobi,bjacobi output_file: output/amgf_cycles_transpose.out
+      args: -oracle 0 -general {{0 1}} -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative -amgf_amg_pc_composite_pcs jacobi,bjacobi
+      output_file: output/amgf_cycles_transpose.out
 
 TEST*/

@@ -273,7 +273,7 @@ int main(int argc, char **argv)
    test:
       suffix: transposes
       nsize: {{1 2}}
-      args: -hermitian 0 -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative
--amgf_amg_pc_composite_pcs jacobi,bjacobi output_file: output/amgf_hermitian_transposes.out
+      args: -hermitian 0 -amgf_amg_pc_type composite -amgf_amg_pc_composite_type multiplicative -amgf_amg_pc_composite_pcs jacobi,bjacobi
+      output_file: output/amgf_hermitian_transposes.out
 
 TEST*/

@@ -106,8 +106,16 @@ int main(int argc, char **argv)
 /*TEST
 
    testset:
-      args: -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
--mat_mumps_icntl_13 1 test: suffix: full nsize: {{1 2}} args: -across 2 test: suffix: bbar args: -element bbar -poisson
-0.3 test: suffix: bbar_incompressible args: -element bbar -poisson 0.49
+      args: -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps -mat_mumps_icntl_13 1
+      test:
+         suffix: full
+         nsize: {{1 2}}
+         args: -across 2
+      test:
+         suffix: bbar
+         args: -element bbar -poisson 0.3
+      test:
+         suffix: bbar_incompressible
+         args: -element bbar -poisson 0.49
 
 TEST*/

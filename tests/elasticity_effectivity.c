@@ -256,9 +256,13 @@ int main(int argc, char **argv)
          args: -pc_type pbjacobi -material {{linear neohookean}} -element {{full bbar}}
       test:
          suffix: sphere
-         args: -problem sphere -element {{full bbar}} -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky
--pc_factor_mat_solver_type mumps test: suffix: incompressible nsize: 2 args: -problem sphere -element bbar -poisson
-0.4999 -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps test: suffix: beam
+         args: -problem sphere -element {{full bbar}} -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
+      test:
+         suffix: incompressible
+         nsize: 2
+         args: -problem sphere -element bbar -poisson 0.4999 -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps
+      test:
+         suffix: beam
          args: -problem beam -pc_type hypre
 
 TEST*/

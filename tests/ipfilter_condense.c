@@ -232,8 +232,7 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3}}
-      args: -tao_ipfilter_start cold -tao_ipfilter_scaling none -tao_ipfilter_barrier monotone
--tao_ipfilter_mu_reductions_first 0 args: -tao_ipfilter_forcing fixed -tao_ipfilter_ksp_rtol 1e-12 -tao_ipfilter_pc_type
-jacobi
+      args: -tao_ipfilter_start cold -tao_ipfilter_scaling none -tao_ipfilter_barrier monotone -tao_ipfilter_mu_reductions_first 0
+      args: -tao_ipfilter_forcing fixed -tao_ipfilter_ksp_rtol 1e-12 -tao_ipfilter_pc_type jacobi
 
 TEST*/

@@ -191,7 +191,6 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 2}}
       args: -tao_ipfilter_pc_type jacobi
-      args: -tao_ipfilter_start cold -tao_ipfilter_slack_init 1e-4 -tao_ipfilter_dual_init 1.5
--tao_ipfilter_mu_init 1.5e-4
+      args: -tao_ipfilter_start cold -tao_ipfilter_slack_init 1e-4 -tao_ipfilter_dual_init 1.5 -tao_ipfilter_mu_init 1.5e-4
 
 TEST*/

@@ -311,8 +311,10 @@ int main(int argc, char **argv)
       suffix: differences
       args: -mode differences
 
-   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line
-search test: suffix: no_direction args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line search
+   test:
+      suffix: no_direction
+      args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
 
    # constraints without an interior are relaxed by less than the tolerance, and the solver says so
    test:
@@ -327,8 +329,7 @@ search test: suffix: no_direction args: -problems circles,HS31 -tao_ipfilter_del
    # absolute limits hold where the tolerance does not ask for as much
    test:
       suffix: limits
-      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9
--tao_ipfilter_compl_inf_tol 1e-9
+      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9 -tao_ipfilter_compl_inf_tol 1e-9
 
    # c = x y - 1 has one nonzero in its Jacobian at the start, two later
    test:

@@ -59,6 +59,7 @@ for path in sorted(glob.glob(os.path.join(TOP, "pc_amgf", "**", "*.c"), recursiv
 
 with open(os.path.join(TOP, "apps", "contact.c")) as file:
     help_text = re.search(r'help\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
+help_text = re.sub(r"\n {5,}(?=\S)", " ", help_text)  # what goes on in a line of its own
 summary, rest = help_text.split("\n", 1)
 options, codes = rest.split("Exit code:\n")
 body = [".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n.SH DESCRIPTION\nThe scene is a YAML file; share/amgf/scenes has some, and README.md there every key.\n.SH OPTIONS"]

@@ -114,7 +114,8 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
 
   Notes:
   A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error,
-and so is a negative search distance.
+  and so
+  is a negative search distance.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -173,16 +174,21 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   Options Database Keys:
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
 . -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand
-for, whatever the pair says . -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make
-more than these degrees stay sharp . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged
-normals of the vertices or the normals of the facets . -contact_quadrature <5>            - degree of polynomials, 1 to
-8, that the mortar integrals are exact for on every triangle of an overlap . -contact_search_distance <length>  - facets
-farther apart do not pair, whatever the pair says; 0: a quarter of the square root of the smaller face's area .
--contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
-body, or the pair's own distance up to 0.9 of what both bodies are thick . -contact_normal_cosine <-0.174>    - facets
-pair when the cosine between their normals is at most this . -contact_overlap_drop <1e-8>       - overlaps below this
-part of the smaller facet's area are left out . -contact_row_drop <1e-5>           - rows whose 1-norm is below this
-part of the largest row's are left out
+                                       for, whatever the pair says
+. -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make more than these degrees stay
+                                       sharp
+. -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the
+                                       normals of the facets
+. -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every
+                                       triangle of an overlap
+. -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the
+                                       square root of the smaller face's area
+. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
+                                       body, or the
+                                       pair's own distance up to 0.9 of what both bodies are thick
+. -contact_normal_cosine <-0.174>    - facets pair when the cosine between their normals is at most this
+. -contact_overlap_drop <1e-8>       - overlaps below this part of the smaller facet's area are left out
+. -contact_row_drop <1e-5>           - rows whose 1-norm is below this part of the largest row's are left out
 - -contact_view                      - prints the contact after every linearization
 
   Level: beginner
@@ -257,7 +263,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 
 /*@C
   ContactSetDisplacements - Tells a contact which faces are held, so that smooth surfaces go on beyond the planes they
-end on
+  end on
 
   Logically Collective
 
@@ -270,7 +276,8 @@ end on
 
   Note:
   Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth
-surface goes on as in a mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+  surface goes on as in a
+  mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
 
 .seealso: `ContactCreate()`, `ContactLinearize()`
 @*/
@@ -341,7 +348,7 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
 
 /*@
   ContactSetReach - Lets facets pair that are farther apart, or deeper in one another, than usual: where a load step
-moves them far
+  moves them far
 
   Logically Collective
 

@@ -144,7 +144,7 @@ typedef struct {
   PetscInt  nfacets;
   PetscInt *vertex; /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside; the last of
                        a triangle twice */
-  PetscInt  *node;  /* [4 nfacets] global numbers of the vertices: a third of their first global row */
+  PetscInt *node;   /* [4 nfacets] global numbers of the vertices: a third of their first global row */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
@@ -208,14 +208,14 @@ typedef struct {
     plane[3]; /* a real node; and real nodes on the planes across the axes that it is seen in, negative: in none */
 } ContactImage;
 typedef struct {
-  PetscInt  nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
-  PetscInt  nnodes, *node; /* [4 nfacets] number from 0 of the node at a corner */
-  PetscInt *twin;   /* [4 nfacets] corner whose edge to the next vertex is the same, seen from the other side; negative:
+  PetscInt   nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
+  PetscInt   nnodes, *node; /* [4 nfacets] number from 0 of the node at a corner */
+  PetscInt  *twin;  /* [4 nfacets] corner whose edge to the next vertex is the same, seen from the other side; negative:
                        sharp, or on the border */
-  PetscInt  nreal;  /* the nodes from here on are images of those before, in planes that the surface ends on */
-  PetscInt *global; /* [nreal] global numbers of the nodes */
-  PetscInt *held;   /* [nnodes] bits of the axes along which the face is held */
-  PetscInt  nnormals; /* that the surface's own corners have on this rank: corners share one as far as nothing sharp is
+  PetscInt   nreal; /* the nodes from here on are images of those before, in planes that the surface ends on */
+  PetscInt  *global;   /* [nreal] global numbers of the nodes */
+  PetscInt  *held;     /* [nnodes] bits of the axes along which the face is held */
+  PetscInt   nnormals; /* that the surface's own corners have on this rank: corners share one as far as nothing sharp is
                          between them */
   PetscInt  *normal, *at;   /* [4 own facets] which a corner has; [nnormals] a corner that has it */
   PetscReal *reference, *x; /* [3 nreal], [3 nnodes] coordinates of the nodes, undeformed and deformed [length] */
@@ -296,14 +296,14 @@ typedef struct {
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
-  PetscBool      rubs;    /* whether the pair's slip is asked for */
-  PetscBool      sticks;  /* whether none is allowed */
-  PetscInt nfrictionless; /* rows, on all ranks, where friction cannot act though the faces slide: known once there are
+  PetscBool      rubs;     /* whether the pair's slip is asked for */
+  PetscBool      sticks;   /* whether none is allowed */
+  PetscInt  nfrictionless; /* rows, on all ranks, where friction cannot act though the faces slide: known once there are
                              rows of slip */
-  PetscBool  smooth;      /* whether the gap is to be that of the smooth surfaces */
-  PetscReal  bulge;  /* these stand off the undeformed facets of the two faces by no more than this together [length] */
-  PetscReal  given;  /* the pair's own search distance; 0: from the size of the faces [length] */
-  PetscInt  *row;    /* [4 nonmortar facets] global row of each of the facets' vertices */
+  PetscBool smooth;        /* whether the gap is to be that of the smooth surfaces */
+  PetscReal bulge;   /* these stand off the undeformed facets of the two faces by no more than this together [length] */
+  PetscReal given;   /* the pair's own search distance; 0: from the size of the faces [length] */
+  PetscInt *row;     /* [4 nonmortar facets] global row of each of the facets' vertices */
   PetscReal *normal; /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
   PetscReal  distance; /* facets farther apart than this do not pair [length] */
   PetscReal  depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
@@ -319,9 +319,9 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 
 /* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
 typedef struct {
-  PetscInt  nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
-  PetscInt *vertex;         /* [nlocal] local DMPlex points */
-  PetscInt *held; /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined
+  PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
+  PetscInt  *vertex;         /* [nlocal] local DMPlex points */
+  PetscInt  *held; /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined
                      plane across which there is none; NULL: not yet asked for */
   PetscReal *normal; /* [3 nlocal] averaged unit normals */
   PetscReal *x;      /* [3 nlocal] coordinates of the deformed vertices [length] */

@@ -159,9 +159,10 @@ static PetscErrorCode DeepSearch(Contact contact, const ContactBoundary *boundar
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
-what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
-they do not.
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth
+  and what widens
+  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do
+  not.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/

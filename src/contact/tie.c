@@ -232,7 +232,7 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 
   Output Parameter:
 . rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar
-face's, and sum to 1; the others are empty
+         face's, and sum to 1; the others are empty
 
   Level: intermediate
 

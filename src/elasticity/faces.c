@@ -104,7 +104,7 @@ static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3
 
 /*@
   ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead
-traction's load, or the stiffness of springs
+  traction's load, or the stiffness of springs
 
   Collective
 

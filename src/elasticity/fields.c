@@ -47,15 +47,16 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 
   Output Parameter:
 . stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
-`PetscFree()`
+           `PetscFree()`
 
   Level: intermediate
 
   Notes:
   Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
-body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first order.
-Where bodies share a node it has the mean of theirs. A node at which the material is turned inside out has
-`PETSC_INFINITY`.
+  body, and the law gives the stress of
+  them: second order up to the surface, where the cells' own stress is first order. Where bodies share a node it has
+  the mean of theirs. A node
+  at which the material is turned inside out has `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
 @*/
@@ -104,8 +105,8 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point turned
-inside out has `PETSC_INFINITY`.
+  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point
+  turned inside out has `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
 @*/

@@ -68,7 +68,7 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
 
 /*@
   ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape
-function
+  function
 
   Collective
 
@@ -81,8 +81,8 @@ function
   Level: intermediate
 
   Notes:
-  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of the
-mass matrix.
+  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
+  the mass matrix.
 
   References:
   Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
@@ -196,8 +196,9 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
-a face of the mesh is an error.
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is
+  not a face of the mesh is an
+  error.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
 @*/
@@ -219,13 +220,14 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 
   Output Parameter:
 . areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added
-to it [length^2]
+          to it [length^2]
 
   Level: developer
 
   Notes:
   Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
-quadratic shape functions are loads.
+  quadratic shape functions
+  are loads.
 
 .seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
 @*/

@@ -11,13 +11,13 @@
 + elasticity - the context
 . stiffness  - one a row, not negative, referenced; `NULL`: no springs to the ground [force/length]
 - between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none
-[force/length]
+               [force/length]
 
   Level: intermediate
 
   Notes:
-  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the others.
-The next tangent is assembled completely.
+  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the
+  others. The next tangent is assembled completely.
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
 @*/

@@ -17,14 +17,15 @@ static PetscReal StressVonMises(const PetscReal s[6])
 - u          - displacement, global, 3 components a node [length]
 
   Output Parameter:
-. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free
-with `PetscFree()`
+. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];
+           free with `PetscFree()`
 
   Level: intermediate
 
   Notes:
   The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
-dilatation. A cell turned inside out has the value `PETSC_INFINITY`.
+  dilatation. A cell
+  turned inside out has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/

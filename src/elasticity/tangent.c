@@ -124,7 +124,7 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 
 /*@
   ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed
-aggregation and nodal AMG build on
+  aggregation and nodal AMG build on
 
   Collective
 
@@ -136,7 +136,8 @@ aggregation and nodal AMG build on
 
   Notes:
   The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
-much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
+  much memory as six solutions, and PCHYPRE copies
+  them whether or not it makes use of them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

@@ -125,13 +125,14 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
   Input Parameters:
 + elasticity - the context
 - fits       - 4 values a local cell, from `ElasticityFitTemperature()`, copied; `NULL`: none. Cells of bodies without
-expansion must have zeros
+               expansion must have zeros
 
   Level: intermediate
 
   Notes:
   Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
-small strain, which alone expand, does not depend on it.
+  small strain, which alone
+  expand, does not depend on it.
 
 .seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
 @*/

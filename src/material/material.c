@@ -48,7 +48,7 @@ PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, Pets
   Output Parameters:
 + moduli    - the moduli [force/length^2]
 - isochoric - those that leave the law without kappa/2 theta^2, the energy of its dilatation; `NULL` if not wanted
-[force/length^2]
+              [force/length^2]
 
   Level: developer
 
@@ -87,7 +87,7 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
 
 /*@
   MaterialSetScale - Sets Young's modulus of a material whose law has other constants, for what asks only how stiff it
-is
+  is
 
   Not Collective
 

@@ -3,7 +3,7 @@
 
 /*@
   MeshCheckBody - Checks the parameters of a body's shape, or that its mesh file has its volume, and the parts of its
-faces
+  faces
 
   Collective
 

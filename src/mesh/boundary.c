@@ -11,8 +11,8 @@
 . dm - the mesh
 
   Output Parameter:
-. boundary - of each facet, in the order of its points: one cell here, no copy on another rank, and no finer or coarser
-cell beyond it
+. boundary - of each facet, in the order of its points: one cell here, no copy on another rank, and no finer or
+             coarser cell beyond it
 
   Level: developer
 

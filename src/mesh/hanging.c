@@ -176,7 +176,7 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 
 /*@
   MeshGetHanging - Gets the vertices that hang amid an edge or a facet of a cell which is refined less than its
-neighbour
+  neighbour
 
   Not Collective
 
@@ -184,8 +184,9 @@ neighbour
 . dm - mesh from `MeshCreateScene()`
 
   Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the
-mean of, none of which hangs; the others are empty. The mesh's own; NULL where no vertex hangs
+. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are
+          the mean of, none of which hangs; the
+          others are empty. The mesh's own; NULL where no vertex hangs
 
   Level: developer
 

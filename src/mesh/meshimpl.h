@@ -17,9 +17,9 @@
    stay is mapped at level 0.
 */
 typedef struct {
-  PetscInt  ncells, nvertices, nfacets;
-  PetscInt  ncorners; /* of a cell: 8 of hexahedra, 4 of tetrahedra */
-  PetscInt *cells;    /* ncorners vertices a cell, of hexahedra in tensor order: vertex i + 2 j + 4 k lies at the corner
+  PetscInt   ncells, nvertices, nfacets;
+  PetscInt   ncorners; /* of a cell: 8 of hexahedra, 4 of tetrahedra */
+  PetscInt  *cells; /* ncorners vertices a cell, of hexahedra in tensor order: vertex i + 2 j + 4 k lies at the corner
                          (i, j, k) */
   PetscReal *coordinates; /* 3 parameters a vertex; for a shape without a map, its place [length] */
   PetscInt  *facets;      /* 4 vertices a facet, the last of a triangle's twice */
@@ -282,7 +282,7 @@ typedef struct {
   PetscInt  ncells, *vertex; /* 8 a cell, in tensor order */
   PetscInt *root, *place;    /* 4 numbers a cell: where in its root the lower corner is, in cells of its size, and how
                                 often the root was refined */
-  PetscInt nvertices, maxvertices,
+  PetscInt  nvertices, maxvertices,
     *parent;                /* 4 a vertex: those that it was made amid, on an edge or a side; the others are negative */
   PetscReal             *x; /* 3 a vertex, as the mesh has them */
   PetscInt               nplaced; /* the first so many vertices have been placed: mend.c */

@@ -162,7 +162,7 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
 
   References:
 . * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci.
-Comput. 20 (1998)
+      Comput. 20 (1998)
 
 .seealso: `MeshRegisterPartitioner()`, `PetscPartitionerSetType()`
 M*/
@@ -183,7 +183,7 @@ static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
 
   Notes:
   `MeshCreate()` calls it; a program that distributes its own DMPlex calls it before `-petscpartitioner_type metis` is
-read.
+  read.
 
 .seealso: `MeshCreate()`, `PetscPartitionerRegister()`
 @*/

@@ -137,8 +137,9 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
   Output Parameters:
 + n     - their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10
 - nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the
-reference cube; of order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron
-the vertices, then the edges 01, 12, 02, 03, 13 and 23
+          reference cube; of
+          order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the
+          vertices, then the edges 01, 12, 02, 03, 13 and 23
 
   Level: developer
 
@@ -165,8 +166,9 @@ PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt node
 
   Output Parameters:
 + n     - their number: 4, or 9 in a body of order 2; of a triangle 3, or 6
-- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the body;
-of order 2 then the edges, each between the vertex of its number and the next, and the facet, unless it is a triangle
+- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the
+          body; of order 2 then the
+          edges, each between the vertex of its number and the next, and the facet, unless it is a triangle
 
   Level: developer
 
@@ -211,8 +213,9 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
 
   Output Parameters:
 + n      - their number: 1, the facet itself, or 4 in a body of order 2
-- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge,
-facet, edge. Triangles have their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges
+- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex,
+           edge, facet, edge. Triangles have
+           their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges
 
   Level: developer
 

@@ -27,8 +27,8 @@ void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3])
   Level: developer
 
   Notes:
-  With barycentric coordinates l, they are l_a at the corners of 4 nodes; of 10, l_a (2 l_a - 1) there, and 4 l_a l_b at
-the middle of the edge from a to b.
+  With barycentric coordinates l, they are l_a at the corners of 4 nodes; of 10, l_a (2 l_a - 1) there, and 4 l_a l_b
+  at the middle of the edge from a to b.
 
 .seealso: `MeshGetCellNodes()`
 @*/

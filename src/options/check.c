@@ -17,8 +17,8 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
 }
 
 /*@C
-   OptionsCheck - Raises an error for an option that nothing will ask for: one that is neither ours nor begins as those
-of PETSc do
+   OptionsCheck - Raises an error for an option that nothing will ask for: one that is neither ours nor begins as
+   those of PETSc do
 
    Collective
 
@@ -28,9 +28,9 @@ of PETSc do
    Level: intermediate
 
    Notes:
-   Call it once all options are in the database, from the command line, from files, PETSC_OPTIONS or a scene, and before
-they are used. PETSc's own options, and those of our solvers' inner ones, cannot be known beforehand: `-options_left`
-tells which of them nothing asked for.
+   Call it once all options are in the database, from the command line, from files, PETSC_OPTIONS or a scene,
+   and before they are used. PETSc's own options, and those of our solvers' inner ones, cannot be known beforehand:
+   `-options_left` tells which of them nothing asked for.
 
    Errors: PETSC_ERR_USER_INPUT, with the nearest known name.
 

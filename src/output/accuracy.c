@@ -13,9 +13,9 @@
    Level: intermediate
 
    Note:
-   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery; `change` that
-of the results since the coarser mesh, from which the error of the mesh is extrapolated; where it is `beyond recovery`
-the two disagree, and the change stands for the error.
+   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery;
+   `change` that of the results since the coarser mesh, from which the error of the mesh is extrapolated; where it is
+   `beyond recovery` the two disagree, and the change stands for the error.
 
 .seealso: `AccuracyAssess()`, `ReportView()`
 @*/

@@ -135,9 +135,9 @@ PetscErrorCode CheckpointWriterCreate(Scene scene, DM dm, const char file[], Che
    Level: intermediate
 
    Notes:
-   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name then,
-while the caller goes on: the one before stays until then, whatever happens. The next call, or
-CheckpointWriterDestroy(), waits for it.
+   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name
+   then, while the caller goes on: the one before stays until then, whatever happens. The next call, or
+   CheckpointWriterDestroy(), waits for it.
 
    Errors: PETSC_ERR_FILE_WRITE where there is no room, for this state or the one before.
 

@@ -136,8 +136,8 @@ static PetscErrorCode JSONReport(FILE *stream, const void *ctx)
    Level: intermediate
 
    Note:
-   The keys are the members of RunReport, StepReport and what they hold, as src/output/schema.c lists them. Numbers have
-full precision; NaN and infinity become null.
+   The keys are the members of RunReport, StepReport and what they hold, as src/output/schema.c lists them.
+   Numbers have full precision; NaN and infinity become null.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the file cannot be written.
 

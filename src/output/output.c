@@ -20,16 +20,16 @@
    Level: intermediate
 
    Notes:
-   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell;
-hexahedra of order 2 are cut by their nodes into 8, which have the values of the cell; where there are tetrahedra, of 4
-or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before the nodes of each)
-and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends at time k. Every file
-is written under another name and renamed when it is whole, and the .xmf comes last, so a run that is killed, or finds
-the disk full, leaves what it has finished readable. Once the first step is written, the files of later steps that an
-older run of the same name left are removed.
+   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every
+   cell; hexahedra of order 2 are cut by their nodes into 8, which have the values of the cell; where there are
+   tetrahedra, of 4 or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before
+   the nodes of each) and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends
+   at time k. Every file is written under another name and renamed when it is whole, and the .xmf comes last, so a run
+   that is killed, or finds the disk full, leaves what it has finished readable. Once the first step is written, the
+   files of later steps that an older run of the same name left are removed.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written, or another process writes them;
-PETSC_ERR_FILE_WRITE where there is no room.
+   PETSC_ERR_FILE_WRITE where there is no room.
 
 .seealso: `OutputWrite()`, `OutputDestroy()`
 @*/
@@ -150,22 +150,23 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    Level: intermediate
 
    Notes:
-   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure [force/length^2],
-contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. Over the
-vertices of a side contact_pressure times contact_area sums to the pair's normal force, contact_force to its force. The
-area is that which the other side covers about the vertex; a vertex that is covered much less than its neighbours is
-counted with theirs and has neither area nor pressure. Away from contact the gap and the status are NaN, which ParaView
-paints in its NaN colour, the others 0.
+   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure
+   [force/length^2], contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open),
+   contact_force [force]. Over the vertices of a side contact_pressure times contact_area sums to the pair's normal
+   force, contact_force to its force. The area is that which the other side covers about the vertex; a vertex that is
+   covered much less than its neighbours is counted with theirs and has neither area nor pressure. Away from contact
+   the gap and the status are NaN, which ParaView paints in its NaN colour, the others 0.
 
    With several pairs each has fields of its own, called contact_pressure_<pair> and so on; those without a name have,
-at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
+   at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
 
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them:
-strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the
-three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with gauss_stress.
+   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress,
+   the three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with
+   gauss_stress.
 
-   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md. The
-points of each line of the scene's probes are added to <basename>_<line>.csv.
+   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
+   The points of each line of the scene's probes are added to <basename>_<line>.csv.
 
 .seealso: `OutputCreate()`, `OutputDestroy()`
 @*/

@@ -387,8 +387,8 @@ static PetscErrorCode RestartDestroy(Restart *r)
    Level: intermediate
 
    Notes:
-   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks. Every
-rank holds the vertices of the whole file meanwhile, unless they are the same.
+   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks.
+   Every rank holds the vertices of the whole file meanwhile, unless they are the same.
 
    Errors: PETSC_ERR_FILE_OPEN for no file; PETSC_ERR_USER_INPUT for one of another scene, or no checkpoint at all.
 

@@ -88,10 +88,11 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
    Options Database Keys, each instead of what the file says:
 +  -refine <n>               - uniform refinements of level 0
 .  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in
-between .  -model <energy,quadratic> - what a load step minimizes .  -contact_updates <n>      - linearizations of the
-gap a load step at most; 1: one, whether its gap is true or not
+                               between
+.  -model <energy,quadratic> - what a load step minimizes
+.  -contact_updates <n>      - linearizations of the gap a load step at most; 1: one, whether its gap is true or not
 -  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0:
-none
+                               none
 
    Level: beginner
 
@@ -99,7 +100,7 @@ none
    share/scenes/README.md documents the format: every key, its unit and default, and an example of every effect.
 
    The options under the key solver are set in the options database until `SceneDestroy()`, where it has not got them
-yet.
+   yet.
 
    Every error is raised on all ranks: PETSC_ERR_FILE_OPEN and PETSC_ERR_FILE_READ for a file that is not there or no
    YAML, PETSC_ERR_USER_INPUT for what it says.

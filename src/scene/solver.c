@@ -86,8 +86,8 @@ PetscErrorCode SceneDestroyOptions(Scene scene)
    Level: intermediate
 
    Note:
-   Such an option is misspelt, or belongs to a solver that did not run. One that the command line overrides is not
-reported.
+   Such an option is misspelt, or belongs to a solver that did not run. One that the command line overrides is
+   not reported.
 
 .seealso: `SceneLoad()`
 @*/

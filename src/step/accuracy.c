@@ -43,10 +43,12 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
    Options Database Keys:
 +  -accuracy <target>         - relative error wanted in energy and contact force
 .  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's
-largest pressure too; displacement: of energy and the displacements of the scene's probes .  -accuracy_adaptive <bool>
-- refine cells where the error is, in place of all of them; default false .  -accuracy_share <0.1>      - what of it the
-solver may leave .  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's
-but for that; default: as the scene has it
+                                largest pressure too;
+                                displacement: of energy and the displacements of the scene's probes
+.  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
+.  -accuracy_share <0.1>      - what of it the solver may leave
+.  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's but for that;
+                                default: as the scene has it
 -  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
 
    Level: beginner
@@ -142,10 +144,10 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Level: developer
 
    Notes:
-   The gap is linearized until it is true, so that load steps of any size end in the same state; with -contact_updates 1
-the accuracy is that of the problem with one linearization a load step. The optimizer's tolerance starts at half of
-share x target and is tightened where that left too much. An option of the user's wins over a tolerance, as over any
-other of a simulation; `AccuracyAssess()` learns of it after the run.
+   The gap is linearized until it is true, so that load steps of any size end in the same state; with
+   -contact_updates 1 the accuracy is that of the problem with one linearization a load step. The optimizer's
+   tolerance starts at half of share x target and is tightened where that left too much. An option of the user's wins
+   over a tolerance, as over any other of a simulation; `AccuracyAssess()` learns of it after the run.
 
 .seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
@@ -415,29 +417,29 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Level: developer
 
    Notes:
-   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves nor where
-the faces meet: no mesh is fine enough by itself, and a second one is always run. From then on the error is extrapolated
-from the change of energy and of each pair's force between two meshes, whichever is largest, with the rate that recovery
-shows, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of recovery's at least, and for
-all of it where that falls by no more than a regular solution's, as beside singular edges. A change beyond what recovery
-accounts for on both meshes is the error as it is. A pair's force is its size and the sum of its rows' sizes, the first
-relative to the largest of all pairs.
+   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves
+   nor where the faces meet: no mesh is fine enough by itself, and a second one is always run. From then on the error
+   is extrapolated from the change of energy and of each pair's force between two meshes, whichever is largest, with
+   the rate that recovery shows, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of
+   recovery's at least, and for all of it where that falls by no more than a regular solution's, as beside singular
+   edges. A change beyond what recovery accounts for on both meshes is the error as it is. A pair's force is its size
+   and the sum of its rows' sizes, the first relative to the largest of all pairs.
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
-costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. A target that the first mesh
-meets costs 8 times that mesh.
+   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. A target that the first
+   mesh meets costs 8 times that mesh.
 
    Load steps of each mesh but the first start from what they ended with on the one before, see
-`SimulationSetForecast()`.
+   `SimulationSetForecast()`.
 
-   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()` names;
-what is extrapolated follows the same rates, of the cube root of the growth of the unknowns at least.
+   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()`
+   names; what is extrapolated follows the same rates, of the cube root of the growth of the unknowns at least.
 
-   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and
-the error is extrapolated with a factor of 16 at most; later ones are refined.
+   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too,
+   and the error is extrapolated with a factor of 16 at most; later ones are refined.
 
    Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest
-mesh the run is repeated with it.
+   mesh the run is repeated with it.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/

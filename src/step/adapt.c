@@ -98,9 +98,9 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
    Level: developer
 
    Notes:
-   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps; and, on
-both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces, and of plane
-ones those at the edge of contact.
+   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps;
+   and, on both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces,
+   and of plane ones those at the edge of contact.
 
 .seealso: `SimulationMark()`, `AccuracyAssess()`
 @*/

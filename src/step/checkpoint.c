@@ -127,8 +127,8 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
    Level: intermediate
 
    Note:
-   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part of the
-work in the first solve.
+   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part
+   of the work in the first solve.
 
 .seealso: `SimulationGetCheckpoint()`, `CheckpointRead()`
 @*/

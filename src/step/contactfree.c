@@ -51,8 +51,8 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 
 /*@C
    SimulationContactFree - Solves the first load step's elastic problem with its contact pairs replaced by a given
-pressure on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time,
-condition number beta and the bound sqrt(2 (beta+3)/beta) iterations into the report.
+   pressure on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time,
+   condition number beta and the bound sqrt(2 (beta+3)/beta) iterations into the report.
 
    Collective
 

@@ -15,14 +15,14 @@
 
    Input/Output Parameter:
 .  forecast - the states on the other mesh, zeros where there was none; those on this one as load steps end. It must
-outlive the simulation
+              outlive the simulation
 
    Level: developer
 
    Notes:
-   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that fails with
-it is tried again without. It is left aside where one linearization of the gap is asked for, which is that at the last
-state, and where displacements are bounded by the last increments.
+   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that
+   fails with it is tried again without. It is left aside where one linearization of the gap is asked for, which is
+   that at the last state, and where displacements are bounded by the last increments.
 
 .seealso: `SimulationSetMarks()`, `StepForecastDestroy()`, `MeshEvaluate()`
 @*/

@@ -12,15 +12,15 @@ static void InterruptHandle(int sig)
 
 /*@C
    SimulationCatchSignals - From now on SIGINT, SIGTERM and SIGUSR1 end a simulation after the Newton step under way,
-with the state of the last load step that converged
+   with the state of the last load step that converged
 
    Not Collective
 
    Level: intermediate
 
    Notes:
-   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves them
-alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
+   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves
+   them alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
 
 .seealso: `SimulationStep()`
 @*/

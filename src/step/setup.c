@@ -82,7 +82,7 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 
 /*@C
    SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the
-contact pairs if it names any; at time 0 with zero displacement
+   contact pairs if it names any; at time 0 with zero displacement
 
    Collective
 

@@ -16,7 +16,7 @@
    Level: beginner
 
 .seealso: `SimulationSetTolerances()`, `SimulationSetMonitor()`, `SimulationSetFromOptions()`, `SimulationSetUp()`,
-`SimulationDestroy()`, `SceneLoad()`
+          `SimulationDestroy()`, `SceneLoad()`
 @*/
 PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 {
@@ -100,8 +100,8 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 }
 
 /*@C
-   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and the
-cells' mean stress
+   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and
+   the cells' mean stress
 
    Logically Collective
 
@@ -132,16 +132,20 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 
    Options Database Keys:
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
-coarser mesh ended with; default true .  -load_max_cuts <5>         - how often a load step that fails is halved .
--load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again .
--progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never .
--error_estimate <bool>     - estimate the discretization error at the end of every load step; default true .
--contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates .
--contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
-linearization
+                                coarser mesh ended with; default true
+.  -load_max_cuts <5>         - how often a load step that fails is halved
+.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
+.  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
+.  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
+.  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
+.  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
+                                linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
-TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc solvers have the
-prefix penalty_. The faces penetrate by about pressure times the bodies' flexibility over this
+                                TAOIPFILTER: the
+                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc
+                                solvers have
+                                the prefix penalty_. The faces penetrate by about pressure times the bodies'
+                                flexibility over this
 
    Level: beginner
 

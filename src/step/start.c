@@ -165,8 +165,8 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
    Level: beginner
 
    Note:
-   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound before it is
-solved.
+   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound
+   before it is solved.
 
 .seealso: `SceneDescribe()`, `ContactCheckDepth()`
 @*/

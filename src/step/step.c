@@ -76,11 +76,11 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
    Level: beginner
 
    Notes:
-   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often again at
-what was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or the step has not
-converged, but where one linearization is all that is allowed. Linear bodies, and the scene's `model quadratic`, make
-the step a quadratic program; else the true energy is minimized. A quadratic step without contact pairs costs one PCG
-solve (options prefix -elasticity_) and neither search nor optimizer.
+   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often
+   again at what was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or
+   the step has not converged, but where one linearization is all that is allowed. Linear bodies, and the scene's
+   `model quadratic`, make the step a quadratic program; else the true energy is minimized. A quadratic step without
+   contact pairs costs one PCG solve (options prefix -elasticity_) and neither search nor optimizer.
 
    A step that fails is halved, tried again from the last good state, and doubled after each success.
 

@@ -138,7 +138,7 @@ PetscBool IPConstraintsMet(Tao tao)
 
 /*@C
   TaoIPFilterDefaultConvergenceTest - The convergence test of a `TAOIPFILTER` unless `TaoSetConvergenceTest()` gives
-another one
+  another one
 
   Collective
 
@@ -150,14 +150,16 @@ another one
 
   Notes:
   Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
-better can be expected. A test of the caller's may call it.
+  constraints within
+  the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing better can be
+  expected. A test of the
+  caller's may call it.
 
   Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
   `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
 
 .seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`,
-`TaoIPFilterGetReason()`
+          `TaoIPFilterGetReason()`
 @*/
 PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {

@@ -290,9 +290,10 @@ PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
 
   Notes:
   With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
-that Hessian, whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on
-another one by this call. Directions are multiplied anew where the values of the Hessian have changed, and given up with
-another Hessian or another type of `PC`.
+  that Hessian,
+  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by
+  this call. Directions are multiplied anew where
+  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
 
   The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
 
@@ -321,7 +322,8 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
 - -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many
-as 64 MB and 15 % of an AMG's memory hold, 48 where the objective is not quadratic
+                                                     as 64 MB and 15 % of an AMG's memory hold, 48 where the objective
+                                                     is not quadratic
 
   Level: advanced
 
@@ -338,7 +340,7 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
 
 /*@
   TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace
-method can choose its preconditioner
+  method can choose its preconditioner
 
   Logically Collective
 
@@ -350,7 +352,7 @@ method can choose its preconditioner
 
   Note:
   A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is
-`PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
+  `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
 @*/
