@@ -3,8 +3,9 @@
 
     share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises] [--scale FACTOR|auto] [--only BODY,...] ...
 
-The field is one of the files' (von_mises, nodal_von_mises, contact_pressure, contact_gap, contact_status, displacement, ...), a component of one
-(displacement_z, stress_xx), or body. Grey lines are the outline of the undeformed bodies. Fields of contact colour the faces in a contact pair.
+The field is one that the files hold (von_mises, nodal_von_mises, contact_pressure, contact_gap, contact_status,
+displacement, ...), a component of one (displacement_z, stress_xx), or body. Grey lines are the outline of the
+undeformed bodies. Contact fields colour only the faces of contact pairs.
 """
 import argparse
 import os
@@ -21,25 +22,58 @@ try:
     import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
     from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges
     from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkWarpVector
     from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
     from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
+    from vtkmodules.vtkRenderingCore import (
+        vtkActor,
+        vtkPolyDataMapper,
+        vtkRenderer,
+        vtkRenderWindow,
+        vtkTextActor,
+        vtkWindowToImageFilter,
+    )
 except ImportError:
     sys.exit("draw.py: Python has no VTK 9: install python3-vtk9 (Debian), or vtk from PyPI")
 
 KINDS = {4: 10, 8: 12, 10: 24}  # VTK's cells by number of nodes
-LABELS = {"von_mises": "von Mises stress", "nodal_von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "contact gap",
-          "displacement": "displacement (magnitude)", "contact_area": "area of the vertex", "contact_slip_path": "slip path"}
+LABELS = {
+    "von_mises": "von Mises stress",
+    "nodal_von_mises": "von Mises stress",
+    "contact_pressure": "contact pressure",
+    "contact_gap": "contact gap",
+    "displacement": "displacement (magnitude)",
+    "contact_area": "area of the vertex",
+    "contact_slip_path": "slip path",
+}
 STATUS = ["open", "closed", "slipping"]
 STATUS_COLOURS = [(0.62, 0.75, 0.89), (0.80, 0.15, 0.15), (0.98, 0.75, 0.20)]
-BODY_COLOURS = [(0.30, 0.47, 0.66), (0.95, 0.56, 0.17), (0.35, 0.63, 0.31), (0.88, 0.34, 0.35), (0.46, 0.72, 0.70), (0.69, 0.48, 0.63), (0.61, 0.46, 0.37)]
+BODY_COLOURS = [
+    (0.30, 0.47, 0.66),
+    (0.95, 0.56, 0.17),
+    (0.35, 0.63, 0.31),
+    (0.88, 0.34, 0.35),
+    (0.46, 0.72, 0.70),
+    (0.69, 0.48, 0.63),
+    (0.61, 0.46, 0.37),
+]
 GREY = (0.80, 0.80, 0.80)
-VIRIDIS = [(0.267, 0.005, 0.329), (0.283, 0.141, 0.458), (0.254, 0.265, 0.530), (0.207, 0.372, 0.553), (0.164, 0.471, 0.558), (0.128, 0.567, 0.551),
-           (0.135, 0.659, 0.518), (0.267, 0.749, 0.441), (0.478, 0.821, 0.318), (0.741, 0.873, 0.150), (0.993, 0.906, 0.144)]
+VIRIDIS = [
+    (0.267, 0.005, 0.329),
+    (0.283, 0.141, 0.458),
+    (0.254, 0.265, 0.530),
+    (0.207, 0.372, 0.553),
+    (0.164, 0.471, 0.558),
+    (0.128, 0.567, 0.551),
+    (0.135, 0.659, 0.518),
+    (0.267, 0.749, 0.441),
+    (0.478, 0.821, 0.318),
+    (0.741, 0.873, 0.150),
+    (0.993, 0.906, 0.144),
+]
 WIDTH, LOWEST, HIGHEST = 1100, 420, 800  # of the picture [pixels]
 BODIES = 0.82  # of the width, left of the colour bar
 CAPTION = 44  # below the bodies [pixels]
@@ -51,13 +85,15 @@ def arguments(words=None):
     parser.add_argument("picture", help="a PNG file")
     parser.add_argument("--step", type=int, help="load step; the last one by default")
     parser.add_argument("--field", default="von_mises")
-    parser.add_argument("--scale", default="1", help="factor of the displacement; auto: the largest is a tenth of the size")
-    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"), help="[degrees]")
+    parser.add_argument("--scale", default="1", help="factor of the displacement; auto draws a tenth of the size")
+    view = ("ELEVATION", "AZIMUTH")
+    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view, help="[degrees]")
     parser.add_argument("--up", choices="xyz", default="z")
     parser.add_argument("--only", help="names of the bodies to draw, e.g. slab,die")
     parser.add_argument("--hide", default="", help="leave out the cells whose centre is on this side, e.g. 'y<0'")
     parser.add_argument("--mirror", default="", help="draw also what the planes x = 0, y = 0 or z = 0 mirror, e.g. xy")
-    parser.add_argument("--around-contact", type=float, metavar="FACTOR", help="show only as much as FACTOR times the size of the contact")
+    zoom = "show only as much as FACTOR times the size of the contact"
+    parser.add_argument("--around-contact", type=float, metavar="FACTOR", help=zoom)
     parser.add_argument("--limit", type=float, help="upper end of the colours")
     parser.add_argument("--title", default="")
     parser.add_argument("--no-edges", action="store_true", help="do not draw the cells' edges")
@@ -81,12 +117,16 @@ def chosen_cells(args, run):
     return np.flatnonzero(keep)
 
 
+def ids(numbers):
+    return numpy_to_vtkIdTypeArray(np.asarray(numbers).astype(np.int64), deep=True)
+
+
 def body_grid(run, cells):
     """VTK's grid of some cells, undeformed"""
     grid, array, points = vtkUnstructuredGrid(), vtkCellArray(), vtkPoints()
     nodes = [run.cells[c] for c in cells]
-    offsets = np.concatenate([[0], np.cumsum([len(cell) for cell in nodes])]).astype(np.int64)
-    array.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(np.concatenate(nodes).astype(np.int64), deep=True))
+    offsets = np.concatenate([[0], np.cumsum([len(cell) for cell in nodes])])
+    array.SetData(ids(offsets), ids(np.concatenate(nodes)))
     points.SetData(numpy_to_vtk(run.vertices, deep=True))
     grid.SetPoints(points)
     grid.SetCells(numpy_to_vtk(np.array([KINDS[len(cell)] for cell in nodes], np.uint8), deep=True), array)
@@ -132,13 +172,33 @@ def warped(grid, scale):
     return warp.GetOutput()
 
 
+def faces_of(skin):
+    """Where the vertices of each face begin and end, and the vertices"""
+    polygons = skin.GetPolys()
+    return vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
+
+
 def face_status(skin):
-    """The status of a face: the middle one of its vertices'; none where a vertex is in no contact pair"""
-    status, connectivity = vtk_to_numpy(skin.GetPointData().GetArray("colour")), skin.GetPolys()
-    offsets, nodes = (vtk_to_numpy(array()) for array in (connectivity.GetOffsetsArray, connectivity.GetConnectivityArray))
-    values = np.array([np.median(status[nodes[a:b]]) for a, b in zip(offsets[:-1], offsets[1:])])
-    skin.GetPointData().RemoveArray("colour")
-    add(skin.GetCellData(), "colour", np.round(values))
+    """The status of a face: the middle one of its vertices'"""
+    status, (ends, nodes) = vtk_to_numpy(skin.GetPointData().GetArray("colour")), faces_of(skin)
+    add(skin.GetCellData(), "colour", [np.round(np.median(status[nodes[a:b]])) for a, b in zip(ends[:-1], ends[1:])])
+
+
+def parted(skin):
+    """The faces all of whose vertices have a value, and the others"""
+    valued, (ends, nodes) = np.isfinite(vtk_to_numpy(skin.GetPointData().GetArray("colour"))), faces_of(skin)
+    whole = np.logical_and.reduceat(valued[nodes], ends[:-1])
+    parts = []
+    for keep in (whole, ~whole):
+        part, array, faces = vtkPolyData(), vtkCellArray(), np.flatnonzero(keep)
+        sizes = np.diff(ends)[faces]
+        chosen = np.concatenate([nodes[ends[f] : ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
+        array.SetData(ids(np.concatenate([[0], np.cumsum(sizes)])), ids(chosen))
+        part.SetPoints(skin.GetPoints())
+        part.SetPolys(array)
+        part.GetPointData().AddArray(skin.GetPointData().GetArray("colour"))
+        parts.append(part)
+    return parts
 
 
 def continuous_table(low, high):
@@ -149,7 +209,6 @@ def continuous_table(low, high):
         k = min(int(place), len(VIRIDIS) - 2)
         table.SetTableValue(i, *(a + (place - k) * (b - a) for a, b in zip(VIRIDIS[k], VIRIDIS[k + 1])), 1.0)
     table.SetTableRange(low, high if high > low else low + 1.0)
-    table.SetNanColor(*GREY, 1.0)
     return table
 
 
@@ -162,7 +221,6 @@ def discrete_table(names, colours):
     for i, name in enumerate(names):
         table.SetAnnotation(i, name)
         table.SetTableValue(i, *colours[i % len(colours)], 1.0)
-    table.SetNanColor(*GREY, 1.0)
     return table
 
 
@@ -217,6 +275,17 @@ def actor_of(data, colour, width, table=None):
     return actor
 
 
+def faces_actor(args, part, table):
+    actor = actor_of(part, GREY, 0.5, table)
+    actor.GetProperty().SetAmbient(0.45)
+    actor.GetProperty().SetDiffuse(0.6)
+    if not args.no_edges:
+        actor.GetProperty().EdgeVisibilityOn()
+        actor.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
+        actor.GetProperty().SetLineWidth(0.5)
+    return actor
+
+
 def sharp_edges(skin):
     """Edges at which faces make more than 30 degrees, and rims"""
     edges = vtkFeatureEdges()
@@ -266,7 +335,7 @@ def legend(args, run, table, pixels):
     else:
         actors = colour_bar(f"{LABELS.get(args.field, args.field)} [{run.unit(args.field)}]", table)
     if args.field.startswith("contact_"):
-        actors.append(text_at("grey: no contact pair", BODIES * WIDTH + 12, 14, 14))
+        actors.append(text_at("grey: not in a pair", BODIES * WIDTH + 12, 14, 14))
     return actors
 
 
@@ -282,7 +351,8 @@ def text_at(text, x, y, size):
 def caption(args, run, step, scale, cells, displacement):
     nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
     largest = np.linalg.norm(displacement[nodes], axis=1).max()
-    return f"load step {step}, displacement drawn x {scale:.3g} (largest {largest:.3g} [{run.unit('displacement')}]); grey lines: undeformed"
+    size = f"largest {largest:.3g} [{run.unit('displacement')}]"
+    return f"load step {step}, displacement drawn x {scale:.3g} ({size}); grey lines: undeformed"
 
 
 def contact_box(args, run, step, cells, points):
@@ -314,12 +384,13 @@ def place_camera(args, renderer, centre, radius):
 
 
 def fit(camera, right, up, corners, heading):
-    """The projection that the corners of what is drawn fill; the picture's height, and the part of it that is the bodies'"""
+    """Lets the corners fill the projection; returns the height of the picture and the bodies' part of it"""
     across, along = corners @ right, corners @ up
     width, height = 1.06 * np.ptp(across), 1.06 * np.ptp(along)
     pixels = int(min(max(height / width * BODIES * WIDTH, LOWEST), HIGHEST))
     focal, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
-    move = ((across.max() + across.min()) / 2 - focal @ right) * right + ((along.max() + along.min()) / 2 - focal @ up) * up
+    move = ((across.max() + across.min()) / 2 - focal @ right) * right
+    move += ((along.max() + along.min()) / 2 - focal @ up) * up
     camera.SetFocalPoint(*(focal + move))
     camera.SetPosition(*(place + move))
     camera.SetParallelScale(max(width / (BODIES * WIDTH) * pixels, height) / 2)
@@ -358,20 +429,16 @@ def scene_of(args, run):
     table = colour_table(args, run, shown)
     add(grid.GetCellData() if by_cell else grid.GetPointData(), "colour", values[cells] if by_cell else values)
     skin = surface(warped(grid, scale))
-    if args.field.startswith("contact_status"):
-        face_status(skin)
-    skin = mirrored(args, skin)
     bodies, page = vtkRenderer(), vtkRenderer()
+    coloured, plain = (skin, None) if by_cell else parted(skin)
+    if args.field.startswith("contact_status"):
+        face_status(coloured)
+    for part, colours in ((coloured, table), (plain, None)):
+        if part and part.GetNumberOfCells():
+            bodies.AddActor(faces_actor(args, mirrored(args, part), colours))
+    skin = mirrored(args, skin)
     for renderer in (bodies, page):
         renderer.SetBackground(1, 1, 1)
-    faces = actor_of(skin, None, 1, table)
-    faces.GetProperty().SetAmbient(0.45)
-    faces.GetProperty().SetDiffuse(0.6)
-    if not args.no_edges:
-        faces.GetProperty().EdgeVisibilityOn()
-        faces.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
-        faces.GetProperty().SetLineWidth(0.5)
-    bodies.AddActor(faces)
     bodies.AddActor(actor_of(outline, (0.55, 0.55, 0.55), 1.2))
     bodies.AddActor(actor_of(sharp_edges(skin), (0.1, 0.1, 0.1), 1.4))
     corners = np.concatenate([vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline)])

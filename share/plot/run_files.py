@@ -1,4 +1,7 @@
-"""Reads the files that contact -output BASE wrote: BASE.xmf names bodies, units and load steps; BASE.h5 holds the mesh, BASE_0001.h5 ... a load step each."""
+"""Reads the files that contact -output BASE wrote.
+
+BASE.xmf names the bodies, the units and the load steps. BASE.h5 holds the mesh, and BASE_0001.h5, ... one load step each.
+"""
 import os
 import re
 import sys
@@ -74,7 +77,7 @@ class Run:
         return numbers
 
     def field(self, step, name):
-        """Values of a field, by vertex or by cell: one number each. Of a vector its length, or one component: displacement_z, stress_xx"""
+        """One number for each vertex or cell: a scalar, the length of a vector, or a component (displacement_z)"""
         with h5py.File(self.files[step], "r") as file:
             if name in file:
                 values = file[name][:]

@@ -1,4 +1,4 @@
-"""A screen that VTK can draw on where there is none: Debian's VTK needs an X server, and Xvfb is one without a display."""
+"""Starts an X server for VTK. Debian's VTK needs one even for pictures in files; Xvfb is one without a display."""
 import atexit
 import os
 import shutil
@@ -6,9 +6,15 @@ import subprocess
 
 from run_files import stop
 
+started = False
+
 
 def open_screen():
-    """Starts Xvfb and ends it with the program; without Xvfb the user's own display serves"""
+    """Starts Xvfb once and ends it with the program; without Xvfb the user's own display serves"""
+    global started
+    if started:
+        return
+    started = True
     if not shutil.which("Xvfb"):
         if not os.environ.get("DISPLAY"):
             stop("VTK needs an X server: install Xvfb (Debian: xvfb), or set DISPLAY")
