@@ -377,7 +377,8 @@ PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactHangingRowsVector(Contact, Vec sums);
 PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 
-/* surface_normals.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings' displacement */
+/* surface_normals.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings'
+   displacement */
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsUpdate(Contact);
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsDestroy(Contact);
@@ -445,7 +446,7 @@ typedef struct {
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], ContactIntegrals *);
 
-/* contact.c, linearize.c, initial_overlap.c: the object's life, its gap, and the error where bodies overlap deeper than it
-   looks, public */
+/* contact.c, linearize.c, initial_overlap.c: the object's life, its gap, and the error where bodies overlap deeper
+   than it looks, public */
 
 #endif

@@ -1,7 +1,7 @@
 /*
-   The grids of all bodies, distributed out from the first rank to all before any of it is a DMPlex: no rank ever holds more
-   of that, which takes several times the memory of the grids, than its own part. METIS parts the cells of the first
-   rank by their dual graph; each part goes out with its vertices, facets and curves.
+   The grids of all bodies, distributed out from the first rank to all before any of it is a DMPlex: no rank ever
+   holds more of that, which takes several times the memory of the grids, than its own part. METIS parts the cells of
+   the first rank by their dual graph; each part goes out with its vertices, facets and curves.
 */
 #include "meshimpl.h"
 #include <metis.h>

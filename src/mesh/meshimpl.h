@@ -351,8 +351,8 @@ PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const
 PETSC_INTERN PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], const PetscInt weights[], PetscInt part[]);
 
-/* distribute_level0.c: collective; the grids on rank 0 become those of all ranks, each a part. Which rank owns each vertex here,
-   as which point of a mesh of cells and vertices */
+/* distribute_level0.c: collective; the grids on rank 0 become those of all ranks, each a part. Which rank owns each
+   vertex here, as which point of a mesh of cells and vertices */
 typedef struct {
   PetscBool    distributed; /* else all is on rank 0 */
   PetscInt     n;

@@ -265,7 +265,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(ProbesDestroy(&s->probes));
   PetscCall(ContactLinearizationDestroy(&s->linearization));
   PetscCall(ContactLinearizationDestroy(&s->upcoming));
-  PetscCall(ContactHistoryDestroy(&s->memory));
+  PetscCall(ContactHistoryDestroy(&s->history));
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));

@@ -474,8 +474,8 @@ PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec
   StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
-/* nodal_pressure.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force,
-   gap x area] a vertex */
+/* nodal_pressure.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry:
+   [area, force, gap x area] a vertex */
 PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
 /* contact_points.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */

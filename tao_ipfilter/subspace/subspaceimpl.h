@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/subspace: the filtered subspace: directions, the reduced problem, its active sets and the laws
-   of norm terms. Every file builds on those before it, and on the folders below.
+   The map of tao_ipfilter/subspace: the filtered subspace: directions, the reduced problem, its active sets and the
+   laws of norm terms. Every file builds on those before it, and on the folders below.
 */
 #ifndef IPFILTER_SUBSPACEIMPL_H
 #define IPFILTER_SUBSPACEIMPL_H

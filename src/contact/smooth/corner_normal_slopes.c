@@ -1,5 +1,5 @@
-/* What corner_normals.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives of the
-   normal's components */
+/* What corner_normals.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives
+   of the normal's components */
 #include "src/contact/contactimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
