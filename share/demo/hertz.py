@@ -43,9 +43,10 @@ def rows(base):
 def draw(base):
     """Whether there is a picture; without VTK there is none, and draw.py says why"""
     script = os.path.join(TOP, "share", "plot", "draw.py")
-    options = "--field nodal_von_mises --mirror x --around-contact 6 --view 0 -90".split()
+    options = "--field nodal_von_mises --only cylinder --mirror x --around-contact 6 --view 0 -90".split()
     title = ["--title", "Hertz's cylinder: stress beneath the contact"]
-    return subprocess.run([sys.executable, "-B", script, base, base + ".png", *options, *title], cwd=TOP).returncode == 0
+    command = [sys.executable, "-B", script, base, base + ".png", *options, *title]
+    return subprocess.run(command, cwd=TOP).returncode == 0
 
 
 def main():

@@ -45,7 +45,7 @@ LABELS = {
     "nodal_von_mises": "von Mises stress",
     "contact_pressure": "contact pressure",
     "contact_gap": "contact gap",
-    "displacement": "displacement (magnitude)",
+    "displacement": "displacement",
     "contact_area": "area of the vertex",
     "contact_slip_path": "slip path",
 }
@@ -94,6 +94,7 @@ def arguments(words=None):
     parser.add_argument("--mirror", default="", help="draw also what the planes x = 0, y = 0 or z = 0 mirror, e.g. xy")
     zoom = "show only as much as FACTOR times the size of the contact"
     parser.add_argument("--around-contact", type=float, metavar="FACTOR", help=zoom)
+    parser.add_argument("--contact-only", action="store_true", help="of a contact field: only the faces that have it")
     parser.add_argument("--limit", type=float, help="upper end of the colours")
     parser.add_argument("--title", default="")
     parser.add_argument("--no-edges", action="store_true", help="do not draw the cells' edges")
@@ -410,6 +411,7 @@ def write(renderers, pixels, picture):
     image.SetInput(window)
     image.ReadFrontBufferOff()
     image.Update()
+    writer.SetCompressionLevel(9)
     writer.SetFileName(picture)
     writer.SetInputData(image.GetOutput())
     writer.Write()
@@ -434,7 +436,7 @@ def scene_of(args, run):
     if args.field.startswith("contact_status"):
         face_status(coloured)
     for part, colours in ((coloured, table), (plain, None)):
-        if part and part.GetNumberOfCells():
+        if part and part.GetNumberOfCells() and (colours or not args.contact_only):
             bodies.AddActor(faces_actor(args, mirrored(args, part), colours))
     skin = mirrored(args, skin)
     for renderer in (bodies, page):

@@ -1,11 +1,13 @@
 """Starts an X server for VTK. Debian's VTK needs one even for pictures in files; Xvfb is one without a display."""
 import atexit
 import os
+import random
 import shutil
 import subprocess
 
 from run_files import stop
 
+TRIES = 20
 started = False
 
 
@@ -19,13 +21,17 @@ def open_screen():
         if not os.environ.get("DISPLAY"):
             stop("VTK needs an X server: install Xvfb (Debian: xvfb), or set DISPLAY")
         return
-    arguments = ["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    atexit.register(close_screen, server)
-    number = server.stdout.readline().decode().strip()
-    if not number:
-        stop("Xvfb does not start")
-    os.environ["DISPLAY"] = ":" + number
+    for _ in range(TRIES):
+        # Random, since the lowest free number may be that of a server that is about to end, and takes the socket with it
+        number = random.randrange(100, 30000)
+        arguments = ["Xvfb", f":{number}", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
+        server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        if server.stdout.readline().strip():  # it is ready
+            atexit.register(close_screen, server)
+            os.environ["DISPLAY"] = f":{number}"
+            return
+        close_screen(server)
+    stop("Xvfb does not start")
 
 
 def close_screen(server):

@@ -72,14 +72,14 @@ def pictures(base, run):
     """Stress, displacement and contact pressure of the last load step that is on disk"""
     import draw
 
-    wanted = [("stress", ["--field", "nodal_von_mises"]), ("displacement", ["--field", "displacement", "--scale", "auto"])]
+    wanted = [("stress", "nodal_von_mises", []), ("displacement", "displacement", ["--scale", "auto"])]
     if run["steps"][-1]["pairs"]:
-        wanted.append(("contact pressure", ["--field", "contact_pressure", "--view", "-25", "-60"]))
-    for caption, options in wanted:
+        wanted.append(("contact pressure", "contact_pressure", ["--contact-only"]))
+    for caption, field, options in wanted:
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "picture.png")
             try:
-                draw.draw([base, file, *options])
+                draw.draw([base, file, "--field", field, *options])
             except SystemExit as reason:
                 yield f"<p>There is no picture of the {caption}: {html.escape(str(reason.code))}.</p>\n"
                 continue
@@ -94,12 +94,15 @@ def history(base):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
+    if not os.path.exists(base + ".csv"):
+        return "<p>No load step was finished.</p>\n"
     with open(base + ".csv", newline="", encoding="utf-8") as file:
         heading, *lines = csv.reader(file)
     columns = {name: [float(line[i]) for line in lines] for i, name in enumerate(heading)}
     if len(lines) < 2:
         return "<p>The run has one load step: there are no curves.</p>\n"
-    reactions = sorted((name for name in heading if "reaction_" in name and "." in name), key=lambda n: -peak(columns[n]))
+    of_faces = [name for name in heading if name.count(".") == 2 and ".reaction_" in name]
+    reactions = sorted(of_faces, key=lambda name: -peak(columns[name]))
     groups = {
         "energy and work of the loads": ["energy", "work"],
         "normal force of each contact pair": [name for name in heading if name.endswith(".normal_force")],
@@ -132,15 +135,17 @@ def forces(step):
         heading += ["shear force", "stick area", "slip area", "dissipated"]
     if step["pairs"]:
         yield table(heading, [[pair["name"], *(pair[key] for key in keys)] for pair in step["pairs"]])
-    yield table(["face", "reaction (x, y, z)", "moment"], [[f["name"], f["reaction"], f["moment"]] for f in step["faces"]])
-    yield table(["body", "contact", "reaction", "load", "residual / forces"],
-                [[b["name"], b["contact"], b["reaction"], b["load"], b["balance"]] for b in step["bodies"]])
+    keys = ["name", "reaction", "moment"]
+    yield table(["face", "reaction (x, y, z)", "moment"], [[face[key] for key in keys] for face in step["faces"]])
+    keys = ["name", "contact", "reaction", "load", "balance"]
+    heading = ["body", "contact", "reaction", "load", "residual / forces"]
+    yield table(heading, [[body[key] for key in keys] for body in step["bodies"]])
 
 
 def accuracy(run, step):
     mesh = step["error_estimate"]
-    yield table(["source", "estimated relative error in energy"],
-                [["mesh (stress recovery)", None if mesh is None else mesh**2], ["solver", step["algebraic_error"]]])
+    rows = [["mesh (stress recovery)", None if mesh is None else mesh**2], ["solver", step["algebraic_error"]]]
+    yield table(["source", "estimated relative error in energy"], rows)
     if mesh is not None:
         yield table(["body", "part of the mesh's error, energy norm"], list(step["body_errors"].items()))
     if run.get("accuracy"):
@@ -151,35 +156,46 @@ def accuracy(run, step):
 
 
 def steps(run):
-    keys = ["step", "load", "constraints", "contact_updates", "ip_iterations", "amg_applications", "cuts", "energy", "equilibrium",
-            "gap_true"]
-    heading = ["step", "load factor", "contact rows", "contact updates", "iterations", "AMG applications", "cuts", "energy",
-               "residual", "smallest gap"]
-    yield table([*heading, "result"], [[*(step[key] for key in keys), step["reason"]] for step in run["steps"]])
+    columns = {
+        "step": "step",
+        "load": "load factor",
+        "constraints": "contact rows",
+        "contact_updates": "contact updates",
+        "ip_iterations": "iterations",
+        "amg_applications": "AMG applications",
+        "cuts": "cuts",
+        "energy": "energy",
+        "equilibrium": "residual",
+        "gap_true": "smallest gap",
+        "reason": "result",
+    }
+    yield table(columns.values(), [[step[key] for key in columns] for step in run["steps"]])
 
 
 def time_and_memory(run):
     total = run["time"]["total"]
-    rows = [[name.replace("_", " "), seconds, f"{100 * seconds / total:.1f} %" if total else None]
-            for name, seconds in run["time"].items() if isinstance(seconds, float)]
-    yield table(["phase", "time [s]", "share"], rows)
-    peak_memory = run["peak_memory_bytes"]
-    yield f"<p>Peak memory: {peak_memory / 1e6:.0f} MB, {peak_memory / 1e3 / max(run['dofs'], 1):.2f} kB an unknown.</p>\n"
+    phases = [(name.replace("_", " "), seconds) for name, seconds in run["time"].items()]
+    rows = [[name, seconds, 100 * seconds / total if total else None] for name, seconds in phases]
+    yield table(["phase", "time [s]", "share [%]"], rows)
+    memory = run["peak_memory_bytes"]
+    yield f"<p>Peak memory: {memory / 1e6:.0f} MB, {memory / 1e3 / max(run['dofs'], 1):.2f} kB an unknown.</p>\n"
 
 
 def page(base, run, scene, command, versions):
     """The parts of the page in turn"""
     good = run["exit_code"] == 0
     last = run["steps"][-1] if run["steps"] else None
-    yield f"<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{text(run['problem'])}</title>\n"
-    yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{text(run['problem'])}</h1>\n"
+    yield "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n</head>\n"
+    yield f"<body>\n<h1>{text(run['problem'])}</h1>\n"
     verdict = END.get(run["exit_code"], "The run failed.")
     yield f"<p class=\"{'good' if good else 'bad'}\"><b>{verdict}</b> {'' if good else text(run['reason'])}</p>\n"
     ranks = "1 rank" if run["ranks"] == 1 else f"{run['ranks']} ranks"
     units = f" Units: {text(run['units'])}." if run["units"] else ""
     yield f"<p>{run['dofs']:,} unknowns, {ranks}, {run['time']['total']:.1f} s.{units} {datetime.date.today()}</p>\n"
     yield "<h2>Warnings</h2>\n"
-    yield "<ul>" + "".join(f"<li>{text(w)}</li>" for w in run["warnings"]) + "</ul>\n" if run["warnings"] else "<p>None.</p>\n"
+    warnings = "".join(f"<li>{text(warning)}</li>" for warning in run["warnings"])
+    yield f"<ul>{warnings}</ul>\n" if warnings else "<p>None.</p>\n"
     if last:
         yield "<h2>Pictures</h2>\n"
         yield from pictures(base, run)
