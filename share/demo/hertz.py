@@ -43,7 +43,7 @@ def rows(base):
 def draw(base):
     """Whether there is a picture; without VTK there is none, and draw.py says why"""
     script = os.path.join(TOP, "share", "plot", "draw.py")
-    options = "--field nodal_von_mises --only cylinder --mirror x --around-contact 6 --view 0 -90".split()
+    options = "--field nodal_von_mises --mirror x --around-contact 6 --view 0 -90".split()
     title = ["--title", "Hertz's cylinder: stress beneath the contact"]
     command = [sys.executable, "-B", script, base, base + ".png", *options, *title]
     return subprocess.run(command, cwd=TOP).returncode == 0

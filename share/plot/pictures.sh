@@ -21,5 +21,5 @@ picture two_block --limit 8
 picture ironing --limit 1
 picture beam_sphere_linear --view 25 200 --up x
 picture beam_sphere_neo_hookean --view 25 200 --up x
-picture hertz_cylinder --only cylinder --mirror x --around-contact 6 --view 0 -90 --field nodal_von_mises
-picture lug --view 50 -60 --scale 100 --limit 200 --field nodal_von_mises --no-edges
+picture hertz_cylinder --mirror x --around-contact 6 --view 0 -90 --field nodal_von_mises
+picture lug --view 50 -60 --scale 100 --limit 100 --field nodal_von_mises --no-edges
