@@ -48,6 +48,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
     [CHECKPOINT_PRESSURE]   = sim->memory.pressure,
     [CHECKPOINT_SLACK]      = sim->memory.slack,
     [CHECKPOINT_SHEAR]      = sim->memory.settled,
+    [CHECKPOINT_FRICTION]   = sim->memory.friction,
     [CHECKPOINT_SLIP_PATH]  = sim->memory.slip_path,
     [CHECKPOINT_DISSIPATED] = sim->memory.dissipated,
   };
@@ -153,6 +154,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->memory.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);
 }

@@ -122,6 +122,7 @@ typedef struct {
   PetscBool   *open;             /* where the pressure is a barrier's over an open gap */
   PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
   PetscReal   *settled;          /* that at the last state of equilibrium, */
+  PetscReal   *friction;         /* all of it at the vertices of both sides there [force], */
   PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
   PetscReal   *dissipated;       /* and the work of friction [force length] */
 } ContactMemory;
@@ -133,6 +134,8 @@ PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLineariza
 PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack,
   Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactMemoryFollowRows(const ContactMemory *, ContactLinearization solved,
+  ContactLinearization, PetscInt                                                              **row);
 PETSC_INTERN PetscErrorCode ContactMemoryFindClosed(const ContactMemory *, ContactLinearization, Vec closed);
 PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost,
   PetscInt *nlost);
@@ -144,11 +147,15 @@ PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
 typedef struct {
   PetscReal time, previous_time;
   Vec       u, previous_u;
-  PetscReal largest_increment; /* of any component in any step so far [length] */
-  Vec       outside;           /* forces from outside at u; NULL at the start: none [force] */
-  PetscReal work;              /* of theirs [force length] */
-  Vec       contact;           /* forces on the contacts at u, where pairs rub; NULL: none [force] */
-  PetscReal contact_work;      /* of theirs [force length] */
+  PetscReal largest_increment;    /* of any component in any step so far [length] */
+  Vec       outside;              /* forces from outside at u; NULL at the start: none [force] */
+  PetscReal work;                 /* of theirs [force length] */
+  Vec       contact;              /* forces on the contacts at u, where pairs rub; NULL: none [force] */
+  PetscReal contact_work;         /* of theirs [force length] */
+  PetscReal energy;               /* of the bodies at u [force length] */
+  PetscReal unbalanced, turnover; /* of this load step so far: work that is neither stored nor taken up by the contacts;
+                                     the largest of the three, solve by solve [force length] */
+  PetscBool warned;               /* that it is too much */
 } LoadPath;
 
 /* Fields that are asked for, and what they were at the end of the last load step */
@@ -421,8 +428,8 @@ PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, P
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* frictionwork.c */
-PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, const ContactSolution *, StepReport *);
-PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
+PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* quadratic.c */
@@ -482,6 +489,7 @@ PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, V
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* work.c */
+PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
 PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
 
 /* results.c */
@@ -512,6 +520,10 @@ PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const Conta
 /* start.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
 PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
+
+/* truth.c */
+PETSC_INTERN PetscErrorCode TruthMeasure(Simulation, Vec u, const ContactSolution *, ContactLinearization at_u,
+  StepReport *);
 
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
