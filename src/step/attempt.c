@@ -60,7 +60,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactHistoryChange(&sim->history, at_u, &report->gap_change));
-  PetscCall(TruthMeasure(sim, u, sol, at_u, report));
+  PetscCall(ContactUpdateMeasureTruth(sim, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   *is_true           = (PetscBool)(report->untruth <= sim->tolerances.gap_change * size);
   report->gap_untrue = (PetscBool)((sim->scene->contact_updates > 1 ? report->untruth : report->gap_change) >

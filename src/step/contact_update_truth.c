@@ -1,5 +1,5 @@
 /* How far a linearization of contact is from that at the state which was found with it, beside the gap. */
-#include "stepimpl.h"
+#include "src/step/stepimpl.h"
 
 /* What of the normals' turning a gap counts for: the forces stand askew by a hundred times the relative change of the
    gap at most */
@@ -9,8 +9,8 @@ static const PetscReal askew = 1e-2;
    How far normals have turned: of each pair the forces that its pressures stand askew by, over those forces, and the
    largest of these. row: of the rows of sim->linearization in that at the state
 */
-static PetscErrorCode TruthMeasureTurn(Simulation sim, const ContactSolution *sol, ContactLinearization at_u,
-  const PetscInt row[], PetscReal *turn)
+static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
 {
   ContactLinearization solved = sim->linearization;
   const PetscInt       npairs = sim->scene->npairs;
@@ -42,8 +42,8 @@ static PetscErrorCode TruthMeasureTurn(Simulation sim, const ContactSolution *so
 }
 
 /* The largest difference of the slip from the last state to u along the tangents there and that of the solution */
-static PetscErrorCode TruthMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
-  const PetscInt row[], PetscReal *change)
+static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
   ContactLinearization solved = sim->linearization;
   const PetscScalar   *s, *a;
@@ -79,7 +79,7 @@ static PetscErrorCode TruthMeasureSlip(Simulation sim, Vec u, const ContactSolut
 
 /* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
    normals, the change of the slip, and untruth, which all three are worth as changes of the gap */
-PetscErrorCode TruthMeasure(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
+PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
   PetscReal size;
@@ -88,8 +88,8 @@ PetscErrorCode TruthMeasure(Simulation sim, Vec u, const ContactSolution *sol, C
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   PetscCall(ContactHistoryFollowRows(&sim->history, sim->linearization, at_u, &row));
-  PetscCall(TruthMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
-  PetscCall(TruthMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
+  PetscCall(ContactUpdateTruthMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
+  PetscCall(ContactUpdateTruthMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
   PetscCall(PetscFree(row));
   report->untruth = PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
   PetscFunctionReturn(0);

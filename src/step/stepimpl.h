@@ -521,9 +521,9 @@ PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const Conta
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
 PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
 
-/* truth.c */
-PETSC_INTERN PetscErrorCode TruthMeasure(Simulation, Vec u, const ContactSolution *, ContactLinearization at_u,
-  StepReport *);
+/* contact_update_truth.c */
+PETSC_INTERN PetscErrorCode ContactUpdateMeasureTruth(Simulation, Vec u, const ContactSolution *,
+  ContactLinearization at_u, StepReport *);
 
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
