@@ -10,7 +10,7 @@ TOP = os.environ["AMGF_DIR"]
 FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "src/*/*", "apps")
 COLUMNS = 120  # of a line of code
 FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
-LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "step", "friction", "subspace", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
+LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "step", "driver", "subspace", "friction")), "tao_ipfilter")  # of the optimizer, the lowest first
 
 DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n", re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
