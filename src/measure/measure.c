@@ -134,7 +134,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
-    PetscCall(FrictionMeasure(sim, sol, report));
+    PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (!sim->history.shear) PetscCall(VecDestroy(&contact));

@@ -11,13 +11,15 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   PetscFunctionBegin;
   report->step    = step + 1;
   report->time    = (PetscReal)(step + 1);
-  report->gap_min = report->gap_true = report->error_estimate = NAN;
-  report->load                                                = scene->ramps[0].factor[step];
-  report->nramps                                              = scene->nramps;
+  report->gap_min = report->gap_true = report->error_estimate = report->imbalance = NAN;
+
+  report->load   = scene->ramps[0].factor[step];
+  report->nramps = scene->nramps;
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
   for (PetscInt r = 0; r < scene->nramps; ++r)
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
-  sim->report.nsteps = step + 1 - sim->first_step;
+  sim->report.nsteps   = step + 1 - sim->first_step;
+  sim->path.unbalanced = sim->path.turnover = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -139,6 +141,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (sim->path.time >= end) {
     sim->increment = 0.0;
     PetscCall(ForecastRecord(sim));
+    PetscCall(WorkWarn(sim, report));
   }
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
