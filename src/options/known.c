@@ -12,7 +12,7 @@ const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_ma
   "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_monitor", "load_steps",
   "load_warm_start", "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_amg_lag_ratio", "pc_amgf_cycle",
   "pc_amgf_detect", "pc_amgf_factor", "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks",
-  "progress_every", "quiet", "refine", "restart", "scene_check", "summary", "tao_ipfilter_acceptable_it",
+  "progress_every", "quiet", "refine", "report", "restart", "scene_check", "summary", "tao_ipfilter_acceptable_it",
   "tao_ipfilter_acceptable_tol", "tao_ipfilter_barrier", "tao_ipfilter_bound_push", "tao_ipfilter_compl_inf_tol",
   "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_equality", "tao_ipfilter_delta_first", "tao_ipfilter_delta_grow",
   "tao_ipfilter_delta_grow_first", "tao_ipfilter_delta_max", "tao_ipfilter_delta_shrink", "tao_ipfilter_delta_switch",
@@ -44,8 +44,8 @@ static const char *const OptionsCounts[] = {"accuracy_order", "checkpoint_every"
 /* Those that need a word or a name */
 static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact_gap", "contact_normals",
   "elasticity_mat_type", "model", "output", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_factor", "pc_amgf_filter_file",
-  "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing", "tao_ipfilter_kkt",
-  "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
+  "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
+  "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
 
 /* Those that may have any value, and need none */
 static const char *const OptionsViewers[] = {"contact_view", NULL};
