@@ -276,6 +276,8 @@ struct _n_Simulation {
   Adapt                adapt;
   Forecast             forecast;
   Progress             progress;
+  PetscInt             unheld;      /* attempts at this load step in a row that contact does not hold */
+  char                *cause;       /* of the first of them; NULL: there was none */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;
@@ -384,6 +386,8 @@ typedef struct {
   ContactUpdateSecants secants;      /* where the load is taken next */
   Vec                  followed; /* displacement at which the load is taken; NULL where no pressure follows its face */
   Vec                  centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
+  PetscBool            unheld;       /* contact cannot hold the loads where the bodies were at the last state */
+  PetscBool            moves_on;     /* no solve brings a body to rest that friction ought to hold */
   char                *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
   PetscReal            carried;      /* what was left between the last solution and its centre [force] */
   PetscReal            tolerance; /* KKT error that the present linearization is solved to; 0: that of the load step */
@@ -421,6 +425,7 @@ PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *e
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
 /* friction.c */
+PETSC_INTERN PetscErrorCode FrictionGetCoefficient(const StepProblem *, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
@@ -451,7 +456,24 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
 /* diagnose_rigid_motion.c */
-PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], StepReport *);
+
+/* free_motions.c: the rigid motions of all bodies that neither prescribed displacements nor springs nor ties resist */
+typedef struct {
+  Simulation sim;
+  PetscInt   nbodies, n;
+  Vec        x;             /* places of the nodes [length] */
+  PetscReal *center, *size; /* 3 a body, 1 a body [length] */
+  PetscReal *motion;        /* [6 nbodies n], orthonormal: of each body translations, and angles times its size */
+} FreeMotions;
+
+PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);
+PETSC_INTERN PetscErrorCode FreeMotionsDisplace(const FreeMotions *, const PetscReal motion[], Vec w);
+PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Vec force, PetscReal motion[]);
+PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
+
+/* diagnose_equilibrium.c */
+PETSC_INTERN PetscErrorCode EquilibriumDiagnose(const StepProblem *, StepReport *, PetscBool *none);
 
 /* check_weak_springs.c */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
