@@ -211,8 +211,11 @@ static PetscErrorCode AppCompleteReport(AppOptions *app)
   PetscFunctionReturn(0);
 }
 
+/* Without a scene -help is all that is asked for, and given by then */
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
+  PetscBool helped;
+
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
@@ -240,9 +243,10 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
   PetscOptionsEnd();
-  PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+  if (argc > 1 && argv[1][0] != '-') PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscCall(PetscOptionsHasHelp(NULL, &helped));
+  PetscCheck(app->scene[0] || helped, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
     "no scene given; usage: contact SCENE.yaml [options], see contact -help");
-  PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
   PetscCall(AppCompleteReport(app));
   PetscFunctionReturn(0);
 }
@@ -531,27 +535,36 @@ static void AppMakePage(const ReportPage *page)
     fprintf(stderr, "contact: there is no page %s: %s\n", page->file, sentence);
 }
 
-static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage *page, RunEnd *end)
+static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
 {
-  AppOptions app;
-  Scene      scene;
+  Scene scene;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
-  PetscCall(PetscPushErrorHandler(AppHandleError, error));
-  PetscCall(AppGetOptions(argc, argv, &app));
-  PetscCall(AppCheckWords(argc, argv));
-  if (!app.quiet) PetscCall(AppShowProgress());
-  PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
+  if (!app->quiet) PetscCall(AppShowProgress());
+  PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(AppLeaveUnusedOptions());
-  if (app.check) PetscCall(AppCheckScene(scene));
+  if (app->check) PetscCall(AppCheckScene(scene));
   else {
-    PetscCall(AppSolve(&app, scene, end));
-    PetscCall(AppDescribePage(&app, argc, argv, page));
+    PetscCall(AppSolve(app, scene, end));
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage *page, RunEnd *end)
+{
+  AppOptions app;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(AppHandleError, error));
+  PetscCall(OptionsCheckValues(PETSC_COMM_WORLD));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
+  PetscCall(AppGetOptions(argc, argv, &app));
+  PetscCall(AppCheckWords(argc, argv));
+  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
+  if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
@@ -585,6 +598,19 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   _Exit(RUN_BROKEN);
 }
 
+/* Who reads no further wants no more, of -help too, which is printed in here: PETSc's signal handler would say a page
+ * about it */
+static PetscErrorCode AppInitialize(int *argc, char ***argv)
+{
+  static const char option[] = "-no_signal_handler";
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, option, "true"));
+  PetscCall(PetscInitialize(argc, argv, NULL, help));
+  PetscCall(PetscOptionsClearValue(NULL, option));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   static ReportPage page; /* none */
@@ -596,12 +622,12 @@ int main(int argc, char **argv)
 
   AppLimitHeap();
   if (word) argc = 1;
-  ierr = PetscInitialize(&argc, &argv, NULL, help);
+  ierr = AppInitialize(&argc, &argv);
   if (ierr) return RUN_REFUSED;
   error.said = dup(STDERR_FILENO);
   ierr       = PetscPushSignalHandler(AppCrash, &error);
   if (ierr) return RUN_BROKEN;
-  signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
+  signal(SIGPIPE, SIG_DFL);
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
   if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &page, &end);

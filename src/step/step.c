@@ -120,7 +120,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   report = &sim->report.steps[step - sim->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
-  PetscCall(ProgressBegin(sim));
+  if (sim->observer.begin) PetscCall(sim->observer.begin(sim));
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 
@@ -133,7 +133,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
     if (report->converged) {
       ++report->substeps;
-      PetscCall(ProgressReach(sim));
+      if (sim->observer.reach) PetscCall(sim->observer.reach(sim));
       increment *= 2.0;
     }
     PetscCall(ForecastAssess(sim, report->converged, &anew));

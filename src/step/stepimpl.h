@@ -233,6 +233,14 @@ typedef struct {
   PetscBool     used, failed; /* by the last attempt; by any */
 } Forecast;
 
+/* Who looks on while a load step is solved: run/progress.c. Members may be NULL */
+typedef struct {
+  PetscErrorCode (*begin)(Simulation); /* before a load step */
+  PetscErrorCode (*reach)(Simulation); /* the state has moved on */
+  PetscErrorCode (*optimizer)(Tao, void *);
+  PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
+} StepObserver;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm     comm;
@@ -276,8 +284,9 @@ struct _n_Simulation {
   Adapt                adapt;
   Forecast             forecast;
   Progress             progress;
-  PetscInt             unheld;      /* attempts at this load step in a row that contact does not hold */
-  char                *cause;       /* of the first of them; NULL: there was none */
+  PetscInt             unheld; /* attempts at this load step in a row that contact does not hold */
+  char                *cause;  /* of the first of them; NULL: there was none */
+  StepObserver         observer;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;
@@ -335,10 +344,7 @@ PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
 PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 
 /* progress.c */
-PETSC_INTERN PetscErrorCode ProgressBegin(Simulation);
-PETSC_INTERN PetscErrorCode ProgressReach(Simulation);
-PETSC_INTERN PetscErrorCode ProgressMonitorOptimizer(Tao, void *);
-PETSC_INTERN PetscErrorCode ProgressMonitorLinear(KSP, PetscInt, PetscReal, void *);
+PETSC_INTERN PetscErrorCode ProgressObserve(Simulation);
 
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
@@ -429,10 +435,10 @@ PETSC_INTERN PetscErrorCode FrictionGetCoefficient(const StepProblem *, PetscInt
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
-PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* friction_work.c */
+PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
 PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
@@ -529,9 +535,6 @@ PETSC_INTERN PetscErrorCode ForecastSetUp(Simulation);
 PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
 PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
 PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
-
-/* adapt.c */
-PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);
 
 /* adapt_contact.c */
 PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);

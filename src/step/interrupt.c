@@ -1,5 +1,5 @@
 /* SIGINT, SIGTERM and SIGUSR1 ask for an end after the Newton step that is under way. */
-#include "src/step/stepimpl.h"
+#include "stepimpl.h"
 #include <signal.h>
 
 static volatile sig_atomic_t caught = 0;
