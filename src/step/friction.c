@@ -9,23 +9,6 @@
 */
 #include "stepimpl.h"
 
-/* Of a pair at the time of the problem: 0 without friction, PETSC_INFINITY where pressure does not limit it */
-PetscErrorCode FrictionGetCoefficient(const StepProblem *p, PetscInt which, PetscReal *coefficient)
-{
-  const SceneContactPair *pair   = &p->sim->scene->pairs[which];
-  PetscReal               factor = 1.0;
-
-  PetscFunctionBegin;
-  if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(p->sim->scene, pair->friction_ramp, p->time, &factor));
-  PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
-    "not be negative",
-    pair->name, (double)factor, (double)p->time);
-  if (!SceneContactPairRubs(pair)) *coefficient = 0.0;
-  else *coefficient = pair->friction < PETSC_INFINITY ? factor * pair->friction : PETSC_INFINITY;
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
   Scene              scene = p->sim->scene;

@@ -431,13 +431,13 @@ PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *e
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
 /* friction.c */
-PETSC_INTERN PetscErrorCode FrictionGetCoefficient(const StepProblem *, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* friction_work.c */
+PETSC_INTERN PetscErrorCode FrictionGetCoefficient(const StepProblem *, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
 PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);

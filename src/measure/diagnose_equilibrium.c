@@ -5,7 +5,7 @@
    one after another: of all rows the one that works the most against what is left of the loads. Where none does and
    something is left, that is a motion which the loads drive and no contact resists: there is no equilibrium (Farkas).
 */
-#include "stepimpl.h"
+#include "src/step/stepimpl.h"
 
 /* The rays that make up the nearest point so far, n numbers each, and how much of each */
 typedef struct {
