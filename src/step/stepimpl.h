@@ -183,9 +183,11 @@ typedef struct {
 /* When a run has said how far it is, and what it knows of that; of the clock [s] */
 typedef struct {
   PetscReal      every;    /* 0: never */
-  PetscReal      first;    /* time of the load program at the beginning of this run */
   PetscReal      residual; /* the first of a linear solve */
-  PetscLogDouble begun, reached, said;
+  PetscInt       nsteps;   /* whole load steps so far */
+  PetscBool      whole;    /* the load step under way was begun in this run */
+  PetscLogDouble begun, said;
+  PetscLogDouble last[4]; /* durations of the last whole load steps, in a ring */
 } Progress;
 
 /* Of rigid.c: a rigid body some of whose motions are free */
@@ -343,6 +345,8 @@ PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 
 /* progress.c */
 PETSC_INTERN PetscErrorCode ProgressObserve(Simulation);
+PETSC_INTERN void           ProgressRecord(Progress *, PetscLogDouble duration);
+PETSC_INTERN PetscBool ProgressEstimate(const Progress *, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *);
 
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
