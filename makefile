@@ -68,7 +68,7 @@ dependencies:
 # A second make sees what the first one installed. Compiler lines go to a file, whose end is shown when something fails
 BUILD_LOG := build/demo/build.log
 quiet_build = mkdir -p build/demo; \
-  $(MAKE) --no-print-directory -q all > /dev/null 2>&1 || echo 'Building, a minute or two the first time (messages: $(BUILD_LOG))'; \
+  [ -x bin/contact ] || echo 'Building, a minute or two the first time (messages: $(BUILD_LOG))'; \
   $(MAKE) --no-print-directory $(PARALLEL) all > $(BUILD_LOG) 2>&1 || { tail -n 20 $(BUILD_LOG) >&2; exit 1; }
 
 demo: dependencies
