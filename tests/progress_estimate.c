@@ -2,7 +2,7 @@ static char help[] =
   "What a run says to be left of it: true within a factor of two of load steps as long as those before,\n\
 and nothing where they are not.\n\n";
 
-#include "src/step/stepimpl.h"
+#include "src/run/runimpl.h"
 
 typedef PetscLogDouble (*Duration)(PetscInt step);
 

@@ -1,5 +1,5 @@
 /* How far a run is, now and then: load step, time so far, what is left. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <petsctime.h>
 
 #define PROGRESS_LENGTH 32
