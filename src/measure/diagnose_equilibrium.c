@@ -5,7 +5,7 @@
    one after another: of all rows the one that works the most against what is left of the loads. Where none does and
    something is left, that is a motion which the loads drive and no contact resists: there is no equilibrium (Farkas).
 */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* The rays that make up the nearest point so far, n numbers each, and how much of each */
 typedef struct {
@@ -38,7 +38,7 @@ static PetscErrorCode ConeFree(ContactCone *cone)
 }
 
 /* Coefficients without limit: whatever is asked for, as of pairs that stick, or have another limit */
-static PetscErrorCode ConeFindRow(const StepProblem *p, ContactLinearization lin, Vec w, ConeRow *found)
+static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
 {
   Vec                rates, slips = NULL;
   const PetscScalar *a, *s        = NULL;
@@ -66,7 +66,7 @@ static PetscErrorCode ConeFindRow(const StepProblem *p, ContactLinearization lin
     PetscReal       mu, rate = PetscRealPart(a[r]);
     PetscBool       alone = PETSC_FALSE;
 
-    PetscCall(FrictionGetCoefficient(p, lin->pair[r], &mu));
+    PetscCall(FrictionGetCoefficient(sim->scene, time, lin->pair[r], &mu));
     if (mu < PETSC_INFINITY) rate -= mu * size;
     else if (-size < rate) {
       rate  = -size;
@@ -80,11 +80,11 @@ static PetscErrorCode ConeFindRow(const StepProblem *p, ContactLinearization lin
   if (slips) PetscCall(VecRestoreArrayRead(slips, &s));
   PetscCall(VecDestroy(&slips));
   PetscCall(VecDestroy(&rates));
-  PetscCallMPI(MPI_Comm_rank(p->sim->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
   best.value = found->row >= 0 ? (double)found->rate : (double)PETSC_MAX_REAL;
   best.rank  = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, p->sim->comm));
-  PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(*found), MPI_BYTE, best.rank, p->sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, sim->comm));
+  PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(*found), MPI_BYTE, best.rank, sim->comm));
   PetscFunctionReturn(0);
 }
 
@@ -215,9 +215,8 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
    What contact leaves of the load, size: the sum of the sizes of the loads at the nodes. none: it is proved that there
    is no equilibrium, or one only with contact forces that are a thousand times the loads
 */
-static PetscErrorCode ConeProject(const StepProblem *p, const FreeMotions *m, PetscInt nlins,
-  ContactLinearization lins[], const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[],
-  PetscBool *none)
+static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
+  const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
 {
   const PetscReal beyond = 1e3, negligible = 1e-7;
   const PetscInt  n = m->n;
@@ -234,7 +233,7 @@ static PetscErrorCode ConeProject(const StepProblem *p, const FreeMotions *m, Pe
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     PetscCall(FreeMotionsDisplace(m, left, w));
     for (PetscInt l = 0; l < nlins; ++l) {
-      PetscCall(ConeFindRow(p, lins[l], w, &row));
+      PetscCall(ConeFindRow(m->sim, time, lins[l], w, &row));
       if (row.row >= 0 && (best.row < 0 || row.rate < best.rate)) {
         best = row;
         of   = l;
@@ -335,9 +334,8 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
    Of a solve that has found no solution: whether there is none, as is known of the loads and the places of the last
    state. Then the report says which body moves, and how
 */
-PetscErrorCode EquilibriumDiagnose(const StepProblem *p, StepReport *report, PetscBool *none)
+PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {
-  Simulation           sim = p->sim;
   ContactLinearization lins[2];
   ContactCone          cone;
   FreeMotions          motions;
@@ -345,15 +343,15 @@ PetscErrorCode EquilibriumDiagnose(const StepProblem *p, StepReport *report, Pet
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
-  if (!sim->contact || !p->load || p->lower) PetscFunctionReturn(0);
-  PetscCall(EquilibriumMeasureLoad(p->load, &size));
+  if (!sim->contact || !force) PetscFunctionReturn(0);
+  PetscCall(EquilibriumMeasureLoad(force, &size));
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {
     PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));
     PetscCall(ConeAllocate(motions.n, &cone));
     PetscCall(EquilibriumLinearize(&motions, lins));
-    PetscCall(FreeMotionsSum(&motions, p->load, load));
-    PetscCall(ConeProject(p, &motions, 2, lins, load, size, &cone, left, none));
+    PetscCall(FreeMotionsSum(&motions, force, load));
+    PetscCall(ConeProject(time, &motions, 2, lins, load, size, &cone, left, none));
     if (*none) PetscCall(EquilibriumReport(&motions, &cone, left, (PetscBool)(lins[0]->slip != NULL), report));
     PetscCall(ContactLinearizationDestroy(&lins[0]));
     PetscCall(ContactLinearizationDestroy(&lins[1]));

@@ -1,6 +1,6 @@
 /* The rigid motions of the bodies, all at once, that nothing but contact resists: neither prescribed displacements nor
    springs nor ties do. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Where bodies are: those of small strain as their energy has them, undeformed */
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)

@@ -1,19 +1,19 @@
 /* What friction dissipates: the work of its forces on the vertices. What covers a row, and which rows there are,
    changes from one load step to the next; the forces on the vertices are those of all of them. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
-/* Of a pair at the time of the problem: 0 without friction, PETSC_INFINITY where pressure does not limit it */
-PetscErrorCode FrictionGetCoefficient(const StepProblem *p, PetscInt which, PetscReal *coefficient)
+/* Of a pair at this time: 0 without friction, PETSC_INFINITY where pressure does not limit it */
+PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt which, PetscReal *coefficient)
 {
-  const SceneContactPair *pair   = &p->sim->scene->pairs[which];
+  const SceneContactPair *pair   = &scene->pairs[which];
   PetscReal               factor = 1.0;
 
   PetscFunctionBegin;
-  if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(p->sim->scene, pair->friction_ramp, p->time, &factor));
+  if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, time, &factor));
   PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
     "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
     "not be negative",
-    pair->name, (double)factor, (double)p->time);
+    pair->name, (double)factor, (double)time);
   if (!SceneContactPairRubs(pair)) *coefficient = 0.0;
   else *coefficient = pair->friction < PETSC_INFINITY ? factor * pair->friction : PETSC_INFINITY;
   PetscFunctionReturn(0);

@@ -23,7 +23,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     const SceneContactPair *pair = &scene->pairs[lin->pair[r]];
     PetscReal               mu   = 0.0;
 
-    PetscCall(FrictionGetCoefficient(p, lin->pair[r], &mu));
+    PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
     coefficient[r] = mu;
   }

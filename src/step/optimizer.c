@@ -171,7 +171,7 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   char *unbounded;
 
   PetscFunctionBegin;
-  PetscCall(EquilibriumDiagnose(p, report, &p->unheld));
+  if (!p->lower) PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (p->unheld) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
