@@ -35,6 +35,7 @@ PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
+PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 /* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 /* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been

@@ -23,7 +23,8 @@ PETSC_EXTERN const char *const ElementTypes[];
 
 typedef enum {
   GAP_MORTAR, /* segment to segment: integrated over the overlap of the faces */
-  GAP_NODE    /* node to segment: nonmortar vertex to the closest point of the mortar face */
+  GAP_NODE,   /* node to segment: nonmortar vertex to the closest point of the mortar face */
+  GAP_DUAL    /* mortar, with functions that are dual to the nonmortar face's: forces act at its vertices */
 } GapType;
 PETSC_EXTERN const char *const GapTypes[];
 

@@ -31,7 +31,7 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
-    PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    PetscCheck(pairs[p].gap >= GAP_MORTAR && pairs[p].gap <= GAP_DUAL, comm, PETSC_ERR_ARG_OUTOFRANGE,
       "Contact pair \"%s\" asks for gap formulation %d, which there is not", name, (int)pairs[p].gap);
     PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
       "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
@@ -374,6 +374,29 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
 }
 
 /*@
+   ContactSetDual - Takes the mortar gaps of all pairs by dual functions, as those of pairs with gap GAP_DUAL are
+
+   Logically Collective
+
+   Input Parameters:
++  contact - the contact
+-  dual    - true: all of them; false: those that were given so
+
+   Level: developer
+
+   Note:
+   Contact forces may then stand at the edges of faces: to find out whether any balance a load, of other pairs too.
+
+.seealso: `ContactSetReach()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs; ++p) contact->pairs[p].dual = dual;
+  PetscFunctionReturn(0);
+}
+
+/*@
   ContactView - Prints a contact: its pairs, what is searched, and the rows of the last linearization
 
   Collective
@@ -407,7 +430,7 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer,
       "pair %s: mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", pair->name,
       pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
-      nfacing, pair->gap == GAP_MORTAR ? "overlapping facets" : "vertices over a facet"));
+      nfacing, pair->gap != GAP_NODE ? "overlapping facets" : "vertices over a facet"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows "

@@ -1,7 +1,7 @@
 /* The gap of all pairs, linearized at a displacement */
 #include "contactimpl.h"
 
-static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode}; /* by GapType */
+static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
 
 /* The surfaces and normals of a pair at the displacement of their vertices, local */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)

@@ -101,7 +101,7 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
   PetscFunctionBegin;
   for (PetscInt k = 0; k < nnear; ++k) {
     if (!ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) continue;
-    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
+    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, NULL, &m);
     for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += m.D[a / 4][a % 4];
   }
   TieFoldMass(n, mass);
@@ -115,7 +115,7 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
   if (!TieDual(n, mass, dual)) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < nnear; ++k) {
     if (!ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) continue;
-    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, &m);
+    ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, NULL, &m);
     TieFold(n, m.M);
     for (PetscInt a = 0; a < n; ++a) {
       for (PetscInt c = 0; c < 4; ++c) {

@@ -7,6 +7,8 @@
 */
 #include "measureimpl.h"
 
+#define EQUILIBRIUM_ROWS 3 /* linearizations */
+
 /* The rays that make up the nearest point so far, n numbers each, and how much of each */
 typedef struct {
   PetscInt   n, nrays, nmax;
@@ -294,9 +296,9 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* The rows of the last state: those within the usual reach, and those as far as the bodies extend, for a body that
-   moves away may meet others there */
-static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[2])
+/* The rows of the last state: those within the usual reach; with forces that stand at the edges of the faces; and as
+   far as the bodies extend, for a body that moves away may meet others there */
+static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
   Simulation sim = m->sim;
   PetscReal  extent;
@@ -304,9 +306,12 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
   PetscFunctionBegin;
   PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
   PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[0]));
-  PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
+  PetscCall(ContactSetDual(sim->contact, PETSC_TRUE));
   PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[1]));
+  PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
+  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[2]));
   PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+  PetscCall(ContactSetDual(sim->contact, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -336,7 +341,7 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
 */
 PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {
-  ContactLinearization lins[2];
+  ContactLinearization lins[EQUILIBRIUM_ROWS];
   ContactCone          cone;
   FreeMotions          motions;
   PetscReal           *load, *left, size;
@@ -351,10 +356,9 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
     PetscCall(ConeAllocate(motions.n, &cone));
     PetscCall(EquilibriumLinearize(&motions, lins));
     PetscCall(FreeMotionsSum(&motions, force, load));
-    PetscCall(ConeProject(time, &motions, 2, lins, load, size, &cone, left, none));
+    PetscCall(ConeProject(time, &motions, EQUILIBRIUM_ROWS, lins, load, size, &cone, left, none));
     if (*none) PetscCall(EquilibriumReport(&motions, &cone, left, (PetscBool)(lins[0]->slip != NULL), report));
-    PetscCall(ContactLinearizationDestroy(&lins[0]));
-    PetscCall(ContactLinearizationDestroy(&lins[1]));
+    for (PetscInt l = 0; l < EQUILIBRIUM_ROWS; ++l) PetscCall(ContactLinearizationDestroy(&lins[l]));
     PetscCall(ConeFree(&cone));
     PetscCall(PetscFree2(load, left));
   }

@@ -3,5 +3,5 @@
 
 #define ELEMENT_NAME(name, element, text) text,
 const char *const ElementTypes[] = {ELEMENT_TYPES(ELEMENT_NAME) "ElementType", "ELEMENT_", NULL};
-const char *const GapTypes[]     = {"mortar", "node", "GapType", "GAP_", NULL};
+const char *const GapTypes[]     = {"mortar", "node", "dual", "GapType", "GAP_", NULL};
 const char *const StepModels[]   = {"energy", "quadratic", "StepModel", "MODEL_", NULL};

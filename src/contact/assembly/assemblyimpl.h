@@ -18,6 +18,7 @@ typedef struct {
                              rows of slip */
   PetscBool smooth;        /* whether the gap is to be that of the smooth surfaces */
   PetscReal bulge;   /* these stand off the undeformed facets of the two faces by no more than this together [length] */
+  PetscBool dual;    /* mortar gaps by dual functions, whether the pair asks for them or not */
   PetscReal given;   /* the pair's own search distance; 0: from the size of the faces [length] */
   PetscInt *row;     /* [4 nonmortar facets] global row of each of the facets' vertices */
   PetscReal *normal; /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
@@ -30,7 +31,7 @@ typedef struct {
    of it */
 static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 {
-  return (PetscBool)(pair->smooth && pair->gap == GAP_MORTAR);
+  return (PetscBool)(pair->smooth && pair->gap != GAP_NODE);
 }
 
 /* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */

@@ -104,7 +104,7 @@ static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, c
 
   PetscFunctionBegin;
   PetscCall(MatGetRow(couplings, row, &n, &node, &value));
-  *cover = SlipCover(n, value);
+  *cover = PetscMin(SlipCover(n, value), mass); /* dual functions are negative in places */
   for (PetscInt k = 0; k < n; ++k) {
     const PetscInt rows[2] = {to, to + 1}, columns[3] = {3 * node[k], 3 * node[k] + 1, 3 * node[k] + 2};
     PetscScalar    entries[6];

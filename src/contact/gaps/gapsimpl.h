@@ -24,7 +24,13 @@ typedef struct {
   PetscReal D[4][4]; /* int phi_A N1_B [length^2]; its rows sum to int phi_A */
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
+/* dual: functions in place of phi_A, as sums of the four; NULL: phi_A */
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
-  const PetscReal normals[12], ContactIntegrals *);
+  const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *);
+
+/* dual.c: of a facet, by its undeformed vertices */
+PETSC_INTERN void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4]);
+PETSC_INTERN void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[]);
+PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *);
 
 #endif

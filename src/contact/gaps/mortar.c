@@ -3,19 +3,21 @@
 
 /* All sums over the points of the overlap; coordinates of both facets interpolated there */
 void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],
-  const PetscReal normals[12], ContactIntegrals *m)
+  const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *m)
 {
   *m = (ContactIntegrals){0};
   for (PetscInt q = 0; q < o->n; ++q) {
-    PetscReal phi1[4], phi2[4], d[3] = {0, 0, 0};
+    PetscReal phi1[4], psi[4], phi2[4], d[3] = {0, 0, 0};
 
     ContactShape(o->xi1[q], phi1);
     ContactShape(o->xi2[q], phi2);
     for (PetscInt b = 0; b < 4; ++b) {
       for (PetscInt c = 0; c < 3; ++c) d[c] += phi2[b] * (x2[3 * b + c] - x1[c]) - phi1[b] * (x1[3 * b + c] - x1[c]);
     }
+    for (PetscInt a = 0; a < 4; ++a) psi[a] = phi1[a];
+    if (dual) ContactDualTransform(dual, 1, psi);
     for (PetscInt a = 0; a < 4; ++a) {
-      const PetscReal w = o->weight[q] * phi1[a];
+      const PetscReal w = o->weight[q] * psi[a];
 
       for (PetscInt c = 0; c < 3; ++c) m->gap[a] += w * d[c] * normals[3 * a + c];
       for (PetscInt b = 0; b < 4; ++b) {
@@ -35,6 +37,7 @@ typedef struct {
   ContactPatch     patch; /* of smooth pairs */
   PetscReal        cover[4];
   ContactSlopes    slopes;
+  PetscReal (*dual)[4]; /* NULL: the pair has none, or the facet is hardly covered */
 } MortarFacet;
 
 /* Adds a mortar facet of a smooth pair */
@@ -49,6 +52,11 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
   PetscFunctionBegin;
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
   ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, &facet->slopes, &slopes);
+  if (facet->dual) {
+    ContactDualTransform(facet->dual, 1, gap);
+    ContactDualTransform(facet->dual, 1, cover);
+    ContactDualTransformSlopes(facet->dual, &slopes);
+  }
   for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
   PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->bend[4 * k], &slopes));
   PetscFunctionReturn(0);
@@ -61,7 +69,7 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   ContactIntegrals m;
 
   PetscFunctionBegin;
-  ContactIntegrate(overlap, facet->x, &mortar->x[12 * k], facet->normal, &m);
+  ContactIntegrate(overlap, facet->x, &mortar->x[12 * k], facet->normal, facet->dual, &m);
   if (smooth) PetscCall(MortarAddPatch(rule, overlap, mortar, k, facet, m.gap, assembly));
   for (PetscInt a = 0; a < 4; ++a) {
     facet->gap[a] += m.gap[a];
@@ -70,6 +78,36 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   }
   ++facet->noverlaps;
   PetscFunctionReturn(0);
+}
+
+/* Which part of a facet the candidates cover */
+static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
+  const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
+{
+  PetscReal      covered = 0.0, corners[4][2], height[4];
+  ContactOverlap overlap;
+  ContactFrame   frame;
+
+  if (!ContactFrameCreate(x, &frame)) return 0.0;
+  ContactFrameProject(&frame, x, corners, height);
+  for (PetscInt k = 0; k < nnear; ++k) {
+    if (ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) covered += overlap.area;
+  }
+  return PetscMin(1.0, covered / ContactPolygonArea(4, (const PetscReal(*)[2])corners));
+}
+
+/* Dual functions are so of a whole facet: of one that is covered in part they go over into the facet's own, so that
+   none changes at once as faces slide */
+static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered, PetscReal dual[4][4])
+{
+  const PetscReal least = 0.75;
+  const PetscReal part  = (covered - least) / (1.0 - least);
+
+  if (part <= 0.0) return PETSC_FALSE;
+  ContactDualFunctions(reference, dual);
+  for (PetscInt a = 0; a < 16; ++a)
+    dual[a / 4][a % 4] = part * dual[a / 4][a % 4] + (a / 4 == a % 4 ? 1.0 - part : 0.0);
+  return PETSC_TRUE;
 }
 
 /* One nonmortar facet against the candidates near it; normal: at its vertices */
@@ -83,8 +121,14 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
          .row                  = &pair->row[4 * f],
          .node                 = &pair->nonmortar.node[4 * f]};
   ContactOverlap  overlap;
+  PetscReal       dual[4][4];
 
   PetscFunctionBegin;
+  if (pair->gap == GAP_DUAL || pair->dual) {
+    const PetscReal covered = MortarMeasureCover(limits, rule, facet.x, mortar, nnear, near);
+
+    if (MortarGetDual(&pair->nonmortar.reference[12 * f], covered, dual)) facet.dual = dual;
+  }
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
   for (PetscInt k = 0; k < nnear; ++k) {
     if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap))
@@ -93,6 +137,7 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
   if (facet.noverlaps) {
     PetscScalar gap[4], cover[4];
 
+    if (smooth && facet.dual) ContactDualTransformSlopes(facet.dual, &facet.slopes);
     for (PetscInt a = 0; a < 4; ++a) {
       gap[a]   = facet.gap[a];
       cover[a] = facet.cover[a];

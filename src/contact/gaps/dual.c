@@ -1,0 +1,81 @@
+/*
+   Functions psi_A = sum_B dual_AB phi_B that are dual to the phi_B of a facet:
+
+     int psi_A phi_B = 0 but for A = B, where it is int phi_A.
+
+   The force of a row then acts at its nonmortar vertex, and on the mortar side about it: a resultant can stand at the
+   edge of a face (B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)). Of a parallelogram the sums are those of products of
+   2 phi_1 - phi_2 along its edges; of a triangle, whose last vertex stands twice, 3 phi_1 - phi_2 - phi_3.
+*/
+#include "gapsimpl.h"
+
+/* mass[a][b] = int phi_a phi_b, by three times three points */
+static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
+{
+  const PetscReal point[3]  = {-0.7745966692414834, 0.0, 0.7745966692414834};
+  const PetscReal weight[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+
+  for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] = 0.0;
+  for (PetscInt q = 0; q < 9; ++q) {
+    const PetscReal xi[2] = {point[q / 3], point[q % 3]};
+    PetscReal       phi[4], t1[3], t2[3], n[3], w;
+
+    ContactShape(xi, phi);
+    ContactFacetTangents(x, xi, t1, t2);
+    ContactCross(t1, t2, n);
+    w = weight[q / 3] * weight[q % 3] * PetscSqrtReal(ContactDot(n, n));
+    for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += w * phi[a / 4] * phi[a % 4];
+  }
+}
+
+/* a becomes its inverse; symmetric and positive definite, so that no pivots are looked for */
+static void DualInvert(PetscReal a[4][4])
+{
+  for (PetscInt k = 0; k < 4; ++k) {
+    const PetscReal scale = 1.0 / a[k][k];
+
+    a[k][k] = 1.0;
+    for (PetscInt j = 0; j < 4; ++j) a[k][j] *= scale;
+    for (PetscInt i = 0; i < 4; ++i) {
+      const PetscReal factor = a[i][k];
+
+      if (i == k) continue;
+      a[i][k] = 0.0;
+      for (PetscInt j = 0; j < 4; ++j) a[i][j] -= factor * a[k][j];
+    }
+  }
+}
+
+void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
+{
+  static const PetscReal triangle[4][4] = {{3, -1, -1, -1}, {-1, 3, -1, -1}, {-0.5, -0.5, 3, 0}, {-0.5, -0.5, 0, 3}};
+  PetscReal              lumped[4]      = {0.0, 0.0, 0.0, 0.0};
+
+  if (ContactFacetIsTriangle(x)) {
+    for (PetscInt a = 0; a < 16; ++a) dual[a / 4][a % 4] = triangle[a / 4][a % 4];
+    return;
+  }
+  DualMass(x, dual);
+  for (PetscInt a = 0; a < 16; ++a) lumped[a / 4] += dual[a / 4][a % 4];
+  DualInvert(dual);
+  for (PetscInt a = 0; a < 16; ++a) dual[a / 4][a % 4] *= lumped[a / 4];
+}
+
+/* values: n of each of the four functions */
+void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscReal v[4] = {values[i], values[n + i], values[2 * n + i], values[3 * n + i]};
+
+    for (PetscInt a = 0; a < 4; ++a)
+      values[a * n + i] = dual[a][0] * v[0] + dual[a][1] * v[1] + dual[a][2] * v[2] + dual[a][3] * v[3];
+  }
+}
+
+void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *slopes)
+{
+  ContactDualTransform(dual, 12, &slopes->x[0][0]);
+  ContactDualTransform(dual, 12, &slopes->normal[0][0]);
+  ContactDualTransform(dual, 12, &slopes->rigid[0][0]);
+  ContactDualTransform(dual, 12, &slopes->cover[0][0]);
+}
