@@ -445,6 +445,11 @@ typedef struct {
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], ContactIntegrals *);
 
+/* linearize.c: the surfaces and normals at a displacement */
+PETSC_INTERN PetscErrorCode ContactDeform(Contact, Vec u);
+
+/* penetration.c: of vertices, public */
+
 /* contact.c, linearize.c, deep.c: the object's life, its gap, and the error where bodies overlap deeper than it
    looks, public */
 

@@ -27,6 +27,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
+  if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
   PetscCall(ResultsMeasure(sim));
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
@@ -129,6 +130,9 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
-  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(StartWarnOfUnmet(sim));
+  if (report->converged && step + 1 == sim->scene->nsteps) {
+    PetscCall(StartWarnOfUnmet(sim));
+    PetscCall(PenetrationWarn(sim));
+  }
   PetscFunctionReturn(0);
 }

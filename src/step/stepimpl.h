@@ -481,6 +481,10 @@ PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, V
 /* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
+/* penetration.c: of vertices, beside the gap, which of mortar pairs is a mean */
+PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
+
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
 
