@@ -99,7 +99,7 @@ typedef struct {
   PetscReal action_reaction; /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal error_estimate;  /* discretization error in the energy norm over sqrt(2 energy); its square is the relative
                                 error in energy; NaN: no estimate was made */
-  PetscReal    motion;       /* largest component of the displacement; 0 without contact [length] */
+  PetscReal motion;          /* largest component of the displacement; 0 without contact [length] */
   PetscReal   *body_errors;  /* parts of the bodies, whose squares sum to its square; NULL: none was made */
   PetscReal    contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
   PetscReal    reaction[3]; /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if

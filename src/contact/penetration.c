@@ -89,7 +89,6 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[])
     PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
     PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
   }
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, depth, (PetscMPIInt)contact->npairs, MPIU_REAL, MPIU_MAX, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, (PetscMPIInt)contact->npairs, MPIU_REAL, MPIU_MAX, contact->comm));
   PetscFunctionReturn(0);
 }

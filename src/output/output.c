@@ -48,10 +48,10 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
-  PetscCall(ClaimBegin(o->comm, file, &o->claim)); /* of an earlier run */
-  ClaimEnd(&o->claim);
+  PetscCall(LockFileBegin(o->comm, file, &o->lock)); /* of an earlier run */
+  LockFileEnd(&o->lock);
   PetscCall(OutputWriteMesh(o));
-  PetscCall(ClaimBegin(o->comm, file, &o->claim));
+  PetscCall(LockFileBegin(o->comm, file, &o->lock));
   PetscCall(OutputWriteXDMF(o));
   *output = o;
   PetscFunctionReturn(0);
@@ -201,7 +201,7 @@ PetscErrorCode OutputDestroy(Output *output)
 
   PetscFunctionBegin;
   if (!o) PetscFunctionReturn(0);
-  ClaimEnd(&o->claim);
+  LockFileEnd(&o->lock);
   for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
   PetscCall(PetscFree(o->bodynames));
   for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));

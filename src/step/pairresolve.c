@@ -2,8 +2,8 @@
    Pressures that the mortar side does not resolve. A nonmortar side that is finer and stiffer than the facets it lies
    on touches them in a few rows, which carry all of the force; the rows between have none over gaps that are a small
    part of what the facets give. The mortar side feels only the means over its shape functions. So rows that
-   closed ones enclose, and those about them, take what the mortar vertices have, the mean of the rows' values over the area that both share,
-   interpolated back to the rows. The sum of value times area over the rows stays.
+   closed ones enclose, and those about them, take what the mortar vertices have, the mean of the rows' values over
+   the area that both share, interpolated back to the rows. The sum of value times area over the rows stays.
 */
 #include "pairrows.h"
 

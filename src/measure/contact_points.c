@@ -1,0 +1,268 @@
+/* Pressure, gap and status at the vertices of both sides of every pair. */
+#include "src/step/pairrows.h"
+
+/* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
+   nonmortar, length of facets x area, force that slips]; force */
+typedef struct {
+  Vec carried, sides, force;
+  Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
+} PairVertices;
+
+/* J^T (mass x pressure) of the pair's rows */
+static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec force)
+{
+  const PetscScalar *mass;
+  PetscScalar       *y;
+  Vec                weighted;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sim->linearization->mass, &weighted));
+  PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
+  PetscCall(VecGetArrayWrite(weighted, &y));
+  for (PetscInt r = 0; r < rows->n; ++r) y[r] = rows->area[r] > 0.0 ? mass[r] * sim->pressure[r] : 0.0;
+  PetscCall(VecRestoreArrayWrite(weighted, &y));
+  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
+  PetscCall(MatMultTranspose(sim->linearization->J, weighted, force));
+  PetscCall(VecDestroy(&weighted));
+  PetscFunctionReturn(0);
+}
+
+/* What friction has at the vertices, its forces among all, and in sides[2] the force that slips */
+static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
+{
+  PetscReal   *slipping;
+  PetscScalar *f;
+  Vec          force;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sim->path.u, &vertices->shear));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->way));
+  PetscCall(VecZeroEntries(vertices->shear));
+  PetscCall(VecZeroEntries(vertices->way));
+  PetscCall(PetscMalloc1(rows->n, &slipping));
+  for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
+  PetscCall(PairSpread(sim, rows, slipping, vertices->sides, 2, vertices->sides));
+  PetscCall(PetscFree(slipping));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
+    PetscCall(PairSpread(sim, rows, rows->way + c * rows->n, vertices->sides, c, vertices->way));
+  }
+  PetscCall(MatCreateVecs(sim->linearization->slip, NULL, &force));
+  PetscCall(VecGetArrayWrite(force, &f));
+  for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->shear[k];
+  PetscCall(VecRestoreArrayWrite(force, &f));
+  PetscCall(FrictionAddForces(sim->linearization, force, pair, vertices->force));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* Both sides of a pair before anything is agglomerated */
+static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, PairVertices *vertices)
+{
+  PetscFunctionBegin;
+  vertices->shear = vertices->way = NULL;
+  PetscCall(VecDuplicate(sim->path.u, &vertices->carried));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->sides));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->force));
+  PetscCall(VecZeroEntries(vertices->carried));
+  PetscCall(PairMarkSides(sim, pair, vertices->sides));
+  PetscCall(PairRowsResolve(sim, pair, vertices->sides, rows));
+  PetscCall(PairSpread(sim, rows, NULL, vertices->sides, 0, vertices->carried));
+  PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
+  PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
+  PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->sides));
+  PetscCall(PairPlaceForces(sim, rows, vertices->force));
+  if (rows->rubs) PetscCall(PairVerticesRub(sim, pair, rows, vertices));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&vertices->carried));
+  PetscCall(VecDestroy(&vertices->sides));
+  PetscCall(VecDestroy(&vertices->force));
+  PetscCall(VecDestroy(&vertices->shear));
+  PetscCall(VecDestroy(&vertices->way));
+  PetscFunctionReturn(0);
+}
+
+/* A component of the shear in place of the pressure, handed on and evened out as that is, so that one stays within
+   the other's law */
+static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
+  Vec alone, PetscInt component)
+{
+  PetscSection       global;
+  const PetscScalar *shear, *a;
+  PetscScalar       *carry;
+  PetscInt           rstart, n;
+  Vec                carried;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetLocalSize(alone, &n));
+  PetscCall(VecDuplicate(alone, &carried));
+  PetscCall(VecCopy(alone, carried));
+  PetscCall(VecGetArrayRead(vertices->shear, &shear));
+  PetscCall(VecGetArray(carried, &carry));
+  for (PetscInt i = 0; i < n; i += 3) carry[i + 1] = shear[i + component];
+  PetscCall(VecRestoreArray(carried, &carry));
+  PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[pair], carried));
+  PetscCall(VecGetArrayRead(carried, &a));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    ContactPoint *point = &sim->points[k];
+    PetscInt      i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    if (point->area > 0.0) point->shear[component] = PetscRealPart(a[i + 1] / a[i]);
+  }
+  PetscCall(VecRestoreArrayRead(carried, &a));
+  PetscCall(VecRestoreArrayRead(vertices->shear, &shear));
+  PetscCall(VecDestroy(&carried));
+  PetscFunctionReturn(0);
+}
+
+/* Shear and slip of the points from number `first` on, slip in the means of what the vertices have of the other
+   side's cover, alone */
+static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
+  Vec alone)
+{
+  PetscSection          global;
+  const ContactHistory *m = &sim->history;
+  const PetscScalar    *area, *side, *way;
+  PetscInt              rstart;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(PairShearPoints(sim, pair, first, vertices, alone, c));
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetArrayRead(alone, &area));
+  PetscCall(VecGetArrayRead(vertices->sides, &side));
+  PetscCall(VecGetArrayRead(vertices->way, &way));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    ContactPoint *point = &sim->points[k];
+    PetscInt      i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    for (PetscInt c = 0; c < 3; ++c) {
+      point->shear[c] *= PetscRealPart(side[i]);
+      point->slip[c] = -PetscRealPart(side[i] * way[i + c] / area[i]);
+    }
+    point->slips     = (PetscBool)(point->closed && PetscRealPart(side[i + 2]) > 0.5 * PetscRealPart(area[i + 1]));
+    point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
+  }
+  PetscCall(VecRestoreArrayRead(vertices->way, &way));
+  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
+  PetscCall(VecRestoreArrayRead(alone, &area));
+  PetscFunctionReturn(0);
+}
+
+/* Appends the pair's points; alone: what they carried before it was agglomerated */
+static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows,
+  const PairVertices *vertices, Vec alone)
+{
+  PetscSection       global;
+  const PetscScalar *a, *b, *s, *f;
+  PetscInt           pstart, pend, rstart, n, npoints = 0;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(PetscSectionGetChart(global, &pstart, &pend));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetLocalSize(alone, &n));
+  PetscCall(VecGetArrayRead(vertices->carried, &a));
+  PetscCall(VecGetArrayRead(alone, &b));
+  PetscCall(VecGetArrayRead(vertices->sides, &s));
+  PetscCall(VecGetArrayRead(vertices->force, &f));
+  for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
+  PetscCall(PetscRealloc((sim->npoints + npoints) * sizeof(ContactPoint), &sim->points));
+  for (PetscInt v = pstart; v < pend; ++v) {
+    ContactPoint *point;
+    PetscInt      i, ndofs;
+
+    PetscCall(PetscSectionGetDof(global, v, &ndofs));
+    PetscCall(PetscSectionGetOffset(global, v, &i));
+    i -= rstart;
+    if (ndofs <= 0 || i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
+    point = &sim->points[sim->npoints++];
+    *point =
+      (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
+    if (point->area > 0.0) {
+      point->pressure = PetscRealPart(a[i + 1] / a[i]);
+      point->gap      = PetscRealPart(a[i + 2] / a[i]);
+    }
+    for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
+    point->closed = PairIsClosed(point->pressure, point->gap, rows->young, PetscRealPart(s[i + 1] / b[i]));
+  }
+  PetscCall(VecRestoreArrayRead(vertices->force, &f));
+  PetscCall(VecRestoreArrayRead(vertices->sides, &s));
+  PetscCall(VecRestoreArrayRead(alone, &b));
+  PetscCall(VecRestoreArrayRead(vertices->carried, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Areas are those of the nonmortar side's points. first: of the pair's points */
+static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec sides, PetscInt first,
+  PairReport *report)
+{
+  PetscReal          sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
+  PetscSection       global;
+  const PetscScalar *side;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < rows->n; ++r) sums[0] += rows->area[r] * rows->pressure[r];
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(sides, &rstart, NULL));
+  PetscCall(VecGetArrayRead(sides, &side));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    const ContactPoint *point = &sim->points[k];
+    PetscInt            i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    largest = PetscMax(largest, point->pressure);
+    if (PetscRealPart(side[i - rstart]) > 0.0) continue;
+    if (point->closed) sums[1] += point->area;
+    if (point->slips) sums[2] += point->area;
+  }
+  PetscCall(VecRestoreArrayRead(sides, &side));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(&largest, &report->pressure, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  report->normal_force = sums[0];
+  report->area         = sums[1];
+  report->slip_area    = sums[2];
+  report->stick_area   = rows->rubs ? sums[1] - sums[2] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Collective */
+PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  sim->npoints = 0;
+  PetscCall(PetscFree(sim->points));
+  for (PetscInt p = 0; sim->linearization && p < report->npairs; ++p) {
+    const PetscInt first = sim->npoints;
+    PairRows       rows;
+    PairVertices   vertices;
+    Vec            alone;
+
+    PetscCall(PairRowsCreate(sim, p, &rows));
+    PetscCall(PairVerticesCreate(sim, p, &rows, &vertices));
+    PetscCall(VecDuplicate(vertices.carried, &alone));
+    PetscCall(VecCopy(vertices.carried, alone));
+    PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
+    PetscCall(PairAppendPoints(sim, p, &rows, &vertices, alone));
+    if (rows.rubs) PetscCall(PairRubPoints(sim, p, first, &vertices, alone));
+    PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
+    PetscCall(VecDestroy(&alone));
+    PetscCall(PairVerticesDestroy(&vertices));
+    PetscCall(PairRowsDestroy(&rows));
+  }
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
