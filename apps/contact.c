@@ -330,37 +330,34 @@ static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Sim
   PetscFunctionReturn(0);
 }
 
-/* The first load step: 0, or that with which the run goes on */
-static PetscErrorCode AppBegin(const AppOptions *app, Scene scene, Simulation sim, Output output, PetscInt *step)
+/* The first load step: 0, or that with which the run goes on; same: on the mesh that it was on */
+static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation sim, PetscInt *step, PetscBool *same)
 {
   Checkpoint checkpoint;
   DM         dm;
-  PetscBool  same;
 
   PetscFunctionBeginUser;
   *step = 0;
+  *same = PETSC_TRUE;
   if (!app->restarts) PetscFunctionReturn(0);
   PetscCall(SimulationGetDM(sim, &dm));
-  PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, &same));
+  PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, same));
   PetscCall(SimulationSetCheckpoint(sim, checkpoint, step));
-  if (output) PetscCall(OutputContinue(output, *step, same));
   if (!app->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time,
-      same ? "" : ", interpolated to this mesh and these ranks"));
+      *same ? "" : ", interpolated to this mesh and these ranks"));
   PetscCall(CheckpointDestroy(&checkpoint));
   PetscFunctionReturn(0);
 }
 
 /* Load steps until one fails; true: none did */
-static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, Output output,
-  CheckpointWriter writer, PetscBool *converged)
+static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, PetscInt first,
+  Output output, CheckpointWriter writer, PetscBool *converged)
 {
   StepState state;
-  PetscInt  first;
 
   PetscFunctionBeginUser;
   *converged = PETSC_TRUE;
-  PetscCall(AppBegin(app, scene, sim, output, &first));
   for (PetscInt step = first; step < scene->nsteps && *converged; ++step) {
     if (!app->quiet)
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Load step %" PetscInt_FMT " of %" PetscInt_FMT ", load factor %g\n",
@@ -383,16 +380,19 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   CheckpointWriter writer;
   StepTolerances   tolerances;
   RunReport        report;
-  PetscBool        converged;
+  PetscBool        same, converged;
+  PetscInt         first;
   const PetscInt   mesh = accuracy->mesh;
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
   PetscCall(AppCreateSimulation(app, scene, accuracy, marks, forecast, &sim));
+  PetscCall(AppRestart(app, scene, sim, &first, &same));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
+  if (output && first) PetscCall(OutputContinue(output, first, same));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
   PetscCall(AppCreateWriter(app, scene, sim, &writer));
-  PetscCall(AppSimulateSteps(app, scene, sim, output, writer, &converged));
+  PetscCall(AppSimulateSteps(app, scene, sim, first, output, writer, &converged));
   PetscCall(SimulationGetReport(sim, &report));
   PetscCall(SimulationGetTolerances(sim, &tolerances));
   if (converged && accuracy->adaptive) PetscCall(SimulationPropose(sim, &accuracy->growth));

@@ -156,6 +156,9 @@ PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
 PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
+/* memory.c */
+PETSC_INTERN PetscErrorCode PCAMGFSumMemory_Private(MPI_Comm, PetscReal, PetscReal *);
+PETSC_INTERN PetscErrorCode PCAMGFGetMemory_Private(MPI_Comm, PetscReal *);
 /* factor.c */
 PETSC_INTERN PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);

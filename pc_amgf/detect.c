@@ -1,8 +1,14 @@
 /* Detection of stiff rows by their diagonal entries */
 #include "amgfimpl.h"
 
+/* An entry that has a logarithm */
+static PetscBool DetectCounts(PetscScalar d)
+{
+  return (PetscBool)(PetscRealPart(d) > 0.0 && PetscRealPart(d) <= PETSC_MAX_REAL);
+}
+
 /*
-  Median of the positive diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every
+  Median of the positive finite diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every
   partition gives the same value.
 */
 static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
@@ -12,7 +18,7 @@ static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar 
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < n; i++) {
-    if (PetscRealPart(d[i]) <= 0.0) continue;
+    if (!DetectCounts(d[i])) continue;
     range[0] = PetscMax(range[0], -PetscLogReal(PetscRealPart(d[i])));
     range[1] = PetscMax(range[1], PetscLogReal(PetscRealPart(d[i])));
     count++;
@@ -24,7 +30,7 @@ static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar 
     const PetscReal middle = 0.5 * (low + high), value = PetscExpReal(middle);
     PetscInt        below = 0;
 
-    for (PetscInt i = 0; i < n; i++) below += (PetscRealPart(d[i]) > 0.0 && PetscRealPart(d[i]) <= value);
+    for (PetscInt i = 0; i < n; i++) below += (DetectCounts(d[i]) && PetscRealPart(d[i]) <= value);
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &below, 1, MPIU_INT, MPI_SUM, comm));
     if (below >= count - count / 2) high = middle;
     else low = middle;

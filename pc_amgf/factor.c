@@ -3,11 +3,11 @@
    whether it is the cheaper of the two for what is said to come, and the factorization itself. The estimates are of
    counts, not of clocks, so that a run does the same twice.
 */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime() */
 #include "amgfimpl.h"
 #include "mumps.h"
 #include <petscblaslapack.h>
 #include <time.h>
-#include <unistd.h>
 
 const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUse", "PC_AMGF_FACTOR_", NULL};
 
@@ -73,10 +73,13 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* What the machine has, of which all ranks are taken to share one */
-static PetscReal FactorMachineMemory(void)
+/* CPU time [s] of the calling thread, which no other thread of the process or process of the machine adds to */
+static PetscReal FactorThreadTime(void)
 {
-  return (PetscReal)sysconf(_SC_PHYS_PAGES) * (PetscReal)sysconf(_SC_PAGESIZE);
+  struct timespec now;
+
+  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (PetscReal)now.tv_sec + 1e-9 * (PetscReal)now.tv_nsec;
 }
 
 /* Whether BLAS is one that was written for the processor: the reference implementation takes ten times as long for a
@@ -92,10 +95,10 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(n * n, &a, n * n, &c));
   for (PetscInt k = 0; k < 4; k++) {
-    const clock_t start = clock();
+    const PetscReal start = FactorThreadTime();
 
     PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &n, &n, &n, &one, a, &n, a, &n, &zero, c, &n));
-    best = PetscMax(best, 2.0 * n * n * n * CLOCKS_PER_SEC / PetscMax((PetscReal)(clock() - start), 1.0));
+    best = PetscMax(best, 2.0 * n * n * n / PetscMax(FactorThreadTime() - start, 1e-6));
   }
   PetscCall(PetscFree2(a, c));
   *rate = best > threshold ? tuned : reference;
@@ -131,13 +134,14 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
    applications as are to come */
 static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal solves, PetscBool *cheaper)
 {
-  PC_AMGF        *amgf  = (PC_AMGF *)pc->data;
-  AMGFFactor     *f     = &amgf->factor;
-  const PetscReal room  = f->share * FactorMachineMemory();
-  AMGFCosts       costs = {0.0, 0.0, 0.0, 0.0};
-  PetscReal       factor, amg;
+  PC_AMGF    *amgf  = (PC_AMGF *)pc->data;
+  AMGFFactor *f     = &amgf->factor;
+  AMGFCosts   costs = {0.0, 0.0, 0.0, 0.0};
+  PetscReal   factor, amg, room;
 
   PetscFunctionBegin;
+  PetscCall(PCAMGFGetMemory_Private(PetscObjectComm((PetscObject)pc), &room));
+  room *= f->share;
   PetscCall(FactorEstimate(pc, amgf->lag.built, &costs));
   factor   = costs.factor + solves * costs.solve;
   amg      = costs.setup + applications * costs.apply;
@@ -269,8 +273,8 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 
   Options Database Keys:
 + -pc_amgf_factor <false>     - `false`, `true` or `auto`
-- -pc_amgf_factor_share <0.4> - auto: share of the machine's memory, taken to be that of all ranks, which the factors
-                                may take by MUMPS's estimate
+- -pc_amgf_factor_share <0.4> - auto: share of the memory of the ranks' machines, or of what control groups leave of
+                                it, which the factors may take by MUMPS's estimate
 
   Level: intermediate
 

@@ -119,6 +119,40 @@ static PetscErrorCode SetByOptions(Context *c)
   PetscFunctionReturn(0);
 }
 
+/* Infinite and undefined diagonal entries count for nothing in the median; the solve ends, and says that it failed */
+static PetscErrorCode CheckDetectionOfInfinity(Context *c, PetscScalar entry, const char what[])
+{
+  KSP                ksp;
+  PC                 pc;
+  Mat                A;
+  Vec                x;
+  PetscInt           start;
+  KSPConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatDuplicate(c->A, MAT_COPY_VALUES, &A));
+  PetscCall(MatGetOwnershipRange(A, &start, NULL));
+  if (start == 0) PetscCall(MatSetValue(A, 0, 0, entry, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscOptionsSetValue(NULL, "-pc_amgf_detect", "10"));
+  PetscCall(VecDuplicate(c->r, &x));
+  PetscCall(KSPCreate(c->comm, &ksp));
+  PetscCall(KSPSetType(ksp, KSPCG));
+  PetscCall(KSPSetOperators(ksp, A, A));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(PCSetFromOptions(pc));
+  PetscCall(KSPSolve(ksp, c->r, x));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(PetscPrintf(c->comm, "detection with %s diagonal entry: %s\n", what, reason < 0 ? "failed" : "NOT FAILED"));
+  PetscCall(PetscOptionsClearValue(NULL, "-pc_amgf_detect"));
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(VecDestroy(&x));
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
+
 /* Call before composed before file before detection */
 static PetscErrorCode CheckPrecedence(Context *c)
 {
@@ -413,6 +447,8 @@ int main(int argc, char **argv)
   PetscCall(SetByCall(&c));
   PetscCall(SetByInterpolation(&c));
   PetscCall(SetByOptions(&c));
+  PetscCall(CheckDetectionOfInfinity(&c, INFINITY, "an infinite"));
+  PetscCall(CheckDetectionOfInfinity(&c, NAN, "an undefined"));
   PetscCall(CheckPrecedence(&c));
   PetscCall(CheckComposedLater(&c));
   PetscCall(CheckWarnings(&c));

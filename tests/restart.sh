@@ -113,3 +113,26 @@ head -c 3000 press.h5 > torn.h5
 try press.yaml -restart torn.h5 | sed "s/of its $(stat -c %s press.h5) bytes/of all its bytes/"
 try press.yaml -restart press.h5 -accuracy 0.1
 try press.yaml -checkpoint_every 1 -checkpoint nowhere/press.h5
+# Nothing that a run refuses touches the results of an earlier one, nor does a run before it has solved a load step
+earlier="-output earlier -checkpoint_every 1 -checkpoint earlier_state.h5 -summary earlier.json"
+"$contact" press.yaml -quiet $earlier
+refuse() {
+  sums=$(md5sum earlier*)
+  timeout 200 "$contact" "$@" -quiet $earlier > err 2>&1
+  code=$?
+  changed=$(md5sum earlier* | diff <(echo "$sums") - | sed -n 's/^[<>].* //p' | sort -u | tr '\n' ' ')
+  echo "exit $code, changed: ${changed:-nothing}; $(grep -ah 'contact: ' err)"
+}
+refuse press.yaml -restart nowhere.h5
+refuse other.yaml -restart press.h5
+refuse press.yaml -restart torn.h5 | sed "s/of its $(stat -c %s press.h5) bytes/of all its bytes/"
+refuse press.yaml -load_steps 3 -restart press.h5
+refuse press.yaml -restart earlier_state.h5
+refuse press.yaml -restart press.h5 -refin 1
+refuse press.yaml -tao_type none_such | sed 's/error: .*/error: .../'
+refuse press.yaml -load_steps 1 -load_max_cuts 0 -tao_max_it 1 -tao_ipfilter_subspace false | sed 's/failed: .*/failed/'
+# Files that another run has under way
+parts="busy.h5.part busy.json.part busy_state.h5.part"
+for part in $parts; do echo "of another run" > $part; done
+"$contact" linear.yaml -quiet -load_steps 1 -output busy -checkpoint_every 1 -checkpoint busy_state.h5 -summary busy.json
+cat $parts

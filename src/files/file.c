@@ -1,37 +1,43 @@
 /* Files that appear whole or not at all */
-#define _POSIX_C_SOURCE 200809L /* lstat(), truncate() */
+#define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), getpid() */
 #include "src/output/outputimpl.h"
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The file that is written and then renamed: another one, but for links and devices, whose place no file may take */
-static PetscErrorCode FileGetPartName(const char file[], char part[], size_t length, PetscBool *renamed)
+/* What the first rank finds out; the same on all ranks */
+typedef struct {
+  char      name[PETSC_MAX_PATH_LEN];
+  PetscBool renamed; /* it takes the file's name once it is whole */
+} FilePart;
+
+/* What is written and then renamed: a file of this process, as another one may write the same file. Links and devices
+   are written themselves, whose place no file may take */
+static PetscErrorCode FileGetPart(MPI_Comm comm, const char file[], FilePart *part)
 {
   struct stat status;
 
   PetscFunctionBegin;
-  *renamed = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(PetscSNPrintf(part, length, "%s%s", file, *renamed ? ".part" : ""));
+  *part = (FilePart){.renamed = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE};
+  if (part->renamed) PetscCall(PetscSNPrintf(part->name, sizeof(part->name), "%s.%ld.part", file, (long)getpid()));
+  else PetscCall(PetscStrncpy(part->name, file, sizeof(part->name)));
+  PetscCallMPI(MPI_Bcast(part, sizeof(*part), MPI_BYTE, 0, comm));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FileTry(MPI_Comm comm, const char file[], PetscErrorCode code)
+static PetscErrorCode FileTry(MPI_Comm comm, const char file[], const FilePart *part, PetscErrorCode code)
 {
-  char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    FILE *stream = fopen(part, renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
+    FILE *stream = fopen(part->name, part->renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
 
     if (!stream) error = errno;
-    else if (fclose(stream) || (renamed && remove(part))) error = errno;
+    else if (fclose(stream) || (part->renamed && remove(part->name))) error = errno;
   }
   PetscCall(FileRaise(comm, file, code, error));
   PetscFunctionReturn(0);
@@ -44,7 +50,8 @@ static PetscErrorCode FileTry(MPI_Comm comm, const char file[], PetscErrorCode c
 
    Input Parameters:
 +  comm - the communicator; its first rank writes
--  file - the file; it is not touched, a neighbour FILE.part is made and removed, unless it is a link or a device
+-  file - the file; it is not touched, a neighbour FILE.PID.part is made and removed, unless it is a link or a
+         device
 
    Level: intermediate
 
@@ -54,22 +61,22 @@ static PetscErrorCode FileTry(MPI_Comm comm, const char file[], PetscErrorCode c
 @*/
 PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
 {
+  FilePart part;
+
   PetscFunctionBegin;
-  PetscCall(FileTry(comm, file, PETSC_ERR_FILE_OPEN));
+  PetscCall(FileGetPart(comm, file, &part));
+  PetscCall(FileTry(comm, file, &part, PETSC_ERR_FILE_OPEN));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FileRename(MPI_Comm comm, const char file[])
+static PetscErrorCode FileRename(MPI_Comm comm, const FilePart *part, const char file[])
 {
-  char        part[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
-  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && renamed && rename(part, file)) error = errno;
+  if (rank == 0 && part->renamed && rename(part->name, file)) error = errno;
   PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
   PetscFunctionReturn(0);
 }
@@ -87,28 +94,28 @@ static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *fun
 PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx,
   FileCommit *commit)
 {
-  char           part[PETSC_MAX_PATH_LEN], complaint[FILE_COMPLAINT_LENGTH] = "";
+  char           complaint[FILE_COMPLAINT_LENGTH] = "";
+  FilePart       part;
   PetscViewer    viewer;
-  PetscBool      renamed;
   PetscErrorCode ierr;
   SilencedOutput mute;
 
   PetscFunctionBegin;
-  PetscCall(FileTry(comm, file, PETSC_ERR_FILE_WRITE));
-  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
+  PetscCall(FileGetPart(comm, file, &part));
+  PetscCall(FileTry(comm, file, &part, PETSC_ERR_FILE_WRITE));
   PetscCall(PetscPushErrorHandler(FileKeepComplaint, complaint));
   SilenceOutputBegin(&mute);
-  ierr = PetscViewerHDF5Open(comm, part, FILE_MODE_WRITE, &viewer);
+  ierr = PetscViewerHDF5Open(comm, part.name, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
   SilenceOutputEnd(&mute);
   PetscCall(PetscPopErrorHandler());
   /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
-  if (ierr && renamed) (void)remove(part);
+  if (ierr && part.renamed) (void)remove(part.name);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file,
     complaint);
-  if (commit && renamed) PetscCall(FileCommitBegin(comm, part, file, commit));
-  else PetscCall(FileRename(comm, file));
+  if (commit && part.renamed) PetscCall(FileCommitBegin(comm, part.name, file, commit));
+  else PetscCall(FileRename(comm, &part, file));
   PetscFunctionReturn(0);
 }
 
@@ -148,24 +155,23 @@ PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (
 PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
   const void *ctx)
 {
-  char        part[PETSC_MAX_PATH_LEN];
+  FilePart    part;
   PetscMPIInt rank;
-  PetscBool   renamed;
   int         error = 0;
 
   PetscFunctionBegin;
-  PetscCall(FileGetPartName(file, part, sizeof(part), &renamed));
+  PetscCall(FileGetPart(comm, file, &part));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    FILE *stream = fopen(part, "w");
+    FILE *stream = fopen(part.name, "w");
 
     if (!stream) error = errno;
     else {
       PetscCall(FileFill(stream, fill, ctx, &error));
-      if (error && renamed) (void)remove(part);
+      if (error && part.renamed) (void)remove(part.name);
     }
   }
   PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
-  PetscCall(FileRename(comm, file));
+  PetscCall(FileRename(comm, &part, file));
   PetscFunctionReturn(0);
 }

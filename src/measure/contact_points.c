@@ -1,5 +1,5 @@
 /* Pressure, gap and status at the vertices of both sides of every pair. */
-#include "src/step/pairrows.h"
+#include "pair_rows.h"
 
 /* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
    nonmortar, length of facets x area, force that slips]; force */

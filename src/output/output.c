@@ -3,8 +3,33 @@
 #include "outputimpl.h"
 #include <sys/stat.h>
 
+/* As the first rank sees it */
+static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool *exists)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(file, 'r', exists));
+  PetscCallMPI(MPI_Bcast(exists, 1, MPI_PETSCBOOL, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Writes the mesh, in the place of an earlier run's */
+static PetscErrorCode OutputBegin(Output output)
+{
+  char file[PETSC_MAX_PATH_LEN];
+  int  earlier = output->lock;
+
+  PetscFunctionBegin;
+  PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
+  PetscCall(OutputWriteMesh(output));
+  PetscCall(LockFileBegin(output->comm, file, &output->lock));
+  LockFileEnd(&earlier);
+  PetscCall(OutputWriteXDMF(output));
+  output->meshed = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 /*@C
-   OutputCreate - Prepares results on disk for ParaView, and writes the mesh
+   OutputCreate - Prepares results on disk for ParaView
 
    Collective
 
@@ -25,8 +50,11 @@
    tetrahedra, of 4 or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before
    the nodes of each) and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends
    at time k. Every file is written under another name and renamed when it is whole, and the .xmf comes last, so a run
-   that is killed, or finds the disk full, leaves what it has finished readable. Once the first step is written, the
-   files of later steps that an older run of the same name left are removed.
+   that is killed, or finds the disk full, leaves what it has finished readable.
+
+   The results of an earlier run of the same name stay as they are until the first load step is written: the mesh is
+   written then. The files of later steps that the earlier run left are removed. Without earlier results the mesh is
+   written at once.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written, or another process writes them;
    PETSC_ERR_FILE_WRITE where there is no room.
@@ -36,8 +64,9 @@
 PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames[], const char basename[],
   Output *output)
 {
-  Output o;
-  char   file[PETSC_MAX_PATH_LEN];
+  Output    o;
+  PetscBool earlier;
+  char      file[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(OutputCheckBase(PetscObjectComm((PetscObject)dm), basename));
@@ -48,11 +77,9 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
-  PetscCall(LockFileBegin(o->comm, file, &o->lock)); /* of an earlier run */
-  LockFileEnd(&o->lock);
-  PetscCall(OutputWriteMesh(o));
   PetscCall(LockFileBegin(o->comm, file, &o->lock));
-  PetscCall(OutputWriteXDMF(o));
+  PetscCall(OutputTestFile(o->comm, file, &earlier));
+  if (!earlier) PetscCall(OutputBegin(o));
   *output = o;
   PetscFunctionReturn(0);
 }
@@ -113,8 +140,7 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
   output->continued = step;
   for (PetscInt s = 1; same && s <= step; ++s) {
     PetscCall(OutputGetStepFile(output, s, file, sizeof(file)));
-    PetscCall(PetscTestFile(file, 'r', &exists));
-    PetscCallMPI(MPI_Bcast(&exists, 1, MPI_PETSCBOOL, 0, output->comm));
+    PetscCall(OutputTestFile(output->comm, file, &exists));
     if (exists) PetscCall(OutputAddStep(output, s, (PetscReal)s));
   }
   PetscFunctionReturn(0);
@@ -174,6 +200,7 @@ PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
   PetscFunctionBegin;
   if (!output->begun) PetscCall(OutputKeepFields(output, state));
+  if (!output->meshed) PetscCall(OutputBegin(output));
   PetscCall(OutputWriteFields(output, state));
   PetscCall(OutputAddStep(output, state->report->step, state->report->time));
   PetscCall(OutputWriteXDMF(output));

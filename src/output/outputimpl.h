@@ -29,8 +29,8 @@ PETSC_INTERN PetscErrorCode FileCommitBegin(MPI_Comm, const char part[], const c
 PETSC_INTERN PetscErrorCode FileCommitEnd(FileCommit *);
 
 /*
-   file.c: a file appears whole or not at all: it is written under another name, <file>.part, and renamed. Collective;
-   the error names the file.
+   file.c: a file appears whole or not at all: it is written under another name, <file>.<pid>.part, and renamed.
+   Collective; the error names the file.
 */
 /* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes
    its name */
@@ -44,7 +44,7 @@ PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErr
   const void *ctx);
 
 /* lock_file.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first
-   rank, is closed */
+   rank, is closed. A file that does not exist is not kept */
 PETSC_INTERN PetscErrorCode LockFileBegin(MPI_Comm, const char file[], int *descriptor);
 PETSC_INTERN void           LockFileEnd(int *descriptor);
 
@@ -72,6 +72,7 @@ struct _n_Output {
   PetscBool   friction;    /* the steps have shear and slip */
   PetscBool   nodes;       /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature; /* quadrature points of all ranks, of the steps that have stress there */
+  PetscBool   meshed;      /* the mesh has been written */
   PetscBool   begun;       /* a step has been written */
   PetscInt    continued;   /* load steps of the run that this one goes on with; 0: none */
   PetscInt    nsteps, maxsteps;

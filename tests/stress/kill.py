@@ -1,4 +1,5 @@
 """A run that is killed at any time, or finds the disk full from then on, goes on from its newest checkpoint to the answer that it would have come to."""
+import glob
 import json
 import os
 import random
@@ -25,9 +26,8 @@ SCENE = {
 
 def struck(base, event, seconds):
     """Leaves what a run does to which this happens after so many seconds"""
-    for name in (base + ".h5", base + ".h5.part"):
-        if os.path.exists(name):
-            os.remove(name)
+    for name in glob.glob(base + ".h5") + glob.glob(base + ".h5.*.part"):
+        os.remove(name)
     command = [CONTACT, base + ".yaml", *OPTIONS, "-checkpoint_every", "1", "-checkpoint", base + ".h5"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
     begun = time.time()

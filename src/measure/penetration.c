@@ -1,5 +1,5 @@
 /* How deep vertices of one face of a pair are in the other body, beside the gap, which of mortar pairs is a mean. */
-#include "stepimpl.h"
+#include "src/step/stepimpl.h"
 
 #define PENETRATION_SHARE 0.01 /* of the largest displacement: more is warned of */
 

@@ -1,5 +1,5 @@
 /* The rows of one contact pair: area, normal, pressure, gap, friction and status. */
-#include "pairrows.h"
+#include "pair_rows.h"
 
 /* vector: mass_A sum of a matrix's A_AB over the vertices B of the mortar side */
 static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])

@@ -1,8 +1,8 @@
 /* Rows of one contact pair, and what their vertices have of them: shared by the files that measure contact. */
-#ifndef PAIRROWS_H
-#define PAIRROWS_H
+#ifndef PAIR_ROWS_H
+#define PAIR_ROWS_H
 
-#include "stepimpl.h"
+#include "src/step/stepimpl.h"
 
 /*
    The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of
@@ -21,12 +21,12 @@ typedef struct {
     *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
 } PairRows;
 
-/* pairrows.c */
+/* pair_rows.c */
 PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length);
 PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
 
-/* pairspread.c: from rows to vertices and back, in proportion to the area that both share. sides: first value of a
+/* pair_spread.c: from rows to vertices and back, in proportion to the area that both share. sides: first value of a
    vertex 1 mortar side, -1 nonmortar side, 0 neither */
 PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, Vec sides);
 PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);
@@ -36,7 +36,7 @@ PETSC_INTERN PetscErrorCode PairSpread(Simulation, const PairRows *, const Petsc
 PETSC_INTERN PetscErrorCode PairGather(Simulation, const PairRows *, Vec sides, Vec v, PetscInt from,
   PetscReal value[]);
 
-/* pairresolve.c */
+/* pair_resolve.c */
 PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, Vec sides, PairRows *);
 
 #endif

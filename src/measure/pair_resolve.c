@@ -5,7 +5,7 @@
    closed ones enclose, and those about them, take what the mortar vertices have, the mean of the rows' values over
    the area that both share, interpolated back to the rows. The sum of value times area over the rows stays.
 */
-#include "pairrows.h"
+#include "pair_rows.h"
 
 static const PetscReal resolve_enclosed = 0.4; /* 0.57 at a straight border, about 0.2 between strips of contact */
 

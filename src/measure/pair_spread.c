@@ -1,5 +1,5 @@
 /* Values of the rows of a contact pair at the vertices of both sides, and those of the mortar vertices at the rows. */
-#include "pairrows.h"
+#include "pair_rows.h"
 
 /* value at the rows of a face that belong to a component */
 PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscInt to, Vec v)
