@@ -18,10 +18,13 @@ typedef struct {
   PetscReal   area;         /* covered area about the vertices in contact [length^2] */
   PetscReal   pressure;     /* largest of the contact pressure's field [force/length^2] */
   PetscReal   penetration;  /* of the deepest vertex of either face in the other body [length] */
-  PetscBool   rubs;         /* has friction */
-  PetscReal   shear_force;  /* sum of the sizes of the rows' forces of friction [force] */
-  PetscReal   stick_area;   /* covered area about the vertices in contact that friction holds, */
-  PetscReal   slip_area;    /* and about those that slip against it [length^2]; both 0 without friction */
+  PetscReal   coarseness;   /* size of the nonmortar side's facets over the mortar side's; 0: there is no contact */
+  PetscBool   narrow;       /* the contact, if any, is one facet of the nonmortar side wide */
+  PetscReal   penetration_rounding; /* what it is known to where faces are curved [length] */
+  PetscBool   rubs;                 /* has friction */
+  PetscReal   shear_force;          /* sum of the sizes of the rows' forces of friction [force] */
+  PetscReal   stick_area;           /* covered area about the vertices in contact that friction holds, */
+  PetscReal   slip_area;            /* and about those that slip against it [length^2]; both 0 without friction */
   PetscReal   dissipated; /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
 } PairReport;
 

@@ -25,6 +25,19 @@ DIES = {
     "node": dict(slab=[6, 4, 2], die=[15, 5, 4], young=200e3, pair="gap: node"),
     "rubs": dict(slab=[6, 4, 2], die=[15, 5, 4], young=200e3, pair="friction: 0.3", press=[0.004, 0, -0.02]),
 }
+# A rubber pad on a rigid floor of one cell, which carries the constraints or does not
+PAD = """problem: {name}
+bodies:
+  - floor: {{lower: [-1, -1, -1], upper: [3, 3, 0], cells: [1, 1, 1], material: rigid}}
+  - pad: {{lower: [0, 0, 0], upper: [2, 2, 1], cells: [2, 2, 2], young: 10, poisson: 0.49, element: bbar}}
+displacements:
+  - ground: {{body: floor, value: [0, 0, 0]}}
+pressures:
+  - press: {{face: pad.zmax, value: 1}}
+contact:
+  - pair: {{{sides}, stick: true}}
+"""
+PADS = {"mean": "mortar: pad.zmin, nonmortar: floor.zmax", "vertices": "mortar: floor.zmax, nonmortar: pad.zmin", "points": "mortar: floor.zmax, nonmortar: pad.zmin, gap: node"}
 MEAN = {"stiff": 2.5, "finer": 2.5, "halves": 2, "alike": 2, "node": 3, "rubs": 3}  # largest pressure over the mean: that of a punch on such cells
 
 
@@ -32,6 +45,9 @@ def write():
     for name, values in DIES.items():
         with open(name + ".yaml", "w") as file:
             file.write(DIE.format(name=name, **{"press": [0, 0, -0.02], **values}))
+    for name, sides in PADS.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(PAD.format(name=name, sides=sides))
 
 
 def judge_die(name, run):
@@ -51,7 +67,21 @@ def judge_die(name, run):
         say("%s: no shear is beyond friction times pressure" % run, bool((shear <= 0.3 * pressure + 1e-9 * pressure.max()).all()), (shear - 0.3 * pressure).max())
 
 
+def judge_pad(name, run):
+    summary, fields = load(run), Fields(run)
+    step, pad = summary["steps"][-1], fields.body == 1
+    lowest = -min(0, (fields.x + fields.values["displacement"])[pad, 2].min())
+    pair = step["pairs"][0]
+    say("%s: the penetration is that of the lowest vertex" % run, abs(pair["penetration"] - lowest) <= 1e-12, (pair["penetration"], lowest))
+    say("%s: the mean gap is closed" % run, abs(step["gap_true"]) <= 1e-6, step["gap_true"])
+    warned = [warning for warning in summary["warnings"] if "deep in the other body" in warning]
+    say("%s: a vertex %s" % (run, "goes through the floor, and is warned of" if name == "mean" else "stays above the floor"), (lowest > 0.04 and len(warned) == 1) if name == "mean" else lowest <= 1e-12 and not warned, (lowest, warned))
+
+
 def judge():
+    for name in PADS:
+        judge_pad(name, name)
+    judge_pad("mean", "mean_3")
     for name in DIES:
         judge_die(name, name)
     judge_die("stiff", "stiff_3")

@@ -65,8 +65,10 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
 + contact - the contact
 - u       - global displacement vector, 3 components a vertex [length]
 
-  Output Parameter:
-. depth - of each pair, that of the deepest vertex of either face below the other one [length]; 0: there is none
+  Output Parameters:
++ depth    - of each pair, that of the deepest vertex of either face below the other one [length]; 0: there is none
+- rounding - of each pair, what a depth is known to: a tenth of what its smooth surfaces stand off their facets
+             [length]; 0: its faces are plane
 
   Level: developer
 
@@ -77,7 +79,7 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
 
 .seealso: `ContactLinearize()`
 @*/
-PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[])
+PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], PetscReal rounding[])
 {
   PetscFunctionBegin;
   PetscCall(ContactDeform(contact, u));
@@ -85,7 +87,8 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[])
     const ContactPairData *pair  = &contact->pairs[p];
     const PetscReal        reach = pair->depth + pair->bulge;
 
-    depth[p] = 0.0;
+    depth[p]    = 0.0;
+    rounding[p] = 0.1 * pair->bulge;
     PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
     PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
   }

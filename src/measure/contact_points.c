@@ -2,9 +2,9 @@
 #include "pair_rows.h"
 
 /* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
-   nonmortar, length of facets x area, force that slips]; force */
+   nonmortar, -, -]; [closed area, length of facets x area, force that slips]; force */
 typedef struct {
-  Vec carried, sides, force;
+  Vec carried, sides, closing, force;
   Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
 } PairVertices;
 
@@ -27,7 +27,7 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionReturn(0);
 }
 
-/* What friction has at the vertices, its forces among all, and in sides[2] the force that slips */
+/* What friction has at the vertices, its forces among all, and in closing[2] the force that slips */
 static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
 {
   PetscReal   *slipping;
@@ -41,7 +41,7 @@ static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairR
   PetscCall(VecZeroEntries(vertices->way));
   PetscCall(PetscMalloc1(rows->n, &slipping));
   for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
-  PetscCall(PairSpread(sim, rows, slipping, vertices->sides, 2, vertices->sides));
+  PetscCall(PairSpread(sim, rows, slipping, vertices->sides, 2, vertices->closing));
   PetscCall(PetscFree(slipping));
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
@@ -63,14 +63,17 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   vertices->shear = vertices->way = NULL;
   PetscCall(VecDuplicate(sim->path.u, &vertices->carried));
   PetscCall(VecDuplicate(sim->path.u, &vertices->sides));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->closing));
   PetscCall(VecDuplicate(sim->path.u, &vertices->force));
   PetscCall(VecZeroEntries(vertices->carried));
+  PetscCall(VecZeroEntries(vertices->closing));
   PetscCall(PairMarkSides(sim, pair, vertices->sides));
   PetscCall(PairRowsResolve(sim, pair, vertices->sides, rows));
   PetscCall(PairSpread(sim, rows, NULL, vertices->sides, 0, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
-  PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->sides));
+  PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 0, vertices->closing));
+  PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->closing));
   PetscCall(PairPlaceForces(sim, rows, vertices->force));
   if (rows->rubs) PetscCall(PairVerticesRub(sim, pair, rows, vertices));
   PetscFunctionReturn(0);
@@ -81,6 +84,7 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&vertices->carried));
   PetscCall(VecDestroy(&vertices->sides));
+  PetscCall(VecDestroy(&vertices->closing));
   PetscCall(VecDestroy(&vertices->force));
   PetscCall(VecDestroy(&vertices->shear));
   PetscCall(VecDestroy(&vertices->way));
@@ -131,7 +135,7 @@ static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt firs
 {
   PetscSection          global;
   const ContactHistory *m = &sim->history;
-  const PetscScalar    *area, *side, *way;
+  const PetscScalar    *area, *side, *closing, *way;
   PetscInt              rstart;
 
   PetscFunctionBegin;
@@ -140,6 +144,7 @@ static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt firs
   PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
   PetscCall(VecGetArrayRead(alone, &area));
   PetscCall(VecGetArrayRead(vertices->sides, &side));
+  PetscCall(VecGetArrayRead(vertices->closing, &closing));
   PetscCall(VecGetArrayRead(vertices->way, &way));
   for (PetscInt k = first; k < sim->npoints; ++k) {
     ContactPoint *point = &sim->points[k];
@@ -151,13 +156,20 @@ static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt firs
       point->shear[c] *= PetscRealPart(side[i]);
       point->slip[c] = -PetscRealPart(side[i] * way[i + c] / area[i]);
     }
-    point->slips     = (PetscBool)(point->closed && PetscRealPart(side[i + 2]) > 0.5 * PetscRealPart(area[i + 1]));
+    point->slips     = (PetscBool)(point->closed && PetscRealPart(closing[i + 2]) > 0.5 * PetscRealPart(area[i + 1]));
     point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
   }
   PetscCall(VecRestoreArrayRead(vertices->way, &way));
+  PetscCall(VecRestoreArrayRead(vertices->closing, &closing));
   PetscCall(VecRestoreArrayRead(vertices->sides, &side));
   PetscCall(VecRestoreArrayRead(alone, &area));
   PetscFunctionReturn(0);
+}
+
+/* Half of it, but for rounding, is not most */
+static PetscBool PairIsMostly(PetscReal part, PetscReal whole)
+{
+  return (PetscBool)(2.0 * part > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * whole);
 }
 
 /* Appends the pair's points; alone: what they carried before it was agglomerated */
@@ -175,7 +187,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecGetLocalSize(alone, &n));
   PetscCall(VecGetArrayRead(vertices->carried, &a));
   PetscCall(VecGetArrayRead(alone, &b));
-  PetscCall(VecGetArrayRead(vertices->sides, &s));
+  PetscCall(VecGetArrayRead(vertices->closing, &s));
   PetscCall(VecGetArrayRead(vertices->force, &f));
   for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
   PetscCall(PetscRealloc((sim->npoints + npoints) * sizeof(ContactPoint), &sim->points));
@@ -195,10 +207,11 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
       point->gap      = PetscRealPart(a[i + 2] / a[i]);
     }
     for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
-    point->closed = PairIsClosed(point->pressure, point->gap, rows->young, PetscRealPart(s[i + 1] / b[i]));
+    point->closed = (PetscBool)(PairIsMostly(PetscRealPart(s[i]), PetscRealPart(b[i])) ||
+                                PairIsClosed(point->pressure, point->gap, rows->young, PetscRealPart(s[i + 1] / b[i])));
   }
   PetscCall(VecRestoreArrayRead(vertices->force, &f));
-  PetscCall(VecRestoreArrayRead(vertices->sides, &s));
+  PetscCall(VecRestoreArrayRead(vertices->closing, &s));
   PetscCall(VecRestoreArrayRead(alone, &b));
   PetscCall(VecRestoreArrayRead(vertices->carried, &a));
   PetscFunctionReturn(0);
@@ -259,6 +272,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(PairAppendPoints(sim, p, &rows, &vertices, alone));
     if (rows.rubs) PetscCall(PairRubPoints(sim, p, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
+    PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
     PetscCall(PairVerticesDestroy(&vertices));
     PetscCall(PairRowsDestroy(&rows));

@@ -206,18 +206,18 @@ static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const Pets
 /* Collective */
 PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRows *rows)
 {
-  const PetscReal young = ResolveModulus(sim->scene, pair);
-  PetscReal      *length, *mark, *pressure;
+  const PetscReal young  = ResolveModulus(sim->scene, pair);
+  PetscReal      *length = rows->facing, *mark, *pressure;
   PetscBool       any;
   Vec             size;
 
   PetscFunctionBegin;
-  if (young == PETSC_INFINITY) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc3(rows->n, &length, rows->n, &mark, rows->n, &pressure));
   PetscCall(VecDuplicate(sides, &size));
   PetscCall(ResolveSizes(sim, pair, size));
   PetscCall(PairGather(sim, rows, sides, size, 0, length));
   PetscCall(VecDestroy(&size));
+  if (young == PETSC_INFINITY) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(rows->n, &mark, rows->n, &pressure));
   PetscCall(ResolveMark(sim, young, rows, sides, length, mark, &any));
   if (any) {
     PetscCall(PetscArraycpy(pressure, rows->pressure, rows->n));
@@ -231,6 +231,6 @@ PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRow
     }
     if (rows->rubs) PetscCall(ResolveFriction(sim, rows, mark, pressure, sides));
   }
-  PetscCall(PetscFree3(length, mark, pressure));
+  PetscCall(PetscFree2(mark, pressure));
   PetscFunctionReturn(0);
 }

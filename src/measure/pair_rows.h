@@ -14,6 +14,8 @@ typedef struct {
   PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
   PetscReal  young;  /* of the softer body [force/length^2] */
+  PetscReal *own;    /* size of the facets about the row [length] */
+  PetscReal *facing; /* size of the mortar side's facets that the row faces [length] */
   PetscReal *length; /* of the facets that the row's gap is of; of the coarser side where it resolves no more */
   PetscBool  rubs;   /* the pair has friction */
   PetscReal *slips;  /* 1: its friction gives way */
@@ -35,6 +37,9 @@ PETSC_INTERN PetscErrorCode PairSpread(Simulation, const PairRows *, const Petsc
   Vec v);
 PETSC_INTERN PetscErrorCode PairGather(Simulation, const PairRows *, Vec sides, Vec v, PetscInt from,
   PetscReal value[]);
+
+/* pair_mesh.c */
+PETSC_INTERN PetscErrorCode PairMeshMeasure(Simulation, PetscInt pair, const PairRows *, PetscInt first, PairReport *);
 
 /* pair_resolve.c */
 PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, Vec sides, PairRows *);

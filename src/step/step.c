@@ -28,6 +28,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
+  if (report->converged) PetscCall(StrainWarn(sim, report->step - 1));
   PetscCall(ResultsMeasure(sim));
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
@@ -133,6 +134,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (report->converged && step + 1 == sim->scene->nsteps) {
     PetscCall(StartWarnOfUnmet(sim));
     PetscCall(PenetrationWarn(sim));
+    PetscCall(PairMeshWarn(sim));
   }
   PetscFunctionReturn(0);
 }

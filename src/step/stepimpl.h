@@ -263,6 +263,7 @@ struct _n_Simulation {
   StepTolerances       tolerances; /* once a solver has read its options: those that it has */
   PetscBool            warm;       /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  PetscBool           *beyond;     /* bodies that have been warned of; NULL before the first load step */
   PetscBool            estimate;   /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;    /* of one load step */
   const MeshMarks     *marks;      /* NULL: no cells are to be marked */
@@ -484,6 +485,10 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 /* penetration.c: of vertices, beside the gap, which of mortar pairs is a mean */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
+
+/* pair_mesh.c, strain.c: what the meshes of the faces, and laws of small strain, are too coarse for */
+PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
+PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
 
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
