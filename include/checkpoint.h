@@ -29,6 +29,7 @@ typedef enum {
   CHECKPOINT_PRESSURE,
   CHECKPOINT_SLACK,
   CHECKPOINT_SHEAR,
+  CHECKPOINT_FRICTION,
   CHECKPOINT_SLIP_PATH,
   CHECKPOINT_DISSIPATED,
   CHECKPOINT_PAIR_FIELDS
@@ -50,6 +51,7 @@ PETSC_EXTERN PetscErrorCode CheckpointNamePairField(const SceneContactPair *, Ch
 PETSC_EXTERN PetscErrorCode CheckpointAddField(Checkpoint, const char name[], PetscInt components, PetscInt nvertices,
   PetscReal **values);
 PETSC_EXTERN PetscErrorCode CheckpointGetField(Checkpoint, const char name[], const PetscReal **values);
+PETSC_EXTERN PetscErrorCode CheckpointCheck(MPI_Comm, Checkpoint);
 PETSC_EXTERN PetscErrorCode CheckpointDestroy(Checkpoint *);
 
 /* Writes states of one simulation to one file. Atomically: that which was there stays until the next is safe on the

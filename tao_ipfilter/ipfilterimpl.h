@@ -17,9 +17,13 @@
      measure  sizes and residuals: stiffness, scales, norm terms, what residuals are worth, the KKT error
      system   the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter
      linear   linear systems: Krylov methods, MUMPS, equality constraints
-     space    the filtered subspace: directions, the reduced problem, its active sets and the laws of norm terms
-     step     a step: filter, barrier, direction, line search, restoration
-     driver   the iteration: set up, solve, convergence, reasons
+     step      a step: filter, barrier, direction, line search, restoration
+     driver    the iteration: set up, solve, convergence, reasons
+     subspace  the filtered subspace method, beside the steps: directions, the reduced problem, its active sets
+     friction  the laws of norm terms on the subspace
+
+   The driver reaches subspace, and subspace reaches friction, through tables of functions that register.c puts into the
+   solver: without either folder, and its lines there, the rest is as it was.
 */
 #ifndef IPFILTERIMPL_H
 #define IPFILTERIMPL_H
@@ -153,8 +157,9 @@ typedef struct _n_TAO_IPFILTER {
   IPSearch      search;
   IPRelaxation  relax;
   IPRestoration restore;
-  IPFiltered    filtered;
-  IPRecord      rec;
+  IPMethod      method;
+  const struct _n_IPLawsOps *laws; /* of norm terms; NULL: there are none */
+  IPRecord                   rec;
 } TAO_IPFILTER;
 
 #define IP_TINY_STEP (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
@@ -169,6 +174,9 @@ PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKT
                                                                                              *const IPEqualityMethods[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
+
+/* register.c */
+PETSC_INTERN PetscErrorCode IPRegisterMethods(TAO_IPFILTER *);
 
 /* view.c */
 PETSC_INTERN PetscErrorCode TaoView_IPFilter(Tao, PetscViewer);

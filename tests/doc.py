@@ -40,7 +40,7 @@ def columns():
 
 
 def monitor_columns():
-    for line in re.findall(r'"(iter [^"]*)\\n"', text("tao_ipfilter/driver/monitor.c")):
+    for line in re.findall(r'"(iter [^"]*)\\n"', text("tao_ipfilter/driver/monitor.c") + text("tao_ipfilter/subspace/monitor.c")):
         yield from line.split()
 
 

@@ -48,6 +48,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
     [CHECKPOINT_PRESSURE]   = sim->history.pressure,
     [CHECKPOINT_SLACK]      = sim->history.slack,
     [CHECKPOINT_SHEAR]      = sim->history.settled,
+    [CHECKPOINT_FRICTION]   = sim->history.friction,
     [CHECKPOINT_SLIP_PATH]  = sim->history.slip_path,
     [CHECKPOINT_DISSIPATED] = sim->history.dissipated,
   };
@@ -137,6 +138,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   LoadPath *path = &sim->path;
 
   PetscFunctionBegin;
+  PetscCall(CheckpointCheck(sim->comm, checkpoint));
   PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
     "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
     ": the analysis is already complete",
@@ -153,6 +155,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);
 }

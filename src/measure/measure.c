@@ -43,6 +43,19 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Squared errors of cells add up over the load steps */
+static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
+{
+  PetscInt cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
 /* In the energy norm, relative to that of the displacement; report->energy is set */
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
 {
@@ -53,7 +66,7 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
   PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->marks ? &cells : NULL));
-  if (sim->marks) PetscCall(AdaptAddErrors(sim, cells));
+  if (sim->marks) PetscCall(MeasureAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
@@ -121,7 +134,7 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
-    PetscCall(FrictionMeasure(sim, sol, report));
+    PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (!sim->history.shear) PetscCall(VecDestroy(&contact));

@@ -20,6 +20,37 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
   PetscFunctionReturn(0);
 }
 
+/* Of a solve in which the loads have done this work, and the contacts have taken up that much of it */
+static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
+{
+  const PetscReal at_rest = 1e-2; /* of the energy: a step that turns over less than that is measured by it */
+  const PetscReal stored  = report->energy - path->energy;
+
+  PetscFunctionBegin;
+  path->energy = report->energy;
+  path->unbalanced += PetscAbsReal(work - stored - taken);
+  path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
+  report->normal_work = report->contact_work - report->dissipated;
+  report->imbalance =
+    path->turnover > 0.0 ? path->unbalanced / PetscMax(path->turnover, at_rest * PetscAbsReal(path->energy)) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* At the end of a load step, once a run */
+PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
+{
+  const PetscReal allowed = 1e-2;
+
+  PetscFunctionBegin;
+  if (sim->path.warned || !(report->imbalance > allowed)) PetscFunctionReturn(0);
+  sim->path.warned = PETSC_TRUE;
+  PetscCall(ReportWarn(sim->comm, &sim->report,
+    "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
+    "%g); use more load steps",
+    report->step, 100.0 * (double)report->imbalance, (double)sim->path.unbalanced, (double)sim->path.turnover));
+  PetscFunctionReturn(0);
+}
+
 /*
    Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the
    prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
@@ -27,8 +58,9 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
 */
 PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
-  LoadPath *path = &p->sim->path;
-  Vec       outside, reaction, way = p->w;
+  LoadPath       *path = &p->sim->path;
+  const PetscReal work = path->work, taken = path->contact_work;
+  Vec             outside, reaction, way = p->w;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
@@ -46,5 +78,7 @@ PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, V
   PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
   report->work         = path->work;
   report->contact_work = path->contact_work;
+  if (p->sim->history.shear && !p->sim->temperatures.n)
+    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

@@ -61,6 +61,7 @@ struct _n_Output {
   int      lock; /* of the mesh's file, a descriptor */
   PetscInt nbodies;
   char   **bodynames;
+  char    *units;  /* the scene's note; NULL: none */
   PetscInt npairs; /* of contact, that have fields of their own; of the steps written */
   char   **pairnames;
   PetscInt nvertices, ncells; /* global */
@@ -159,6 +160,7 @@ typedef enum {
   TABLE_FORCES,
   TABLE_PAIRS,
   TABLE_FACES,
+  TABLE_BALANCE,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,

@@ -40,19 +40,6 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* Squared errors of cells add up over the load steps */
-PetscErrorCode AdaptAddErrors(Simulation sim, PetscReal cells[])
-{
-  PetscInt cstart, cend;
-
-  PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
-  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
-  PetscCall(PetscFree(cells));
-  PetscFunctionReturn(0);
-}
-
 /* The errors of this rank's cells above a threshold, over the ranks */
 static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
 {

@@ -122,6 +122,7 @@ typedef struct {
   PetscBool   *open;             /* where the pressure is a barrier's over an open gap */
   PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
   PetscReal   *settled;          /* that at the last state of equilibrium, */
+  PetscReal   *friction;         /* all of it at the vertices of both sides there [force], */
   PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
   PetscReal   *dissipated;       /* and the work of friction [force length] */
 } ContactHistory;
@@ -133,6 +134,8 @@ PETSC_INTERN PetscErrorCode ContactHistoryStore(ContactHistory *, ContactLineari
 PETSC_INTERN PetscErrorCode ContactHistoryRecall(const ContactHistory *, ContactLinearization, PetscReal scale,
   Vec slack, Vec pressure, PetscBool *any);
 PETSC_INTERN PetscErrorCode ContactHistoryChange(const ContactHistory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactHistoryFollowRows(const ContactHistory *, ContactLinearization solved,
+  ContactLinearization, PetscInt                                                                **row);
 PETSC_INTERN PetscErrorCode ContactHistoryFindClosed(const ContactHistory *, ContactLinearization, Vec closed);
 PETSC_INTERN PetscErrorCode ContactHistoryFindLost(const ContactHistory *, ContactLinearization, PetscBool **lost,
   PetscInt *nlost);
@@ -144,11 +147,15 @@ PETSC_INTERN PetscErrorCode ContactHistoryDestroy(ContactHistory *);
 typedef struct {
   PetscReal time, previous_time;
   Vec       u, previous_u;
-  PetscReal largest_increment; /* of any component in any step so far [length] */
-  Vec       outside;           /* forces from outside at u; NULL at the start: none [force] */
-  PetscReal work;              /* of theirs [force length] */
-  Vec       contact;           /* forces on the contacts at u, where pairs rub; NULL: none [force] */
-  PetscReal contact_work;      /* of theirs [force length] */
+  PetscReal largest_increment;    /* of any component in any step so far [length] */
+  Vec       outside;              /* forces from outside at u; NULL at the start: none [force] */
+  PetscReal work;                 /* of theirs [force length] */
+  Vec       contact;              /* forces on the contacts at u, where pairs rub; NULL: none [force] */
+  PetscReal contact_work;         /* of theirs [force length] */
+  PetscReal energy;               /* of the bodies at u [force length] */
+  PetscReal unbalanced, turnover; /* of this load step so far: work that is neither stored nor taken up by the contacts;
+                                     the largest of the three, solve by solve [force length] */
+  PetscBool warned;               /* that it is too much */
 } LoadPath;
 
 /* Fields that are asked for, and what they were at the end of the last load step */
@@ -226,6 +233,14 @@ typedef struct {
   PetscBool     used, failed; /* by the last attempt; by any */
 } Forecast;
 
+/* Who looks on while a load step is solved: run/progress.c. Members may be NULL */
+typedef struct {
+  PetscErrorCode (*begin)(Simulation); /* before a load step */
+  PetscErrorCode (*reach)(Simulation); /* the state has moved on */
+  PetscErrorCode (*optimizer)(Tao, void *);
+  PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
+} StepObserver;
+
 /* What the files from here on work on */
 struct _n_Simulation {
   MPI_Comm     comm;
@@ -270,6 +285,7 @@ struct _n_Simulation {
   Adapt                adapt;
   Forecast             forecast;
   Progress             progress;
+  StepObserver         observer;
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;
@@ -327,10 +343,7 @@ PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
 PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 
 /* progress.c */
-PETSC_INTERN PetscErrorCode ProgressBegin(Simulation);
-PETSC_INTERN PetscErrorCode ProgressReach(Simulation);
-PETSC_INTERN PetscErrorCode ProgressMonitorOptimizer(Tao, void *);
-PETSC_INTERN PetscErrorCode ProgressMonitorLinear(KSP, PetscInt, PetscReal, void *);
+PETSC_INTERN PetscErrorCode ProgressObserve(Simulation);
 
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
@@ -418,12 +431,12 @@ PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncent
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
-PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* friction_work.c */
-PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, const ContactSolution *, StepReport *);
-PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
+PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
+PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* quadratic.c */
@@ -491,6 +504,7 @@ PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
 PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
 
 /* work.c */
+PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
 PETSC_INTERN PetscErrorCode WorkAdd(const StepProblem *, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
 
 /* results.c */
@@ -509,9 +523,6 @@ PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
 PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
 PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
 
-/* adapt.c */
-PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);
-
 /* adapt_contact.c */
 PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
 
@@ -521,6 +532,10 @@ PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const Conta
 /* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
 PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
+
+/* contact_update_truth.c */
+PETSC_INTERN PetscErrorCode ContactUpdateMeasureTruth(Simulation, Vec u, const ContactSolution *,
+  ContactLinearization at_u, StepReport *);
 
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);

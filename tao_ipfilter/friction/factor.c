@@ -9,6 +9,7 @@
    GMRES is quick with them.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 /* Incomplete factors of A in the rows' scale, which makes its diagonal 1 or so: it is as well conditioned as a mass

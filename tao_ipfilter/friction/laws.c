@@ -9,6 +9,7 @@
    are from their laws.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPTermLawsDestroy(IPTermSet *set)

@@ -7,6 +7,7 @@
    with the preconditioner of factor.c.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 
 PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
 {

@@ -58,6 +58,32 @@ typedef struct {
   Vec       D;    /* m/zeta in the violated rows */
 } IPRestoration;
 
+/*
+   Another method than steps of the interior point method, for the problems that it applies to: what it can do, and its
+   data. The driver knows no more of it; register.c names the one that there is.
+*/
+typedef struct {
+  const char *name;
+  PetscErrorCode (*create)(Tao);
+  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* public functions of its own */
+  PetscErrorCode (*applies)(Tao, PetscBool *);          /* to the problem at the first point */
+  PetscErrorCode (*begin)(Tao, PetscBool *begun);       /* moves to its first point */
+  PetscErrorCode (*step)(Tao, PetscBool *done);         /* not done: it leads no further */
+  PetscErrorCode (*end)(Tao);                           /* of a solve; what serves later ones is kept */
+  PetscErrorCode (*forget)(Tao);                        /* that, too */
+  PetscErrorCode (*monitor)(Tao, PetscBool *monitored); /* prints an iteration in columns of its own */
+  PetscErrorCode (*destroy)(Tao);
+} IPMethodOps;
+
+typedef struct {
+  const IPMethodOps *ops; /* NULL: there is none */
+  void              *data;
+  PetscBool          on;
+  PetscBool          linear;      /* the routine of the Jacobian has left its matrix alone: linear constraints, */
+  PetscBool          constant;    /* and that of the Hessian too: a quadratic program */
+  PetscBool          multipliers; /* those of the present point are its own */
+} IPMethod;
+
 /* filter.c */
 PETSC_INTERN PetscErrorCode IPFilterSetReset(IPFilterSet *);
 PETSC_INTERN PetscErrorCode IPFilterSetAdd(IPFilterSet *, PetscReal, PetscReal);

@@ -10,6 +10,7 @@
    time where exchanging all does not help, and so ends.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPActiveSetDestroy(IPActiveSet *set)

@@ -4,6 +4,7 @@
    W, and corrects Q and the Gram matrix.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)

@@ -7,6 +7,7 @@
      = -E D, P^T K P = D.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
 {

@@ -3,6 +3,7 @@
    for. On the first rank alone, which has all of W.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)

@@ -372,6 +372,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscCall(VecDuplicate(lin->g, &lin->mass));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->vertex));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->pair));
+  PetscCall(PetscMalloc1(3 * lin->nlocal, &lin->normal));
   PetscCall(VecGetArrayRead(rows->weight, &mass));
   PetscCall(VecGetArrayRead(as->gap, &gap));
   PetscCall(VecGetArray(lin->mass, &m));
@@ -384,6 +385,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
     g[k]           = gap[i] / mass[i];
     lin->vertex[k] = rows->vertex[i];
     lin->pair[k]   = pair;
+    PetscCall(PetscArraycpy(&lin->normal[3 * k], &rows->normal[3 * i], 3));
   }
   PetscCall(VecRestoreArray(lin->g, &g));
   PetscCall(VecRestoreArray(lin->mass, &m));

@@ -124,3 +124,19 @@ PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal
     body->name, (double)grading);
   PetscFunctionReturn(0);
 }
+
+/* Of this rank's grids, the first cell of each body in one mesh of all: tetrahedra come before hexahedra */
+PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
+{
+  PetscInt cell = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt ncorners = 4; ncorners <= 8; ncorners += 4) {
+    for (PetscInt b = 0; b < nbodies; ++b) {
+      if (meshes[b].ncorners != ncorners) continue;
+      first[b] = cell;
+      cell += meshes[b].grid.ncells;
+    }
+  }
+  PetscFunctionReturn(0);
+}

@@ -3,7 +3,7 @@
    integers in a program of 32-bit ones finds every function it calls, and computes garbage. What the running
    library's numbers are is what it writes where it stores one.
 */
-#include "amgfimpl.h"
+#include "pc_amgf/amgfimpl.h"
 
 /* Room for a number of any PETSc: the largest is complex, in quadruple precision */
 typedef union {

@@ -1,5 +1,5 @@
 /* Which release of the plugin runs, and what it was compiled with */
-#include "amgfimpl.h"
+#include "pc_amgf/amgfimpl.h"
 
 /*@C
   PetscAMGFGetVersion - gets the release of the plugin that runs, and the PETSc that it was compiled with

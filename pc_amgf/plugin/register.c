@@ -1,5 +1,5 @@
 /* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
-#include "amgfimpl.h"
+#include "pc_amgf/amgfimpl.h"
 
 static PetscBool initialized = PETSC_FALSE;
 
