@@ -152,6 +152,7 @@ typedef struct {
   PetscReal slip[3];      /* of the other side since the last solve [length] */
   PetscReal slip_path;    /* length of its way since the start [length] */
   PetscBool closed, slips;
+  PetscBool presses; /* most of its area is of constraints that press: what the mortar side does not resolve is open */
 } ContactPoint;
 
 /* Of a stress: xx yy zz xy yz zx, von Mises, the principal values with the largest first */

@@ -2,7 +2,7 @@
 #include "pair_rows.h"
 
 /* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
-   nonmortar, -, -]; [closed area, length of facets x area, force that slips]; force */
+   nonmortar, area that presses, -]; [closed area, length of facets x area, force that slips]; force */
 typedef struct {
   Vec carried, sides, closing, force;
   Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
@@ -72,6 +72,7 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   PetscCall(PairSpread(sim, rows, NULL, vertices->sides, 0, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
+  PetscCall(PairSpread(sim, rows, rows->presses, vertices->sides, 1, vertices->sides));
   PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 0, vertices->closing));
   PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->closing));
   PetscCall(PairPlaceForces(sim, rows, vertices->force));
@@ -177,7 +178,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   const PairVertices *vertices, Vec alone)
 {
   PetscSection       global;
-  const PetscScalar *a, *b, *s, *f;
+  const PetscScalar *a, *b, *s, *side, *f;
   PetscInt           pstart, pend, rstart, n, npoints = 0;
 
   PetscFunctionBegin;
@@ -187,6 +188,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecGetLocalSize(alone, &n));
   PetscCall(VecGetArrayRead(vertices->carried, &a));
   PetscCall(VecGetArrayRead(alone, &b));
+  PetscCall(VecGetArrayRead(vertices->sides, &side));
   PetscCall(VecGetArrayRead(vertices->closing, &s));
   PetscCall(VecGetArrayRead(vertices->force, &f));
   for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
@@ -207,11 +209,13 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
       point->gap      = PetscRealPart(a[i + 2] / a[i]);
     }
     for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
-    point->closed = (PetscBool)(PairIsMostly(PetscRealPart(s[i]), PetscRealPart(b[i])) ||
+    point->presses = PairIsMostly(PetscRealPart(side[i + 1]), PetscRealPart(b[i]));
+    point->closed  = (PetscBool)(PairIsMostly(PetscRealPart(s[i]), PetscRealPart(b[i])) ||
                                 PairIsClosed(point->pressure, point->gap, rows->young, PetscRealPart(s[i + 1] / b[i])));
   }
   PetscCall(VecRestoreArrayRead(vertices->force, &f));
   PetscCall(VecRestoreArrayRead(vertices->closing, &s));
+  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
   PetscCall(VecRestoreArrayRead(alone, &b));
   PetscCall(VecRestoreArrayRead(vertices->carried, &a));
   PetscFunctionReturn(0);

@@ -76,7 +76,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
     SceneFaceMaterial(sim->scene, faces->nonmortar)->young);
   PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
     &rows->closed, n, &rows->length));
-  PetscCall(PetscCalloc2(n, &rows->own, n, &rows->facing));
+  PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
   PetscCall(PetscMalloc1(3 * n, &force));
   PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
   PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
@@ -92,7 +92,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
     rows->gap[r]                   = sim->gap[r] * PetscRealPart(mass[r]) / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
     if (rows->area[r] > 0.0 && PairIsClosed(rows->pressure[r], rows->gap[r], rows->young, rows->length[r]))
-      rows->closed[r] = 1.0;
+      rows->closed[r] = rows->presses[r] = 1.0;
   }
   PetscCall(PetscFree(force));
   if (rows->rubs) PetscCall(PairRowsRub(sim, pair, mass, rows));
@@ -104,7 +104,7 @@ PetscErrorCode PairRowsDestroy(PairRows *rows)
 {
   PetscFunctionBegin;
   if (rows->rubs) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
-  PetscCall(PetscFree2(rows->own, rows->facing));
+  PetscCall(PetscFree3(rows->own, rows->facing, rows->presses));
   PetscCall(PetscFree7(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
   PetscFunctionReturn(0);
 }

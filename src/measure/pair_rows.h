@@ -13,6 +13,7 @@ typedef struct {
   PetscInt   n;
   PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
+  PetscReal *presses; /* closed before what the mortar side does not resolve was evened out */
   PetscReal  young;  /* of the softer body [force/length^2] */
   PetscReal *own;    /* size of the facets about the row [length] */
   PetscReal *facing; /* size of the mortar side's facets that the row faces [length] */

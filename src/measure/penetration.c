@@ -52,8 +52,8 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     }
     if (depth > PENETRATION_SHARE * motion)
       PetscCall(ReportWarn(sim->comm, &sim->report,
-        "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step %" PetscInt_FMT
-        ", %.2g %% of the largest displacement, though the gap is closed %s: %s",
+        "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
+        "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is closed %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
         node ? "at the nonmortar vertices" : "in the mean",
         node ? "exchange the two faces, or refine the nonmortar one there"
