@@ -14,12 +14,12 @@ typedef struct {
   PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
   PetscReal *pressure, *gap, *closed;
   PetscReal *presses; /* closed before what the mortar side does not resolve was evened out */
-  PetscReal  young;  /* of the softer body [force/length^2] */
-  PetscReal *own;    /* size of the facets about the row [length] */
-  PetscReal *facing; /* size of the mortar side's facets that the row faces [length] */
-  PetscReal *length; /* of the facets that the row's gap is of; of the coarser side where it resolves no more */
-  PetscBool  rubs;   /* the pair has friction */
-  PetscReal *slips;  /* 1: its friction gives way */
+  PetscReal  young;   /* of the softer body [force/length^2] */
+  PetscReal *own;     /* size of the facets about the row [length] */
+  PetscReal *facing;  /* size of the mortar side's facets that the row faces [length] */
+  PetscReal *length;  /* of the facets that the row's gap is of; of the coarser side where it resolves no more */
+  PetscBool  rubs;    /* the pair has friction */
+  PetscReal *slips;   /* 1: its friction gives way */
   PetscReal *shear,
     *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
 } PairRows;
