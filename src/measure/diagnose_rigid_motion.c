@@ -1,5 +1,5 @@
 /* A body that nothing stops lets the energy fall without end: which one it is, and how it moves. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Sums over the nodes of a body, at X, displaced by u; all of them reals, summed over ranks at once */
 typedef struct {

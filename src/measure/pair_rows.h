@@ -2,7 +2,7 @@
 #ifndef PAIR_ROWS_H
 #define PAIR_ROWS_H
 
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /*
    The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of

@@ -1,5 +1,5 @@
 /* How deep vertices of one face of a pair are in the other body, beside the gap, which of mortar pairs is a mean. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 #define PENETRATION_SHARE 0.01 /* of the largest displacement of the run: more is warned of */
 

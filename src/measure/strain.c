@@ -1,5 +1,5 @@
 /* Bodies of a small-strain law that are strained or turned far beyond its range: a warning. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 #define STRAIN_LIMIT   0.25 /* principal strain, mean over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */

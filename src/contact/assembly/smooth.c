@@ -1,6 +1,6 @@
 /* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at
    every displacement; pairs of planes of order 1 cost nothing */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* A surface stands off its facets by more than this part of an edge, or it is plane but for rounding in its file */
 #define CURVED 1e-6
