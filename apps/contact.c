@@ -227,15 +227,15 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     app->checkpoint_every, &app->checkpoint_every, NULL, 0));
   PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
     sizeof(app->checkpoint), NULL));
-  PetscCall(PetscOptionsString("-restart", "Checkpoint to go on from", NULL, app->restart, app->restart,
+  PetscCall(PetscOptionsString("-restart", "Checkpoint to restart from", NULL, app->restart, app->restart,
     sizeof(app->restart), &app->restarts));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
     &app->summarize));
-  PetscCall(PetscOptionsString("-report", "Page of the run for people, an HTML file", NULL, app->report, app->report,
-    sizeof(app->report), &app->page));
+  PetscCall(PetscOptionsString("-report", "HTML page of the run", NULL, app->report, app->report, sizeof(app->report),
+    &app->page));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
     &app->contact_free, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy,
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and reached", NULL, app->accuracy,
     &app->accuracy, NULL));
   PetscCall(
     PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
@@ -380,7 +380,7 @@ static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation 
   PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, same));
   PetscCall(SimulationSetCheckpoint(sim, checkpoint, step));
   if (!app->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time,
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Continuing from %s at time %g%s\n", app->restart, (double)checkpoint->time,
       *same ? "" : ", interpolated to this mesh and these ranks"));
   PetscCall(CheckpointDestroy(&checkpoint));
   PetscFunctionReturn(0);
@@ -532,7 +532,7 @@ static void AppMakePage(const ReportPage *page)
   char sentence[512];
 
   if (page->file[0] && ReportPageMake(page, sentence, sizeof(sentence)))
-    fprintf(stderr, "contact: there is no page %s: %s\n", page->file, sentence);
+    fprintf(stderr, "contact: cannot write the page %s: %s\n", page->file, sentence);
 }
 
 static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
@@ -634,7 +634,7 @@ int main(int argc, char **argv)
   if (ierr) AppLeave(&error);
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
-    fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
+    fprintf(stderr, "contact: error: cannot print: %s\n", strerror(errno));
     end = RUN_OUTPUT_LOST;
   }
   ierr = PetscFinalize();

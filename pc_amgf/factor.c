@@ -221,7 +221,7 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
   if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
-  PetscCall(PetscInfo(pc, "Cholesky factorization in place of the AMG: error %d\n", (int)error));
+  PetscCall(PetscInfo(pc, "Cholesky factorization instead of the AMG failed with error %d\n", (int)error));
   f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
   PetscCall(MatDestroy(&A));
   PetscFunctionReturn(0);

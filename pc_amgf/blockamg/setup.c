@@ -118,7 +118,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   if (finite) PetscFunctionReturn(0);
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFail(pc, PC_FACTOR_OTHER,
-    "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which "
-    "single precision does not hold"));
+    "entries of the operator or of a coarse one differ by a factor of more than 1e30, which single precision cannot "
+    "represent"));
   PetscFunctionReturn(0);
 }

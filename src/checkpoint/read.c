@@ -117,7 +117,7 @@ static PetscErrorCode RestartCompare(Restart *r)
   PetscCall(ISDestroy(&is));
   PetscCall(SceneCompare(r->scene, text, difference, sizeof(difference)));
   PetscCall(PetscFree(text));
-  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it is of another scene: in %s", difference);
+  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it belongs to another scene: in %s", difference);
   PetscFunctionReturn(0);
 }
 
@@ -197,14 +197,15 @@ static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nin
     mesh->first[c]  = at;
     for (PetscInt i = at; i < at + n; ++i) {
       PetscCheck(mesh->c[i] >= 0 && mesh->c[i] < mesh->nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT ", and there are %" PetscInt_FMT,
+        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT
+        ", but there are only %" PetscInt_FMT,
         c, mesh->c[i], mesh->nvertices);
     }
     at += n;
   }
   sound = (PetscBool)(at == nindices && (!mesh->ncells || mesh->nnodes[mesh->ncells - 1]));
   PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+    "the state is damaged: its %" PetscInt_FMT " cells do not match the numbers of their nodes", mesh->ncells);
   PetscFunctionReturn(0);
 }
 
@@ -444,7 +445,7 @@ PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint 
   PetscCall(RankErrorBegin(&error));
   ierr = RestartReadFile(&r, *checkpoint, same);
   PetscCall(RankErrorEnd(r.comm, ierr, &error));
-  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot go on from the checkpoint \"%s\": %s", file,
+  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot continue from the checkpoint \"%s\": %s", file,
     error.message);
   PetscCall(RestartDestroy(&r));
   PetscFunctionReturn(0);

@@ -25,7 +25,7 @@ static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
     PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
-      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them",
+      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: swap mortar and nonmortar of one of them",
       sim->scene->ties[twice].name, tie->name);
     if (*all) {
       PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
@@ -57,7 +57,7 @@ static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt 
   PetscCall(VecRestoreArrayRead(held, &h));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
   PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT,
-    "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties",
+    "tie \"%s\": vertices of its mortar face %s are tied themselves: swap mortar and nonmortar of one of the ties",
     sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
   PetscCall(VecDestroy(&held));
@@ -83,8 +83,7 @@ static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
   PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT,
-    "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange "
-    "the two faces",
+    "tie \"%s\": its nonmortar face %s is locally refined: refine all of it or none, or swap mortar and nonmortar",
     sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
   PetscFunctionReturn(0);
 }

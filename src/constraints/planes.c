@@ -103,7 +103,7 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
   PetscCall(VecRestoreArrayRead(given, &u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscCheck(worst <= 1e-9 * size, sim->comm, PETSC_ERR_USER_INPUT,
-    "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
+    "symmetry: prescribed displacements move vertices of a symmetry plane off the plane by %g", (double)worst);
   PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);

@@ -339,8 +339,8 @@ PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
     degrees = PetscSqrtReal(square) * 180.0 / PETSC_PI;
     if (!(degrees > largest_angle)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at "
-      "most: prescribe the rotation, or let more hold the body",
+      "displacement \"%s\": the rigid body turns by %.3g degrees, but a free rotation may be at most %.0f degrees: "
+      "prescribe the rotation, or add supports",
       sim->scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }

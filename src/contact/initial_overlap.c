@@ -184,9 +184,8 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];
   PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. "
-    "That is deeper than the contact search looks, %g: move them apart, or search deeper with -contact_search_depth "
-    "%.2g",
+    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. The contact search "
+    "reaches only %g deep: move the bodies apart, or use -contact_search_depth %.2g",
     pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,
     1.1 * (double)deepest.depth);
   PetscFunctionReturn(0);

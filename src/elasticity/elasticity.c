@@ -158,8 +158,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       b);
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
       PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
-      "Body %" PetscInt_FMT
-      ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do",
+      "Body %" PetscInt_FMT ": bbar is not for Saint Venant-Kirchhoff: its dilatation tr E is not the change of volume",
       b);
   }
   PetscCall(ElasticityReadOptions(e));

@@ -36,6 +36,6 @@ PetscErrorCode LockFileBegin(MPI_Comm comm, const char file[], int *descriptor)
   if (taken) LockFileEnd(descriptor);
   PetscCallMPI(MPI_Bcast(&taken, 1, MPI_INT, 0, comm));
   PetscCheck(!taken, comm, PETSC_ERR_FILE_OPEN,
-    "another run is writing \"%s\": let it end, or give -output another name", file);
+    "another run is writing \"%s\": wait for it to end, or give -output another name", file);
   PetscFunctionReturn(0);
 }

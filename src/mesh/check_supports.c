@@ -352,7 +352,8 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscCall(ISDestroy(&facets));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
   PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
-    "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
+    "%s \"%s\" names the face \"%s\", but that surface of the mesh file is not on the boundary of the body", what,
+    owner, face);
   PetscFunctionReturn(0);
 }
 

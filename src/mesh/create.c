@@ -139,8 +139,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
     PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
-      "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the "
-      "mesh file",
+      "Body \"%s\" has tetrahedra, but refinements need hexahedra: refine uniformly, or in the mesh file",
       bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));

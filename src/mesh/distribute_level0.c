@@ -46,7 +46,7 @@ static PetscErrorCode DistributePartition(Distribute *deal)
 
   PetscFunctionBegin;
   PetscCheck(deal->ncells <= PETSC_MPI_INT_MAX / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "METIS's numbers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
+    "METIS's integers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
   PetscCall(PetscMalloc2(deal->ncells + 1, &start, 8 * deal->ncells, &nodes));
   start[0] = 0;
   for (PetscInt b = 0; b < deal->nbodies; ++b) {
@@ -131,7 +131,7 @@ static PetscErrorCode DistributeFacets(Distribute *deal, const ShapeGrid *grid, 
       if (DistributeCellHas(grid, cells[i], facet)) deal->facetpart[firstfacet + q] = deal->part[firstcell + cells[i]];
     }
     PetscCheck(deal->facetpart[firstfacet + q] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB,
-      "Facet %" PetscInt_FMT " is of no cell", q);
+      "Facet %" PetscInt_FMT " belongs to no cell", q);
   }
   PetscCall(PetscFree(start));
   PetscCall(PetscFree(cells));
@@ -398,7 +398,8 @@ PetscErrorCode MeshDistributeGrids(MPI_Comm comm, PetscInt nbodies, MeshBody mes
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = DistributePrepare(&deal);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot part the mesh of all bodies: %s", error.message);
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot partition the mesh of all bodies: %s",
+    error.message);
   PetscCall(RankErrorBegin(&error));
   ierr = DistributeExchange(&deal, owners);
   PetscCall(RankErrorEnd(comm, ierr, &error));

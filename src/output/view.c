@@ -66,7 +66,8 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     }
     if (linear->subspaces)
       PetscCall(PetscViewerASCIIPrintf(viewer,
-        "; the filtered subspace left %" PetscInt_FMT " times for the interior point method", linear->subspaces));
+        "; the filtered subspace method gave up %" PetscInt_FMT " times and the interior point method took over",
+        linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
@@ -83,7 +84,7 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   }
   if (n)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "MUMPS in place of AMG, from load step %" PetscInt_FMT
+      "MUMPS instead of AMG, from load step %" PetscInt_FMT
       " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n",
       first));
   PetscFunctionReturn(0);

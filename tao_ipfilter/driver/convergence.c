@@ -21,7 +21,8 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
   ip->mu = 0.0;
   PetscCall(PetscMemzero(&ip->kkt, sizeof(ip->kkt)));
   PetscCall(IPSetMultipliers(tao));
-  PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and violates nothing"));
+  PetscCall(
+    IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and meets all constraints"));
   PetscFunctionReturn(0);
 }
 
@@ -80,12 +81,12 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
     PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
   if (times > limit)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not "
-      "exist",
+      "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
+      "bounded multipliers may not exist",
       (double)ip->kkt.error, relaxed, (double)times));
   else if (work > ip->tol)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits",
+      "acceptable: KKT error %g%s, which have no interior: the relaxation is worth %g times the tolerance",
       (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
   else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
@@ -173,7 +174,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
   PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG,
-    "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
+    "The convergence test of TAOIPFILTER cannot be used by a solver of type %s", ((PetscObject)tao)->type_name);
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
@@ -184,8 +185,8 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(ConvergeUnlessDegenerate(tao));
   } else if (fritz_john && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow "
-      "all they could balance: bounded ones may not exist",
+      "acceptable: KKT error %g, but gradients of the constraints vanish where the constraints are met, and the "
+      "multipliers grow without limit: bounded multipliers may not exist",
       (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g",
@@ -215,19 +216,18 @@ static PetscErrorCode TestLimits(Tao tao)
   if (ip->rec.ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding at KKT error %g, but the violation %g, relative %g, is not within "
-        "catol %g and crtol %g",
+        "steps are as small as rounding at KKT error %g, but the violation %g, relative %g, is not within catol %g and "
+        "crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
     else if (IPAcceptable(ip))
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-        "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)error,
-        (double)ip->tol));
+        "acceptable: steps are as small as rounding at KKT error %g, not within %g", (double)error, (double)ip->tol));
     else if (Violated(ip))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding beside x, at constraint violation %g", (double)k->inf_pr));
+        "steps are as small as the rounding error of x, at constraint violation %g", (double)k->inf_pr));
     else
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)error));
+        "steps are as small as rounding at KKT error %g: multipliers may not exist", (double)error));
   } else if (tao->niter - ip->rec.ndirections >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
       tao->max_it, (double)error));
@@ -249,7 +249,8 @@ PetscErrorCode IPTestConvergence(Tao tao)
   PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
   if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
   else if (!ip->rec.reason[0])
-    PetscCall(IPSetReason(tao, tao->reason, "the test of TaoSetConvergenceTest() says %s, at KKT error %g",
-      TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
+    PetscCall(
+      IPSetReason(tao, tao->reason, "the test set by TaoSetConvergenceTest() ended the solve with %s, at KKT error %g",
+        TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

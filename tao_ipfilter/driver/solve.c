@@ -211,11 +211,12 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionBegin;
   if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-      "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+      "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt.inf_pr));
   else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
   else if (!solved)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s",
+      "no direction of sufficient curvature, with the Hessian shifted by up to %g; last result of the linear solver: "
+      "%s",
       (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
   else if (violated)
     PetscCall(
@@ -237,9 +238,9 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
 
   PetscFunctionBegin;
   if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
-    PetscCall(
-      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for",
-        (double)IPBothErrors(ip), (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
+      (double)ip->tol));
     PetscFunctionReturn(0);
   }
   if (!solved && ip->lin.failed) {
@@ -344,7 +345,7 @@ static PetscErrorCode LeaveMethod(Tao tao)
   Vec           s = NULL, z = NULL;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The %s gives nothing more at KKT error %g: the interior point method goes on\n",
+  PetscCall(PetscInfo(tao, "The %s makes no more progress at KKT error %g: the interior point method continues\n",
     ip->method.ops->name, (double)ip->rec.best_error));
   PetscCall(EndMethod(tao));
   ip->rec.fallbacks.subspaces++;
@@ -372,9 +373,9 @@ static PetscErrorCode EndTerms(Tao tao)
 
   PetscFunctionBegin;
   if (ip->rec.best_error <= ip->opt.acceptable_tol)
-    PetscCall(
-      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for",
-        (double)ip->rec.best_error, (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec.best_error,
+      (double)ip->tol));
   else if (ip->rec.best_error < PETSC_INFINITY)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
@@ -437,7 +438,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "Norm terms: this library was built without the laws that they follow");
+    "Norm terms: this library was built without the laws of friction (folder tao_ipfilter/friction)");
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
   PetscCall(BeginMethod(tao));

@@ -94,8 +94,9 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
   PetscFunctionBegin;
   *allows = (PetscBool)(memory <= ip->opt.direct_memory);
   if (!*allows)
-    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g",
-      (double)memory, (double)ip->opt.direct_memory));
+    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why),
+      "MUMPS would need %g MB for the whole matrix, more than the %g MB allowed", (double)memory,
+      (double)ip->opt.direct_memory));
   PetscFunctionReturn(0);
 }
 

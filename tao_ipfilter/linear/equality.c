@@ -56,8 +56,8 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
   if (!*possible) PetscFunctionReturn(0);
   ip->prox.condensed = PETSC_FALSE;
   ip->rec.fallbacks.direct++;
-  PetscCall(
-    PetscInfo(tao, "Equality constraints are not reached by proximal updates: the augmented system takes over\n"));
+  PetscCall(PetscInfo(tao,
+    "Proximal updates do not meet the equality constraints: the augmented system is used from now on\n"));
   PetscCall(IPCondenseMatrix(tao, ip->cond.rows.inequality));
   PetscFunctionReturn(0);
 }

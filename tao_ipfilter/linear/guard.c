@@ -65,7 +65,7 @@ PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
     if (!*failed) PetscFunctionReturn(0);
     PetscCall(PetscStrncpy(ip->lin.why, "an error inside the multigrid", sizeof(ip->lin.why)));
   }
-  PetscCall(PetscInfo(tao, "An error inside the linear solver: %s\n", ip->lin.why));
+  PetscCall(PetscInfo(tao, "Error inside the linear solver: %s\n", ip->lin.why));
   PetscCall(GuardReplacePC(tao));
   PetscCall(VecSet(x, 0.0));
   PetscFunctionReturn(0);

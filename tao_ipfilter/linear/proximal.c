@@ -115,9 +115,9 @@ PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target,
     if (!*exact && !(left <= 0.5 * before)) break;
   }
   if (*usable && left <= close * limit) *exact = PETSC_TRUE;
-  PetscCall(
-    PetscInfo(tao, "Proximal updates leave %g of the linearized equality constraints, %g is not worth reducing\n",
-      (double)left, (double)limit));
+  PetscCall(PetscInfo(tao,
+    "Proximal updates leave a residual of %g in the linearized equality constraints; below %g it need not be reduced\n",
+    (double)left, (double)limit));
   PetscCall(VecWAXPY(ip->dir.y, -1.0, ip->at.y, y));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));

@@ -152,8 +152,8 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
   PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than "
-    "%d unknowns, not %" PetscInt_FMT ": give it as AIJ",
+    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which has products but no entries, only for "
+    "up to %d unknowns, not %" PetscInt_FMT ": give it as AIJ",
     kind, type, IP_COLUMNS_MAX, n);
   PetscFunctionReturn(0);
 }
@@ -165,8 +165,8 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)v, VECNEST, &nest));
   PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "TAOIPFILTER takes no %s of type nest, as MatCreateVecs() makes them for a MATNEST: a plain vector of the same "
-    "layout will do",
+    "TAOIPFILTER does not accept a %s of type nest, as MatCreateVecs() makes it for a MATNEST: use a plain vector of "
+    "the same layout",
     what);
   PetscFunctionReturn(0);
 }
@@ -191,8 +191,8 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
   PetscCall(MatGetType(tao->hessian, &type));
   PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "A Hessian of type %s gives products alone, but %s reads entries, for no more than %d unknowns, not %" PetscInt_FMT
-    ": give it as AIJ%s",
+    "A Hessian of type %s has products but no entries, and %s reads entries only for up to %d unknowns, not "
+    "%" PetscInt_FMT ": give it as AIJ%s",
     type, reader, IP_COLUMNS_MAX, n, instead);
   *changed          = (PetscBool)(ip->hess.products != (PetscBool)(!has && !needed));
   ip->hess.products = (PetscBool)(!has && !needed);

@@ -166,7 +166,8 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   Vec            D;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The Hessian is singular: its preconditioner is made with the constraints in it\n"));
+  PetscCall(
+    PetscInfo(tao, "The Hessian is singular: its preconditioner is built from the Hessian and the constraints\n"));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
   PetscCall(IPCondenseMatrix(tao, D));

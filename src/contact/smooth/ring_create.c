@@ -43,8 +43,8 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
     PetscCall(PetscArraycmp(&facets->node[4 * f], s->node, 4, &same));
     *own = f;
   }
-  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A rank's own facets of face \"%s\" are not about themselves",
-    s->name);
+  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "A rank does not find its own facets of face \"%s\" in the neighbourhood that it gathered", s->name);
   PetscFunctionReturn(0);
 }
 

@@ -146,15 +146,12 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   if (unknown) {
     PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
     PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list "
-      "symmetry names",
+      "%s: cyclic symmetry is not supported: model the whole ring, or a sector between symmetry planes (key symmetry)",
       keys->file);
     PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -",
-      keys->file, unknown);
+      "%s: in the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, unknown);
     PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, "
-      "[1, 2]",
+      "%s: the key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
       keys->file, unknown);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file,

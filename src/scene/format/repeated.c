@@ -127,7 +127,7 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
 
     PetscCall(PetscStrcmp(keys->paths[a], keys->paths[b], &same));
     if (same) RepeatedStrip(keys->paths[a]);
-    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is there already, in line %zu",
+    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is already in line %zu",
       keys->lines[b], keys->paths[a], keys->lines[a]);
   }
   PetscCall(PetscFree(order));

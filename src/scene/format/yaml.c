@@ -37,8 +37,7 @@ static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
     parser->problem_offset + 1, parser->problem);
   for (size_t l = 1; l < line && strchr(text, '\n'); ++l) text = strchr(text, '\n') + 1;
   tab = (PetscBool)(text[strspn(text, " ")] == '\t' && strspn(text, " ") == parser->problem_mark.column);
-  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab, where YAML has spaces",
-    line);
+  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab; YAML needs spaces", line);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line,
     parser->problem ? parser->problem : "it cannot be read");
 }
@@ -60,7 +59,7 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
     ierr   = nested ? 0 : RepeatedKeysRead(keys, &event);
     yaml_event_delete(&event);
     PetscCheck(!nested, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
-      "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", line);
+      "line %zu: the value of an anchor (&name) holds an alias (*name), which is not allowed in scenes", line);
     PetscCall(ierr);
   }
   PetscCall(RepeatedKeysCheck(keys));

@@ -103,8 +103,8 @@ PetscErrorCode SceneReportUnusedOptions(MPI_Comm comm, Scene scene)
     PetscCall(PetscOptionsUsed(NULL, option->name, &used));
     if (!used)
       PetscCall(PetscFPrintf(comm, stderr,
-        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or of a solver that "
-        "did not run\n",
+        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or belongs to a "
+        "solver that did not run\n",
         scene->name, option->name));
   }
   PetscFunctionReturn(0);
