@@ -1,4 +1,4 @@
-/* The way back from a checkpoint: to the mesh that it was taken on, or to another one of the same bodies. */
+/* Restores a checkpoint on the mesh it was written for, or on another mesh of the same bodies. */
 #include "src/output/outputimpl.h"
 #include <scene.h>
 #include <mesh.h>
@@ -99,7 +99,7 @@ static PetscErrorCode RestartLoadIndices(Restart *r, const char name[], IS *all)
   PetscFunctionReturn(0);
 }
 
-/* The scene's text, and what this scene has not in common with it */
+/* Compares the scene's text with that in the file, and finds the first difference */
 static PetscErrorCode RestartCompare(Restart *r)
 {
   IS              is;
@@ -121,7 +121,7 @@ static PetscErrorCode RestartCompare(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* The numbers, and whether the load is now where it was then */
+/* Reads the numbers, and checks that the load at that time is the same */
 static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 {
   PetscFunctionBegin;
@@ -257,7 +257,7 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Forces stay at the vertices that they are on: what is interpolated would be another sum */
+/* Forces stay at their vertices: interpolation would change their sum */
 static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
 {
   if (!force) return place->N[a];
@@ -325,8 +325,8 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Is it HDF5, and all of it, as the first rank sees it? The library would print a page of its own. The file's end
-   stands at byte 40 of a superblock of version 0 */
+/* Checks that the file is HDF5 and complete, on the first rank; the library would print a page. The file's end is at
+   byte 40 of a superblock of version 0 */
 static PetscErrorCode RestartCheckFile(const Restart *r)
 {
   unsigned char head[48]  = {0};

@@ -1,4 +1,4 @@
-/* The state of a simulation, to go on from: the path, and what the contact remembers. */
+/* The state of a simulation for a restart: displacement path and contact history. */
 #include "src/step/stepimpl.h"
 
 /* A field of a global vector; NULL: zero */

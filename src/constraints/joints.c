@@ -35,7 +35,7 @@ static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
   PetscFunctionReturn(0);
 }
 
-/* A node that others are tied to must not be tied itself */
+/* A node to which others are tied must not be tied itself */
 static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt tied[])
 {
   Vec                is_tied, held;
@@ -64,7 +64,7 @@ static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt 
   PetscFunctionReturn(0);
 }
 
-/* Nor hang: the forces that it ties would not be those of a uniform stress */
+/* It must not hang either: a uniform stress would not pass */
 static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
 {
   PetscInt start, end, hangs = -1;

@@ -1,7 +1,6 @@
-/*
-   Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
-   the others, by Gauss-Jordan elimination; those with the largest coefficients, and none that is prescribed.
-*/
+/* Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
+   the others, by Gauss-Jordan elimination; those with the largest coefficients are chosen, and none that is
+   prescribed. */
 #include "src/step/stepimpl.h"
 
 typedef struct {

@@ -1,11 +1,11 @@
 /*
-   Rigid bodies that forces drive. Where a motion is free the displacements of all nodes follow those of as many rows
-   as there are free motions: u = R x + o, o being what is prescribed of the other motions. Free rotations are those
-   of small angles, u = r x (X - center).
+   Rigid bodies driven by forces. If a motion is free, the displacements of all nodes follow those of as many rows as
+   there are free motions: u = R x + o, where o comes from the prescribed motions. Free rotations are small, u = r x
+   (X - center).
 */
 #include "src/step/stepimpl.h"
 
-/* Where the displacements of a rotation are off by 6e-4 of its arm */
+/* Angle at which small rotations have an error of 6e-4 of the arm */
 static const PetscReal largest_angle = 2.0; /* [degrees] */
 
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
@@ -309,7 +309,7 @@ PetscErrorCode RigidAddStiffness(Simulation sim, Mat C, Vec diagonal, Mat stiffn
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged where a free rotation is no small one */
+/* A solve has not converged if a free rotation is not small */
 PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
 {
   const PetscScalar *a, *given;

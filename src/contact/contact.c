@@ -1,9 +1,9 @@
-/* The life of the object: pairs of faces, options, how far apart facets pair */
+/* The contact object: creation, pairs of faces, options, search distances */
 #include "contactimpl.h"
 
-/* Facets pair by default within this part of the size of the smaller face, the square root of its area */
+/* Default search distance, as a part of the size of the smaller face (the square root of its area) */
 #define SEARCH_FRACTION 0.25
-/* and never deeper in one another than this part of what both bodies are thick */
+/* largest penetration that is searched, as a part of the thickness of both bodies */
 #define THROUGH_FRACTION 0.9
 /* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and
    7 points */
@@ -51,10 +51,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
   PetscFunctionReturn(0);
 }
 
-/*
-  Depth to which facets of two bodies pair. A body's own faces, or those of thin bodies, would see one another through
-  the bodies: touching plates at the depth of both together, so not much less than that may be asked for.
-*/
+/* Penetration up to which facets of two bodies pair. If it were larger, a body's own faces, or those of thin bodies,
+   would pair through the bodies: two touching plates would do so at the sum of their thicknesses. */
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
   const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
@@ -63,8 +61,7 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh; what else its
-   gap needs */
+/* Search distance and depth of a pair: constant lengths that do not depend on the mesh */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;

@@ -82,8 +82,8 @@ PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][
 #define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
   PetscReal y[2];
-  PetscInt  line[2][2]; /* the two lines that meet there, each through two vertices: 0 to 3 of the nonmortar facet, 4 to
-                           7 of the mortar one */
+  PetscInt  line[2][2]; /* the two lines that intersect there, each through two vertices: 0 to 3 of the nonmortar
+                           facet, 4 to 7 of the mortar one */
 } ContactCorner;
 typedef struct {
   PetscInt  corner[3];
@@ -106,11 +106,11 @@ typedef struct {
 PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *,
   const ContactRule *, ContactOverlap *);
 
-/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and all that it changes with */
+/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and its derivatives */
 typedef struct {
   PetscReal x[4][12],
     normal[4][12];        /* of int phi_A gap, for the four A: by a facet's vertices, and by the unit normals there */
-  PetscReal rigid[4][12]; /* by its vertices, the patches keeping their shape and turning with their facets */
+  PetscReal rigid[4][12]; /* by its vertices, with patches of fixed shape that turn with their facets */
   PetscReal cover[4][12]; /* of int phi_A, by its vertices */
 } ContactSlopes;
 PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12],
@@ -150,12 +150,12 @@ typedef struct {
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
   PetscInt  *bend;      /* [4 nfacets] their global numbers */
   PetscBool  patched;   /* whether there are those; the same on all ranks */
-  PetscBool  cut;       /* whether the facets are pieces of the mesh's, of order 2; the same on all ranks */
+  PetscBool  cut;       /* whether facets are parts of facets of order 2; the same on all ranks */
   PetscInt
     *held; /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
   PetscInt *border; /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a
                        is; of a triangle bit 2: its last vertex */
-  PetscBool bordered;  /* whether border has been asked for; the same on all ranks */
+  PetscBool bordered;  /* whether the border has been computed; the same on all ranks */
   PetscReal area;      /* of the whole undeformed face, all ranks [length^2] */
   PetscInt  body;      /* behind the face */
   PetscReal thickness; /* mean thickness of that body [length] */
@@ -167,7 +167,7 @@ PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, Pe
   const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* trace.c: what the displacement of the surfaces' vertices differs from that of the mesh's nodes; NULL: nothing */
+/* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; NULL: none */
 typedef enum {
   CONTACT_TRACE_FORWARD,
   CONTACT_TRACE_INVERSE
@@ -205,7 +205,7 @@ PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
    f */
 typedef struct {
   PetscInt of,
-    plane[3]; /* a real node; and real nodes on the planes across the axes that it is seen in, negative: in none */
+    plane[3]; /* number of the real node, and real nodes on the mirror planes in which it is an image; negative: none */
 } ContactImage;
 typedef struct {
   PetscInt   nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
@@ -234,8 +234,7 @@ PETSC_INTERN void ContactRingEdges(const ContactRing *, PetscInt corner, PetscRe
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
 
 /* corner_normals.c: normals of the smooth surface, from the facets' corners */
-#define CONTACT_FLAT_CORNER \
-  1e-4 /* squared sine of the angle of a facet's corner, below which it is as good as straight */
+#define CONTACT_FLAT_CORNER 1e-4 /* squared sine of a facet's angle below which the corner counts as straight */
 PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
 PETSC_INTERN void      ContactRingMeanNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
 PETSC_INTERN void      ContactRingMend(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
@@ -251,7 +250,7 @@ PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine,
 typedef struct {
   PetscInt     n;     /* blocks so far */
   PetscInt    *node;  /* of the ring; NULL: blocks are counted only */
-  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; they add up where
+  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; to be added where
                          nodes repeat */
 } ContactNormalSlopes;
 PETSC_INTERN void ContactRingNormalSlopes(const ContactRing *, PetscInt corner, ContactNormalSlopes *);
@@ -296,22 +295,24 @@ typedef struct {
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
-  PetscBool      rubs;     /* whether the pair's slip is asked for */
-  PetscBool      sticks;   /* whether none is allowed */
-  PetscInt  nfrictionless; /* rows, on all ranks, where friction cannot act though the faces slide: known once there are
-                             rows of slip */
-  PetscBool smooth;        /* whether the gap is to be that of the smooth surfaces */
-  PetscReal bulge;   /* these stand off the undeformed facets of the two faces by no more than this together [length] */
-  PetscReal given;   /* the pair's own search distance; 0: from the size of the faces [length] */
-  PetscInt *row;     /* [4 nonmortar facets] global row of each of the facets' vertices */
-  PetscReal *normal; /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
+  PetscBool      rubs;      /* whether the pair's slip is asked for */
+  PetscBool      sticks;    /* whether none is allowed */
+  PetscInt   nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; known
+                              once there are rows of slip */
+  PetscBool  smooth;        /* whether the gap is measured between smooth surfaces */
+  PetscReal  bulge;    /* largest distance of the smooth surfaces from the undeformed facets, sum of both faces [length]
+                        */
+  PetscReal  given;    /* the pair's own search distance; 0: from the size of the faces [length] */
+  PetscInt  *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
+  PetscReal *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
   PetscReal  distance; /* facets farther apart than this do not pair [length] */
-  PetscReal  depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
-  PetscInt   nfacing;  /* of the last linearization, on this rank: facets that overlap, or vertices that face a facet */
+  PetscReal  depth;    /* facets that penetrate deeper than this do not pair: they are on the other side of a body
+                          [length] */
+  PetscInt   nfacing;  /* of the last contact update, on this rank: overlapping facets, or vertices opposite a facet */
 } ContactPairData;
 
-/* Whether its patches follow what faces of order 2 bend between their nodes; else their vertices move with the mean
-   of it */
+/* Whether patches follow the bending of order-2 faces between their nodes; else their vertices move with the mean of
+   it */
 static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 {
   return (PetscBool)(pair->smooth && pair->gap == GAP_MORTAR);
@@ -321,23 +322,23 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
   PetscInt  *vertex;         /* [nlocal] local DMPlex points */
-  PetscInt  *held; /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined
-                     plane across which there is none; NULL: not yet asked for */
-  PetscReal *normal;  /* [3 nlocal] averaged unit normals */
-  PetscReal *x;       /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;    /* int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight;  /* the same, with that of hanging vertices at those they hang between */
-  Mat        hanging; /* which rows what is added up for a row goes to; NULL: no vertex hangs, and it stays */
+  PetscInt  *held;   /* [nlocal] bits of the axes without slip, plus 8 times (1 + the number of an inclined plane across
+                      which there is none); NULL: not computed yet */
+  PetscReal *normal; /* [3 nlocal] averaged unit normals */
+  PetscReal *x;      /* [3 nlocal] coordinates of the deformed vertices [length] */
+  Vec        mass;   /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight; /* the same, with that of hanging vertices passed on to their neighbours */
+  Mat        hanging; /* target rows of the sums of each row; NULL: no vertex hangs, each row keeps its own */
 } ContactRows;
 
-/* What the normals of all smooth surfaces change with a displacement; a rank has those of its own facets' corners */
+/* Derivatives of the normals of all smooth surfaces by the displacement; a rank has those of its own facets' corners */
 typedef struct {
   PetscInt            nlocal; /* normals */
   ContactNormalSlopes blocks; /* the same nodes in the same order at every displacement */
   Mat                 slopes; /* three rows a normal, columns are the DM's global rows; NULL where no pair is smooth */
 } ContactSmoothNormals;
 
-/* Along what a mortar gap is measured */
+/* Direction along which a mortar gap is measured */
 typedef enum {
   CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
@@ -353,16 +354,16 @@ struct _n_Contact {
   ContactNormals           normals;
   PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
   PetscInt                 ndisplacements;
-  const SceneDisplacement *displacements; /* that the faces of the bodies are held by; the caller's */
-  PetscBool                smoothed;      /* whether it has been looked which pairs are curved */
+  const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
+  PetscBool                smoothed;      /* whether it is known which pairs are curved */
   ContactSmoothNormals     bends;
-  Mat trace; /* what is added to the mesh's displacement at vertices of the surfaces; NULL: no face has order 2 */
+  Mat         trace; /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
   ContactRule rule;  /* of the triangles that overlaps are cut into */
-  PetscReal   reach; /* distance that pairs without one of their own look for at least [length] */
+  PetscReal   reach; /* least search distance of pairs without one of their own [length] */
   PetscReal
-    reach_depth; /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
-  PetscReal depth;        /* 0: from the thickness of the bodies */
-  PetscReal cosine;       /* facets pair when n1.n2 is at most this */
+    reach_depth;    /* least search depth of every pair, whatever the angle of the normals; 0: the usual one [length] */
+  PetscReal depth;  /* 0: from the thickness of the bodies */
+  PetscReal cosine; /* facets pair when n1.n2 is at most this */
   PetscReal overlap_drop; /* relative to the smaller facet's area */
   PetscReal row_drop;     /* relative to the largest row's 1-norm */
   PetscInt  nrows;        /* of the last linearization, on all ranks */
@@ -398,21 +399,22 @@ PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, Pe
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 
-/* held.c: rows->held, once: along what the rows of pairs that rub have no slip */
+/* held.c: computes rows->held once: the directions in which rows of pairs with friction have no slip */
 PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 
 /* slip.c: the rows of slip that go with those of the gap */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
-/* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
+/* assemble.c: one contact update under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
   Vec       gap;        /* int phi_A gap [length^3] */
   Vec       cover;      /* int phi_A over what smooth mortar pairs cover [length^2] */
   PetscInt  n, size;    /* entries in use, and space for them */
   PetscInt *row, *node; /* global row, global number of the vertex */
-  PetscInt  dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
+  PetscInt  dim;        /* 1: one value an entry, since all share the row's normal; 3: a vector */
   PetscScalar
-    *value[3]; /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
+    *value[3]; /* int phi_A (N2 - N1) [length^2]; times the normal it is the derivative of the gap by the vertex's
+                  displacement */
 
   ContactEntries rigid, by_cover, by_node,
     by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */
@@ -431,7 +433,7 @@ PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, Co
    A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation.c.
 */
 typedef struct {
-  /* Grows box to hold all that may face this rank's part of pair p */
+  /* Enlarges the box to hold everything that may face this rank's part of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
   /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);

@@ -6,7 +6,7 @@
 */
 #include "contactimpl.h"
 
-/* What a facet may be left uncovered by, in all and at a vertex: rounding, or the sagitta of curved faces */
+/* Part of a facet that may stay uncovered, in all and at a vertex: rounding, or the sagitta of curved faces */
 static const PetscReal tie_uncovered = 1e-3, tie_uncovered_vertex = 0.3;
 
 /* What is added up: rows of nodes, and of each [covered, whole] area */

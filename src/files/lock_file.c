@@ -1,7 +1,5 @@
-/*
-   One run at a time writes the files of a name: its first rank holds a lock of the mesh's file while it lives. It is
-   a record lock, of which HDF5 and those who read know nothing; where the file system has none, nobody is kept out.
-*/
+/* Only one run at a time writes the files of a name: its first rank locks the mesh's file while it runs. It is a
+   record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
 #include "src/output/outputimpl.h"
 #include <errno.h>

@@ -58,8 +58,8 @@ PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
   PetscFunctionReturn(0);
 }
 
-/* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the
-   forces on them what is out of balance. */
+/* Weak springs on the bodies that are not held. They take almost nothing from the bodies' deformation, and carry the
+   forces that are out of balance */
 static PetscErrorCode SpringsCreateWeak(Simulation sim)
 {
   PetscBool   *unheld;

@@ -79,10 +79,8 @@ static PetscReal PairNorm(const PetscReal v[3])
   return PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/*
-   A row is in contact where the strain that its pressure is worth is more than that which its gap would be: on the
-   central path their product is the same at all rows, and tends to zero
-*/
+/* A row is in contact if the strain of its pressure is larger than that of its gap. On the central path their product
+   is the same in all rows and tends to zero */
 static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
 {
   PetscReal size = 0.0, young = PETSC_MAX_REAL;
@@ -97,7 +95,7 @@ static PetscErrorCode PairRowsClose(Simulation sim, PairRows *rows)
   PetscFunctionReturn(0);
 }
 
-/* Friction gives way where the slip is more than rounding makes of the displacements */
+/* A row slips if the slip is larger than rounding of the displacements */
 static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;

@@ -1,5 +1,4 @@
-/* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have
-   said. */
+/* State of the contact pairs before anything moves, and warnings about what the scene does not declare. */
 #include "src/step/stepimpl.h"
 #include <math.h>
 

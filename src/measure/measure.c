@@ -76,9 +76,9 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
 }
 
 /*
-   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
-   and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
-   the energy
+   Relative error in energy that is not the mesh's: sum m |gap z| (the duality gap), the work of the forces out of
+   balance, and of the pressures on the difference of the true and the linearized gap; to first order in each, over
+   twice the energy
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
   StepReport *report)
@@ -107,9 +107,9 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 }
 
 /*
-   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the
-   reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
-   error
+   All figures are computed from the elements and the contact rows, not taken from the solver: energy; residual of
+   equilibrium; reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the
+   discretization error
 */
 PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
 {

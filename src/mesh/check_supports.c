@@ -1,7 +1,7 @@
 /*
-   Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
-   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
-   facets, with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
+   Checks that every body is held. Each body has six rigid modes. A prescribed displacement holds its component at the
+   vertices of its face. A contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
+   facets; with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
    for it.
 */
 #include "meshimpl.h"
@@ -261,8 +261,8 @@ static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal r
   for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
 }
 
-/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram
-   matrix. Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
+/* How much of each rigid mode of each body is free: 1 minus its part in the span of the rows, which is that of the
+   Gram matrix. Gram-Schmidt with pivoting on the matrix's own rows; the basis replaces its first rows */
 static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
 {
   const PetscInt n    = support->n;
@@ -301,8 +301,8 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
-/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a
-   translation; none: PETSC_DECIDE */
+/* Names a free motion: a mode that is free by itself; else a rotation, whose axis may be anywhere; else a translation.
+   PETSC_DECIDE: none */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -357,8 +357,7 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscFunctionReturn(0);
 }
 
-/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to
-   false before */
+/* An error if a body is not held, unless weak springs are requested. unheld, or NULL: the bodies that are not held */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};

@@ -87,8 +87,8 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   PetscFunctionReturn(0);
 }
 
-/* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's
-   partitioners are to part, is not; frees the bodies' grids */
+/* Level 0. Many cells of a file are partitioned before the DMPlex is built; a small mesh of shapes, or one that
+   PETSc's partitioners shall partition, is not. Frees the bodies' grids */
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
   PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {

@@ -104,7 +104,7 @@ PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
 PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
-/* stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
+/* stream.c: reads a Gmsh file and checks it. The first error found leaves a message */
 #define GMSH_WORD 256
 
 typedef struct {
@@ -240,11 +240,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode MeshCreateBodies(MPI_Comm, PetscInt nbodies, const SceneBody[], MeshBody[]);
 PETSC_INTERN PetscErrorCode MeshDestroyBodies(PetscInt nbodies, MeshBody[]);
 
-/*
-   nodes.c: the points that carry displacements. Their places begin straight between the vertices in a shape's
-   parameters, and are mapped and bent as the vertices are; MeshUpdateVertices() then gives the vertices' places back
-   to DMPlex.
-*/
+/* nodes.c: the points that carry displacements. Their places are first straight between the vertices in a shape's
+   parameters, then mapped and bent like the vertices. MeshUpdateVertices() copies the vertices' places back to DMPlex.
+   */
 typedef struct {
   PetscSection section;
   Vec          x; /* [length], or a shape's parameters */
@@ -317,7 +315,7 @@ PETSC_INTERN PetscErrorCode MeshCurvesPlacePart(const MeshCurves *, const MeshHe
 PETSC_INTERN PetscErrorCode MeshCurvesCutOut(const MeshHexes *, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
 
-/* refine_inverted.c: fine cells stay the right side out */
+/* refine_inverted.c: refines so that fine cells are not inverted */
 PETSC_INTERN PetscErrorCode MeshHexesRefineInverted(DM, const SceneBody[], const MeshCurves *, MeshHexes *);
 
 /* hanging.c: vertices amid an edge or a side of a cell; what is carried along as the mesh is distributed, and what

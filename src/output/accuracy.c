@@ -1,4 +1,4 @@
-/* What -accuracy chose and attained, as a table for people */
+/* What -accuracy chose and reached, as a table for people */
 #include "outputimpl.h"
 
 /*@C

@@ -8,12 +8,12 @@
 #include <unistd.h>
 
 #if !defined(CONTACT_PYTHON)
-  #define CONTACT_PYTHON "python3" /* the makefile has the one that it found */
+  #define CONTACT_PYTHON "python3" /* the makefile sets the one that it found */
 #endif
 
 extern char **environ;
 
-/* The script beside the program: in the sources, or where `make install` put it */
+/* Finds the script beside the program: in the sources, or where `make install` put it */
 static PetscBool PageFindScript(char script[], size_t length)
 {
   static const char *const places[] = {"/../share/amgf/report/report.py", "/../share/report/report.py"};
@@ -31,8 +31,8 @@ static PetscBool PageFindScript(char script[], size_t length)
   return PETSC_FALSE;
 }
 
-/* Runs the script. What it prints on the error stream comes into the sentence, as far as there is room, as one line.
-   0: it ended well */
+/* Runs the script and returns 0 if it ended well. The last line that it prints on the error stream goes into the
+   sentence, as far as there is room */
 static int PageRun(const char *const words[], char sentence[], size_t length)
 {
   posix_spawn_file_actions_t actions;

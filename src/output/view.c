@@ -10,7 +10,7 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
-/* Who pushes whom at the end: a row a contact pair, a row a face that is held or driven */
+/* Forces at the end: a row per contact pair, a row per face that is held or driven */
 static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -44,7 +44,7 @@ static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
+/* Load steps whose linear systems the Krylov method solved alone are not listed */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -90,7 +90,7 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* How wrong the energy is, by the solver's doing and by the mesh's */
+/* Relative errors in energy of the solver and of the mesh */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -118,7 +118,7 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The yardstick beside the largest count of any Newton system */
+/* The reference cost without contact, beside the largest count of any Newton system */
 static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
 {
   PetscInt  largest = 0;

@@ -1,4 +1,4 @@
-/* As accurate as asked and no more: which tolerances, and which mesh. */
+/* Chooses tolerances and mesh for a requested accuracy, and no more than that. */
 #include <accuracy.h>
 #include <math.h>
 
@@ -340,8 +340,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refined once more, unless two meshes say that the error is within a factor 2 of the target, or the unknowns do not
-   allow it */
+/* Refines once more, unless two meshes show that the error is within a factor 2 of the target, or the limit on
+   unknowns forbids it */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];

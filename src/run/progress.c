@@ -1,4 +1,4 @@
-/* How far a run is, now and then: load step, time so far, what is left. */
+/* Progress of a run at intervals: load step, time so far, estimated rest. */
 #include "src/step/stepimpl.h"
 #include <petsctime.h>
 
@@ -26,7 +26,8 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* At the rate of the load steps so far, the one under way for as long as a whole one at most; negative: none is done */
+/* Extrapolates from the load steps so far; the one in progress is taken to last at most one whole step. Negative: none
+   is done */
 static PetscLogDouble ProgressLeft(Simulation sim, PetscLogDouble now)
 {
   const Progress      *p    = &sim->progress;

@@ -1,8 +1,8 @@
 /* When the iteration ends, and with what reason. */
 #include "tao_ipfilter/ipfilterimpl.h"
 
-/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero.
-   Nothing there gives a scale to measure errors by, so it is not left to the iteration to find out. */
+/* A starting point with zero gradient and no violated constraint is stationary with all multipliers zero. Nothing
+   there gives a scale for errors, so this is checked before the iteration */
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
@@ -26,7 +26,7 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints are violated beside their first values, which do not grow with x */
+/* Whether the violation is significant compared with the constraints' first values, which do not grow with x */
 static PetscBool Violated(const TAO_IPFILTER *ip)
 {
   const PetscReal small = 1e-3;
@@ -51,7 +51,8 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
   return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
 }
 
-/* Counts steps in a row that rounding makes of x, or of a small fraction of the first x where x goes to zero */
+/* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
+   goes to zero */
 static PetscErrorCode CountTinySteps(Tao tao)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -65,8 +66,8 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away, or what the
-   constraints were relaxed by is worth more than the tolerance at these multipliers */
+/* Converged if the KKT error is within the tolerance. Exceptions: the multipliers by which it is measured grow without
+   limit, or the relaxation of the constraints is worth more than the tolerance */
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -94,8 +95,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Where the gradient is zero and no constraint violated, all multipliers may be zero, whatever they have come to:
-   there is nothing that they could balance, or be measured by */
+/* If the gradient is zero and no constraint is violated, all multipliers may be zero, whatever their present values */
 static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -128,8 +128,8 @@ PetscErrorCode IPTestNumbers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds
-   the largest violation, crtol the one that the KKT error holds. As for all of TAO's tolerances 0 is none. */
+/* Whether the constraints meet the tolerances of TaoSetConstraintTolerances(), if it was called. catol bounds the
+   largest violation, crtol the one in the KKT error. As for all tolerances of TAO, 0 means none */
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;

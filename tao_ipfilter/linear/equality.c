@@ -1,7 +1,7 @@
 /*
-   How equality constraints enter the Newton system: condensed with proximal updates where their rows touch few
-   unknowns, else in the augmented system that MUMPS factors. The first gives way to the second for the rest of a
-   solve where it does not reach the constraints.
+   How equality constraints enter the Newton system: condensed with proximal updates if their rows involve few
+   unknowns, else in the augmented system that MUMPS factors. If proximal updates do not meet the constraints, the
+   rest of the solve uses the augmented system.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
 #include "pc_amgf/mumps.h"
@@ -43,8 +43,8 @@ PetscErrorCode IPEqualityChoose(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Gives the proximal method up: the matrix loses the equality constraints' rows. *possible is false where MUMPS is
-   not to factor the whole matrix. */
+/* Gives up the proximal method: removes the equality constraints' rows from the matrix. *possible is false if MUMPS
+   may not factor the whole matrix */
 static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -24,7 +24,7 @@ typedef struct {
   PetscReal mean;   /* harmonic mean of rho, weighted */
   Vec       hdiag;  /* |diagonal of H|, now */
   PetscReal hscale; /* its mean at the start, */
-  PetscBool flat;   /* where all of it was zero: nothing resists a constraint */
+  PetscBool flat;   /* stiffness where nothing resists a constraint */
 } IPStiffness;
 
 /* Terms sum_i b_i |T_i x + t_i| beside the objective, b_i = min(limit_i, coefficient_i times the force of inequality
@@ -42,7 +42,7 @@ typedef struct {
                there is none */
 } IPTerms;
 
-/* Magnitudes by which residuals are divided; all 1 in the published measure */
+/* Sizes by which residuals are divided; all 1 in the published measure */
 typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
   PetscReal length;   /* values of c_I */

@@ -1,7 +1,7 @@
 /*
-   The caller's matrices by type. AIJ, and Hessians that are BAIJ, SBAIJ or dense, are taken as they are; what
-   MatConvert() makes AIJ of is converted at every evaluation; what gives products alone serves as a Hessian to
-   solvers that need no more, and is read column by column where there are few.
+   The caller's matrices by type. AIJ, and BAIJ, SBAIJ or dense Hessians, are used as they are. Types that
+   MatConvert() can convert to AIJ are converted at every evaluation. Matrices with products only serve as Hessian for
+   solvers that need no entries; small ones are read column by column.
 */
 #include "tao_ipfilter/ipfilterimpl.h"
 
@@ -171,8 +171,8 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
   PetscFunctionReturn(0);
 }
 
-/* Refuses what cannot be worked with, and finds out whether the Hessian is used by products alone. *changed: other
-   than in the last solve. */
+/* Rejects matrices that cannot be used, and finds out whether the Hessian is used by products alone. *changed:
+   otherwise than in the last solve */
 PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

@@ -36,7 +36,7 @@ typedef struct {
   Vec              sum; /* of all damped changes of the gradient */
 } IPQuasiNewton;
 
-/* Scratch vectors; whoever gets one gives it back */
+/* Scratch vectors; whoever takes one must return it */
 #define IP_MAX_WORK 8
 typedef struct {
   Vec       v[IP_NSPACES][IP_MAX_WORK]; /* made when first asked for */
@@ -100,7 +100,7 @@ typedef struct {
   Vec       base;         /* the bound that c is measured from; NULL: IL, or 0 */
   Vec       range;        /* between two bounds, else PETSC_INFINITY; NULL: no row has two */
   Vec       width;        /* the same in the scale of the iteration */
-  PetscReal constant;     /* what rows that are no inequality have for c; 0: not chosen yet */
+  PetscReal constant;     /* value of c in rows that are no inequality; 0: not chosen yet */
   PetscInt  nequal, nall; /* rows with equal bounds, of this rank and of all */
   PetscInt *equal;        /* which, from this rank's first row */
 } IPSides;

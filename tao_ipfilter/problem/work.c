@@ -1,4 +1,4 @@
-/* Scratch vectors: whoever needs one gets it, and gives it back before returning. None is made before it is needed. */
+/* Scratch vectors: a function takes one and returns it before it ends. They are created when first needed. */
 #include "tao_ipfilter/ipfilterimpl.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)

@@ -19,8 +19,8 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need balance only
-   to the percents that the linear solves aim at: pairs, not forces, follow mu. */
+/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need to balance
+   only to the per cents at which the linear solves aim, because pairs, not forces, follow mu */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = &ip->kkt;
@@ -90,8 +90,8 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no
-   model foresaw has made of them: no more than a few times those of the start */
+/* Changes from Mehrotra's method to the monotone one, with a mu near the present products, limited to a few times
+   those of the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* The keys of a scene file: reading it, asking for keys, and what to say of those nobody asked for. */
+/* The keys of a scene file: reads it, looks keys up, and reports those that nothing has read. */
 #include "src/scene/sceneimpl.h"
 #include <options.h>
 #include <stdarg.h>
@@ -124,7 +124,7 @@ static PetscBool SceneKeyIsNumber(const char key[])
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
 }
 
-/* Raises what is wrong with the file, if anything: a key nobody asked for, else the first complaint */
+/* Raises the first error of the file: an unknown key, else the first bad value */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
   PetscInt    n;
@@ -135,7 +135,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
-  /* The shortest is the outermost: below a misspelt list every key is unknown */
+  /* The shortest unknown key is the outermost: below a misspelt list every key is unknown */
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(PetscStrlen(names[i], &length));
     if (!unknown || length < shortest) {

@@ -1,7 +1,7 @@
 /*
-   Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias
-   where it stands, so that an anchor which holds its own alias never ends, and anchors of aliases of anchors outgrow
-   any memory. Anchored values of a scene therefore hold no aliases.
+   Checks that a scene is YAML that PETSc can read. YAML has anchors, &name, and aliases, *name. PETSc's reader
+   expands an alias in place: an anchor that holds its own alias never ends, and nested aliases exhaust any memory.
+   Anchored values of a scene must therefore hold no aliases.
 */
 #include "repeated.h"
 #include <string.h>

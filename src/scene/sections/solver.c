@@ -1,8 +1,6 @@
-/*
-   solver: PETSc options, as a mapping. They are set while the scene lives, where neither the command line nor an
-   options file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked
-   for in the end.
-*/
+/* solver: PETSc options, as a mapping. They are set while the scene exists, unless the command line or an options file
+   has set them. All options are not known beforehand, so a misspelt one is found at the end, because nothing has used
+   it. */
 #include "src/scene/sceneimpl.h"
 
 #define SOLVER_PREFIX "solver_"
