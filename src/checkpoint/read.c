@@ -1,6 +1,5 @@
 /* Restores a checkpoint on the mesh it was written for, or on another mesh of the same bodies. */
-#include "src/output/outputimpl.h"
-#include <scene.h>
+#include "checkpointimpl.h"
 #include <mesh.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* The state of a simulation for a restart: displacement path and contact history. */
-#include "src/step/stepimpl.h"
+#include <checkpoint.h>
+#include "src/measure/measureimpl.h"
 
 /* A field of a global vector; NULL: zero */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)

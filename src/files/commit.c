@@ -1,7 +1,7 @@
 /* Gives a file that was written under another name its own name: at once, or, if it must be on disk before, by a
    thread of the first rank. A disk takes longer than a small load step; the thread uses neither MPI nor PETSc. */
 #define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>

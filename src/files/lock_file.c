@@ -1,7 +1,7 @@
 /* Only one run at a time writes the files of a name: its first rank locks the mesh's file while it runs. It is a
    record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /* If nothing stops a body, the energy falls without limit. Finds the body and describes its motion. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Sums over the nodes of a body, at X, displaced by u; all of them reals, summed over ranks at once */
 typedef struct {

@@ -1,6 +1,6 @@
 /* Work dissipated by friction: the work of its forces on the vertices. Covered areas and rows change from one load
    step to the next; the forces on the vertices include all of them. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
    those before and now on the way from the last state to u */

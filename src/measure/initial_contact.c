@@ -1,5 +1,5 @@
 /* State of the contact pairs before anything moves, and warnings about what the scene does not declare. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 #define START_ROUNDING \

@@ -1,5 +1,5 @@
 /* How good a state is, measured on the elements and the contact rows: forces, gaps, equilibrium, errors. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 /* q = J_full^T M z: the forces on the two sides cancel */
@@ -111,25 +111,26 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
    equilibrium; reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the
    discretization error
 */
-PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
+  StepReport *report)
 {
-  Simulation sim = p->sim;
-  Vec        force, ties, rigid, contact = NULL, weighted = NULL;
-  PetscReal  size, residual, rounding;
+  const Constraints constraints = SimulationConstraints(sim);
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL;
+  PetscReal         size, residual, rounding;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
   rounding *= 1e-11 * sim->stiffness; /* what may be left of the forces of a body that moves as a whole */
   PetscCall(ForcesReserve(sim, report));
-  PetscCall(VecDuplicate(p->base, &force));
+  PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
-  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
+  if (load) PetscCall(VecAXPY(force, -1.0, load));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
-    PetscCall(VecDuplicate(p->base, &contact));
+    PetscCall(VecDuplicate(u, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
@@ -139,11 +140,11 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     if (!sim->history.shear) PetscCall(VecDestroy(&contact));
   }
-  PetscCall(TiesGetForces(sim, force, &ties, &rigid));
-  PetscCall(WorkAdd(p, u, force, rigid, &contact, report));
+  PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
+  PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, rounding, report));
+  PetscCall(ForcesMeasureBodies(sim, u, load, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
@@ -152,6 +153,6 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
   PetscCall(MeasureAlgebraicError(u, force, sol, weighted, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
-  if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
+  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
   PetscFunctionReturn(0);
 }

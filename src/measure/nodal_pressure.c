@@ -6,7 +6,7 @@
    covered ones exchange force in proportion to their differences of pressure. Both keep the sums over a side, make no
    pressure negative, and change nothing elsewhere.
 */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 static const PetscReal cover_ratio     = 0.3; /* of a vertex over a better covered one that it hands on to */
 static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is covered in part */

@@ -1,5 +1,5 @@
 /* Fields for probes and files: stress at the nodes and at the quadrature points, strain energy. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 static PetscReal ResultsVonMises(const PetscReal s[6])
 {

@@ -1,6 +1,6 @@
 /* Chooses the cells at the contact to refine for the next mesh, as in the last load step: recovery sees neither the
    facets of curved surfaces nor where the faces meet */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 /* Of each vertex of a face, in its local vector */
 typedef enum {

@@ -1,5 +1,5 @@
 /* Progress of a run at intervals: load step, time so far, estimated rest. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <petsctime.h>
 
 #define PROGRESS_LENGTH 32

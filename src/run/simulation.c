@@ -1,5 +1,5 @@
 /* The life of a simulation, and what its caller may set and ask. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 /*@C
    SimulationCreate - Prepares to simulate a scene

@@ -23,8 +23,9 @@ static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u,
 
 static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
-  PetscInt  nsolves = 0;
-  PetscBool again, rescued;
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscInt          nsolves     = 0;
+  PetscBool         again, rescued;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
@@ -42,7 +43,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (rescued) nsolves = 0;
   } while (again || rescued);
   PetscCall(WeakSpringsTest(p, u, report));
-  PetscCall(RigidTest(p->sim, u, report));
+  PetscCall(RigidTest(&constraints, u, report));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -462,7 +463,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
 
   if (report->converged) {
-    PetscCall(MeasureState(&p, u, &sol, report));
+    PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));

@@ -1,5 +1,5 @@
 /* When the iteration ends, and with what reason. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* A starting point with zero gradient and no violated constraint is stationary with all multipliers zero. Nothing
    there gives a scale for errors, so this is checked before the iteration */

@@ -1,5 +1,5 @@
 /* Signs that a solution has no bounded multipliers. The KKT error is measured by them and then means nothing. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* r += |J|^T |M multiplier|, M = 1 where it is NULL */
 static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)

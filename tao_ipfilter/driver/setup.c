@@ -1,5 +1,5 @@
 /* Vectors of the problem's sizes: created in TaoSetUp(), created again when the sizes change, and destroyed */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 {

@@ -1,5 +1,5 @@
 /* An objective that falls without end. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* Decrease of the objective, relative to its first value and to the gain of a Newton step from the start, that
    indicates an unbounded one */

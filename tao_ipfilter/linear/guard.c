@@ -1,6 +1,6 @@
 /* Treats an error of a library inside a solver, such as hypre, as a failure of that solver, for which there are
    remedies. It does not end the program. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 #include "pc_amgf/guard.h"
 
 /* Replaces a PC whose library was interrupted by a new one of the same type and options. PETSc can neither reuse nor

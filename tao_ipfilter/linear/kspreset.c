@@ -1,5 +1,5 @@
 /* KSPReset() for any KSP; PETSc's flexible CG fails after KSPReset(). */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* Flexible CG would use directions that no longer exist, so it is created again */
 PetscErrorCode IPKSPReset(KSP ksp)

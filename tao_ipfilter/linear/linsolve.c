@@ -1,6 +1,6 @@
 /* Solves the condensed system by the Krylov method, and if that fails, by one remedy after another. None of them
    shifts the Hessian: failure of a solver is not negative curvature. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* The PC, if it is a PCAMGF, else NULL */
 static PetscErrorCode GetAMGF(Tao tao, PC *pc)

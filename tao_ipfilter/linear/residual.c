@@ -1,6 +1,6 @@
 /* The true residual of the condensed system decides about a solve, not a Krylov method's estimate. If it is too large,
    the solve is continued from the iterate reached. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 #define IP_MAX_REFINEMENTS 3
 #define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error below which refinement stops */

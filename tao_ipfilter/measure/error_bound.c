@@ -5,7 +5,7 @@
    bound or unknown; and the last sum grows with the number of bounds as the error does. All are compared with the
    objective.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective allowed for the error bound */
 #define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that replaces it if they cancel */

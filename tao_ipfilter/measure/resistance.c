@@ -1,5 +1,5 @@
 /* Stiffness that resists the motions of norm terms, and directions in which they cannot move. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 /* The sums of both rows of each term */
 static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)

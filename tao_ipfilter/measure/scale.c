@@ -1,5 +1,5 @@
 /* Magnitudes that residuals are measured by. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
 #define IP_AMPLE \

@@ -3,7 +3,7 @@
    MatConvert() can convert to AIJ are converted at every evaluation. Matrices with products only serve as Hessian for
    solvers that need no entries; small ones are read column by column.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 #define IP_COLUMNS_MAX \
   1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */

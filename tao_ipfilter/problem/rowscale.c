@@ -3,7 +3,7 @@
    row_ratio times the smallest one, or gradient_max. With row_ratio, rows of similar size stay unscaled, whatever the
    units. The whole iteration uses scaled rows; multipliers and slacks are scaled back on return.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 #define IP_LEAST_SCALE 1e-20
 

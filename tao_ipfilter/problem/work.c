@@ -1,5 +1,5 @@
 /* Scratch vectors: a function takes one and returns it before it ends. They are created when first needed. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
 {

@@ -1,5 +1,5 @@
 /* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* Entries smaller than this part of the row's largest are rounding errors of exact zeros */
 #define ENTRY_DROP 1e-14

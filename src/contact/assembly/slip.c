@@ -4,7 +4,7 @@
    displacement u of the vertices. A rigid motion of both faces gives no slip where both touch. If a row has no slip
    along an axis, or across a plane (held.c), the tangent in that direction is zero.
 */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* The unit vector projected onto the plane normal to the normal, scaled to length 1; false if almost nothing is left */
 static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])

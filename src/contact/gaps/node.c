@@ -1,5 +1,5 @@
 /* Node to segment: each nonmortar vertex against the closest point of the mortar face */
-#include "src/contact/contactimpl.h"
+#include "gapsimpl.h"
 
 /* A vertex that is outside the mortar face by more than this part of the facet's size has no opposite point */
 #define BORDER_MARGIN 0.05

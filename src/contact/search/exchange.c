@@ -1,7 +1,7 @@
 /* Sends mortar facets to the ranks whose part of the nonmortar face they may face. Nothing else of a mesh is exchanged
    */
 #include <petscsf.h>
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 /* Facets on their way, those for one rank together */
 typedef struct {

@@ -1,5 +1,5 @@
 /* Which mortar facets may face a nonmortar facet: those along its normal */
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 /* The prism that a nonmortar facet sweeps along its normal, from the search depth below it to the search distance
    above it. A ball of that radius would contain more and more facets as the mesh is refined. */

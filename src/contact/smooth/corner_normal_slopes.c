@@ -1,6 +1,6 @@
 /* Derivatives of the normals of corner_normals.c by the nodes, in the reverse order of its steps. Matrices by rows:
    derivatives of the normal's components */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
 static void AddOuter(const PetscReal A[9], PetscReal factor, const PetscReal a[3], const PetscReal b[3], PetscReal C[9])

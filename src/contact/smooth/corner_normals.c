@@ -1,6 +1,6 @@
 /* Normals of the smooth surface at the facets' corners: means over the facets about a node, corrected where the
    surface ends */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /*
   Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres

@@ -1,6 +1,6 @@
 /* Where a face ends on a plane on which its body is held, the smooth surface continues as in a mirror. The facets of a
    ring near such a plane are mirrored in it, so that normals on the border are means like all others. */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* The normal extrapolated to the undeformed border may lean out of the plane by this part of what the facet's normal
    does */

@@ -4,7 +4,7 @@
    the quadrature points, the plane, and the patches. In the plane's own axes a rigid motion changes nothing. So the
    forces from these derivatives, and their moments, balance to rounding.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Sine of the angle below which two lines count as parallel: errors of rounding or quadrature would move their
    intersection far */

@@ -7,7 +7,7 @@
    Geom. Design 22 (2005)). In a triangle the third edge is a point, and the height of the first counts with the
    square; quadratic edges then give the quadratic surface.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Largest slope of an edge's end against its chord: normals of a crumpled face are meaningless */
 #define STEEPEST 0.7

@@ -1,6 +1,6 @@
 /* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by
    vertices and normals */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* A patch that is inclined by more than 60 degrees to a direction is not measured along that direction */
 #define STEEPEST_SQUARED_COSINE 0.25

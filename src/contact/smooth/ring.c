@@ -4,7 +4,7 @@
    edge from that vertex to the next. Facets are not neighbours across an edge that is sharper, undeformed, than the
    feature angle: each side of it has its own normals.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Corners of the facet that a corner is of: a triangle has the node of its last one twice */
 static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)

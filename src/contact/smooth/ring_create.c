@@ -1,5 +1,5 @@
 /* Creates a ring: fetches facets from their ranks, numbers nodes, finds neighbours and numbers the normals */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
    says how far that is */

@@ -1,6 +1,6 @@
 /* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks every number in it. It reads the same words, numbers and
    blanks in the same order as PETSc's reader */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <petscbt.h>
 #include <string.h>
 

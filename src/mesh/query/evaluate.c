@@ -1,6 +1,6 @@
 /* Evaluates fields of one mesh at points of another. Each rank has its own points and examines the cells of all ranks,
    one block at a time. */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 #define EVALUATE_CELLS 1024 /* of a block */
 

@@ -3,7 +3,7 @@
    denser. Each cell examines the points in the bins about it. A point's parameters come from inverting the cell's
    map, linear or quadratic, clamped to the cell. The nearest cell over all ranks has the point.
 */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 /* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between
    facets */

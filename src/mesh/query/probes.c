@@ -1,5 +1,5 @@
 /* Where the probes of a scene are in its mesh */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 /* A point outside by less than this part of the cell's size is on the surface, because facets are not where the curved
    surface is */

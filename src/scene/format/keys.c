@@ -1,5 +1,5 @@
 /* The keys of a scene file: reads it, looks keys up, and reports those that nothing has read. */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>

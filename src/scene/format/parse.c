@@ -1,6 +1,6 @@
 /* Values of a scene file: text to numbers, lists and names. If a value does not parse, the error is kept and the
    variable unchanged. */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <ctype.h>

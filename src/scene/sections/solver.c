@@ -1,7 +1,7 @@
 /* solver: PETSc options, as a mapping. They are set while the scene exists, unless the command line or an options file
    has set them. All options are not known beforehand, so a misspelt one is found at the end, because nothing has used
    it. */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 #define SOLVER_PREFIX "solver_"
 

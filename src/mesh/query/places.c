@@ -1,5 +1,5 @@
 /* Undeformed places of the nodes that this rank owns, and their bodies. */
-#include "src/step/stepimpl.h"
+#include "queryimpl.h"
 
 /* Of every node that this rank owns; it has a cell of each */
 static PetscErrorCode VertexPlacesFindBodies(DM dm, PetscSection global, PetscInt rstart, PetscInt body[])

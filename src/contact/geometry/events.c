@@ -1,5 +1,5 @@
 /* PETSc's log events of contact */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 PetscLogEvent CONTACT_Search, CONTACT_Integrate;
 

@@ -1,6 +1,6 @@
 /* Finds out which pairs have a face that is curved or bends between its nodes, and computes the normals of their
    smooth surfaces at every displacement. Pairs of plane faces of order 1 cost nothing */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* A surface is curved if it differs from its facets by more than this part of an edge; less is rounding in its file */
 #define CURVED 1e-6

@@ -1,5 +1,5 @@
 /* The point of a bilinear facet that is closest to a given point */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 #define CLOSEST_MAX_STEPS    50
 #define CLOSEST_MAX_HALVINGS 8

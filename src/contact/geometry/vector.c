@@ -1,5 +1,5 @@
 /* Products of vectors */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3])
 {

@@ -1,5 +1,5 @@
 /* Quadrature on triangles */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 #include <petscdt.h>
 
 /* PETSc's rule of fewest points that is exact for polynomials of this degree: barycentric coordinates, weights that

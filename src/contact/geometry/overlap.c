@@ -1,5 +1,5 @@
 /* Where two facets face each other: projection, clipping, quadrature points on both */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 /* Points of one line are off it by no more than this part of its length */
 #define ONE_LINE 1e-4

@@ -1,5 +1,5 @@
 /* Boxes along the coordinate axes: lower corner, upper corner */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
 {

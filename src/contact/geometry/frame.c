@@ -1,5 +1,5 @@
 /* The plane a nonmortar facet is projected to: through its centre, along its mean normal */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 /* Mean outward unit normal; false where the facet has no area */
 PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])

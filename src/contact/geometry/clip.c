@@ -1,5 +1,5 @@
 /* Polygons in the plane: area, and clipping against a convex polygon */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 /* Relative to the first vertex, so that small polygons far from the origin lose no digits */
 PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])

@@ -1,6 +1,6 @@
 /* The normals of all smooth surfaces as functions of the displacement: their global numbers, and the matrix of their
    derivatives */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* The two surfaces of a pair and the rings about them */
 static void SmoothNormalsGetSides(ContactPairData *pair, ContactSurface *surface[2], ContactRing *ring[2])

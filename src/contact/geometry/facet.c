@@ -1,5 +1,5 @@
 /* Bilinear facets: shape functions, area vector, lumped mass, and the inverse of a plane bilinear map */
-#include "src/contact/contactimpl.h"
+#include "geometryimpl.h"
 
 static const PetscReal corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
