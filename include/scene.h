@@ -1,7 +1,5 @@
-/*
-   The file format of scenes: reads a YAML options file into the structs of model.h, checks it and shows it. Nothing
-   else knows the format.
-*/
+/* The file format of scenes: reads a YAML file into the structs of model.h, checks it and shows it. Nothing else knows
+   the format. */
 #ifndef SCENE_H
 #define SCENE_H
 

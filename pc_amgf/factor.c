@@ -111,7 +111,7 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const AMGFFactor *f        = &((PC_AMGF *)pc->data)->factor;
-  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* an entry of the matrix */
+  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* time per entry of the matrix */
   const PetscReal   cached       = 2e6;                  /* entries above which an application takes twice as long */
   const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* an entry of the factors */
   MatInfo           info;

@@ -294,7 +294,7 @@ static PetscErrorCode DistributeUnpack(const DistributePart *part, PetscInt body
   PetscFunctionReturn(0);
 }
 
-/* This rank's part in the place of the grids */
+/* Replaces the grids by this rank's part */
 static PetscErrorCode DistributeTake(PetscInt nbodies, const DistributePart *part, MeshBody meshes[],
   MeshOwners *owners)
 {

@@ -115,9 +115,11 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives
-   and linear constraints, whose affine step tells what mu can become: it is left for the monotone one where they show
-   themselves as something else, and while the KKT error does not fall. */
+/*
+   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's method suits convex objectives and
+   linear constraints, where the affine step predicts mu. The monotone method replaces it if the problem is different,
+   and while the KKT error does not fall
+*/
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -412,7 +412,7 @@ PetscErrorCode MeshUpdateVertices(DM dm)
     PetscCall(VecRestoreArray(to.x, &y));
     PetscCall(VecRestoreArrayRead(from.x, &x));
   }
-  /* The global coordinates, if they were made, are those from before */
+  /* Updates the global coordinates, if they exist, which are still those from before */
   PetscCall(DMSetCoordinatesLocal(dm, to.x));
   PetscFunctionReturn(0);
 }
