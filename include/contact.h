@@ -39,6 +39,9 @@ PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearizatio
 /* Counts nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact update;
    and all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
+/* Collective. How deep vertices of either face of each pair are in the other body at a displacement,
+   and what that is known to [length] */
+PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
 /* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
    search reaches */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);

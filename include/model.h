@@ -264,6 +264,8 @@ typedef struct {
 
 /* Factor of a ramp at a time: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
+/* Of the body that a face belongs to */
+PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);
 /* An expression of the place */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 
