@@ -226,7 +226,8 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
-                       PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
+                       (!IPFilteredOf(tao)->reduced.met ||
+                         PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual)));
   if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }

@@ -331,7 +331,8 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscCall(ReducedFactor(r, KWW, JW, definite));
   PetscCall(ReducedCreateSystem(r, basis));
   if (*definite) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws));
+  if (*definite && r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws, definite));
+  PetscCall(ReducedTell(r, definite));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -517,21 +518,22 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, solved));
+  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, &r->met, solved));
   else {
     PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
     r->nactive = r->set.n;
+    r->met     = *solved;
   }
   PetscFunctionReturn(0);
 }
 
 /* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
-   there are any. r->nactive, r->nsteps: of this solve. */
+   there are any. r->nactive, r->nsteps: of this solve; r->met: whether the laws are met as far as was asked. */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;
   MPI_Comm         comm = PetscObjectComm((PetscObject)v);
-  PetscInt         counts[2];
+  PetscInt         counts[3];
   PetscReal       *w = NULL;
 
   PetscFunctionBegin;
@@ -548,8 +550,10 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
   counts[0] = r->nsteps;
   counts[1] = r->nactive;
-  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));
+  counts[2] = r->met;
+  PetscCallMPI(MPI_Bcast(counts, 3, MPIU_INT, 0, comm));
   r->nsteps  = counts[0];
   r->nactive = counts[1];
+  r->met     = (PetscBool)counts[2];
   PetscFunctionReturn(0);
 }

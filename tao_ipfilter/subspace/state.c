@@ -156,7 +156,46 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* B of K + J^T D J, D as stiff as the bodies are: for bodies that nothing but the constraints holds */
+/* A += T^T D T of the norm terms that can have a force, D as stiff as the bodies are */
+static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
+{
+  IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
+  const Vec          most[2] = {terms->limit, terms->coefficient};
+  const PetscScalar *rho;
+  PetscScalar       *d;
+  PetscInt           n;
+  Mat                DT, TtDT;
+  Vec                D;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(terms->t, &D));
+  PetscCall(VecGetLocalSize(terms->rho, &n));
+  PetscCall(VecGetArrayRead(terms->rho, &rho));
+  PetscCall(VecGetArrayWrite(D, &d));
+  for (PetscInt i = 0; i < n; i++) d[2 * i] = d[2 * i + 1] = rho[i];
+  for (PetscInt k = 0; k < 2; k++) {
+    const PetscScalar *b;
+
+    if (!most[k]) continue;
+    PetscCall(VecGetArrayRead(most[k], &b));
+    for (PetscInt i = 0; i < n; i++)
+      if (b[i] == 0.0) d[2 * i] = d[2 * i + 1] = 0.0;
+    PetscCall(VecRestoreArrayRead(most[k], &b));
+  }
+  PetscCall(VecRestoreArrayWrite(D, &d));
+  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
+  PetscCall(MatDuplicate(terms->T, MAT_COPY_VALUES, &DT));
+  PetscCall(MatDiagonalScale(DT, D, NULL));
+  PetscCall(MatTransposeMatMult(terms->T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
+  PetscCall(MatAXPY(A, 1.0, TtDT, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&TtDT));
+  PetscCall(MatDestroy(&DT));
+  PetscCall(VecDestroy(&D));
+  PetscFunctionReturn(0);
+}
+
+/* B of K + J^T D J + T^T D T, D as stiff as the bodies are: for bodies that nothing but constraints and norm terms
+   holds */
 PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
@@ -172,6 +211,7 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   ip->rec.nsystems  = systems; /* none of Newton's */
   ip->rec.nfiltered = filtered;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  if (ip->terms.n) PetscCall(KeptHoldTerms(tao, ip->cond.A));
   PetscCall(KeptSetUpPC(tao, kept, ip->cond.A, ip->hess.H, possible));
   PetscCall(MatDestroy(&ip->cond.A));
   kept->held = PETSC_TRUE;

@@ -268,7 +268,7 @@ PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possibl
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedSetUp(&f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
     ip->at.c, basis, possible));
-  PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
+  if (*possible) PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);

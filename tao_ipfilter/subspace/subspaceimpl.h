@@ -65,11 +65,12 @@ typedef struct {
    the one that there is */
 typedef struct _p_IPLaws *IPLaws;
 typedef struct _n_IPLawsOps {
-  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *);
+  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *, PetscBool *definite);
   PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
   PetscErrorCode (*restart)(IPLaws); /* the set of closed rows has been chosen again */
   PetscErrorCode (*forget)(IPLaws);  /* the directions are others */
-  PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscInt *steps, PetscInt *nactive, PetscBool *solved);
+  PetscErrorCode (
+    *solve)(IPLaws, const IPReducedSystem *, PetscInt *steps, PetscInt *nactive, PetscBool *met, PetscBool *solved);
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
@@ -87,6 +88,7 @@ typedef struct {
   IPActiveSet      set;
   PetscReal       *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
   PetscInt         nsteps, nactive;
+  PetscBool        met; /* the last solution fulfils the laws, as far as was asked */
 } IPReduced;
 
 /* What a filtered subspace keeps from one solve to the next */
