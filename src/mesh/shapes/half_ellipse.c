@@ -53,14 +53,13 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
 
   PetscFunctionBegin;
   PetscCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6,
-    comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis, the depth and the half of the prism are unknown directions",
+    comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis, the depth or the half of the prism is an unknown direction",
     body->name);
   PetscCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the depth of the half ellipse lies along the prism's axis %c, they must be normal to each other",
     body->name, "xyz"[ellipse->axis]);
   PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm,
-    PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the direction of the half that is meant must be normal to the prism's axis and to its depth",
+    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the direction half must be normal to the prism's axis and to its depth",
     body->name);
   PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0],
@@ -288,5 +287,19 @@ static PetscErrorCode ShapeMap_HalfEllipse(const SceneBody *body, const PetscRea
   PetscFunctionReturn(0);
 }
 
+static const ShapeKey keys[] = {
+  SHAPE_KEY("axis", KEY_AXIS, 1, ellipse.axis, PETSC_TRUE),
+  SHAPE_KEY("depth", KEY_DIRECTION, 1, ellipse.depth, PETSC_TRUE),
+  SHAPE_KEY("half", KEY_DIRECTION, 1, ellipse.half, PETSC_FALSE),
+  SHAPE_KEY("center", KEY_REALS, 3, ellipse.center, PETSC_FALSE),
+  SHAPE_KEY("semi_axes", KEY_REALS, 2, ellipse.semi_axes, PETSC_TRUE),
+  SHAPE_KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
+  SHAPE_KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
+  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  SHAPE_KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
 const Shape ShapeHalfEllipse = {ShapeFaces_HalfEllipse, ShapeSize_HalfEllipse, ShapeCreate_HalfEllipse,
-  ShapeMap_HalfEllipse};
+  ShapeMap_HalfEllipse, keys};
