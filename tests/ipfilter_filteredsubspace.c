@@ -303,6 +303,51 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
   PetscFunctionReturn(0);
 }
 
+/* Two unknowns with the Hessian (1 2; 2 1), 1 +- x_i >= 0, beside others that no row touches: a saddle of -0.003 inside, minima of -1.2 and -0.8 at corners. Factors of the two
+   raise no error, and each pivot on the diagonal is positive. */
+static PetscErrorCode TestConcave(void)
+{
+  const PetscInt   size = 20;
+  QuadraticProgram q    = {.H = NULL};
+  PetscReal        f;
+  PetscInt         start, end, first;
+  Tao              tao;
+  Vec              x;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, size, size, 2, NULL, 1, NULL, &q.H));
+  PetscCall(MatCreateVecs(q.H, &x, &q.b));
+  PetscCall(MatGetOwnershipRange(q.H, &start, &end));
+  for (PetscInt i = start; i < end; i++) {
+    PetscCall(MatSetValue(q.H, i, i, 1.0, INSERT_VALUES));
+    if (i < 2) PetscCall(MatSetValue(q.H, i, 1 - i, 2.0, INSERT_VALUES));
+    PetscCall(VecSetValue(q.b, i, i ? (i == 1 ? 0.1 : 0.0) : 0.3, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(q.b));
+  PetscCall(VecAssemblyEnd(q.b));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, end - start, 4, size, 1, NULL, 1, NULL, &q.J));
+  PetscCall(MatCreateVecs(q.J, NULL, &q.g));
+  PetscCall(MatGetOwnershipRange(q.J, &first, &end));
+  for (PetscInt i = first; i < end; i++) PetscCall(MatSetValue(q.J, i, i / 2, i % 2 ? -1.0 : 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecSet(q.g, -1.0));
+  PetscCall(ProblemCreateSolver(&q, x, &tao));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_subspace", "true"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, NULL));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a Hessian that is indefinite on the subspace: %s\n",
+    f < -0.79 ? "the minimum at a bound" : "no minimum"));
+  if (!(f < -0.79)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  objective %g\n", (double)f));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&q));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const PetscInt n         = 24;
@@ -317,6 +362,7 @@ int main(int argc, char **argv)
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));
   PetscCall(TestOne("an indefinite Hessian", n, &indefinite, -1));
   PetscCall(TestOne("a Hessian that is indefinite at the start", n, &wells, 0));
+  PetscCall(TestConcave());
   PetscCall(TestLimit("-tao_max_it", n, 0));
   PetscCall(TestLimit("-tao_ipfilter_ksp_max_it", n, 1));
   PetscCall(PetscFinalize());

@@ -33,12 +33,20 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.violation > small);
 }
 
+/* Whether the constraints are met beside their own terms, too */
+static PetscBool OwnMet(const TAO_IPFILTER *ip)
+{
+  const PetscReal trace = 1e-6;
+
+  return (PetscBool)(ip->kkt.own <= PetscMax(trace, ip->tol));
+}
+
 /* Whether the iterate meets the tolerance in both measures of the KKT error, and the absolute limits */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = &ip->kkt;
 
-  if (IPBothErrors(ip) > ip->tol) return PETSC_FALSE;
+  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip)) return PETSC_FALSE;
   return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) &&
                      k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) &&
                      k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
@@ -47,7 +55,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
+  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol && OwnMet(ip));
 }
 
 /* Counts steps in a row that rounding makes of x, or of a small fraction of the first x where x goes to zero */
@@ -102,7 +110,8 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && ip->relax.by == 0.0);
+  *stationary =
+    (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && OwnMet(ip) && ip->relax.by == 0.0);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -182,7 +191,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessDegenerate(tao));
-  } else if (fritz_john && IPConstraintsMet(tao)) {
+  } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow "
       "all they could balance: bounded ones may not exist",

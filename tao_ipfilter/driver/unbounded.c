@@ -9,6 +9,24 @@ static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
                                       PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
+/* Whether every unknown has two bounds, or is fixed: no objective falls without end between them */
+static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt      n, nfixed = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(tao->solution, &n));
+  if (ip->fixed) {
+    PetscInt local;
+
+    PetscCall(ISGetLocalSize(ip->fixed, &local));
+    PetscCallMPI(MPI_Allreduce(&local, &nfixed, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)tao)));
+  }
+  *bounded = (PetscBool)(PetscMin(ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n) + nfixed >= n);
+  PetscFunctionReturn(0);
+}
+
 /* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x,
    that says nothing */
 static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
@@ -96,7 +114,12 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   PetscReal      fall;
 
   PetscFunctionBegin;
-  *f         = ip->at.f;
+  *f = ip->at.f;
+  PetscCall(UnboundedCannotBe(tao, unbounded));
+  if (*unbounded) {
+    *unbounded = PETSC_FALSE;
+    PetscFunctionReturn(0);
+  }
   *unbounded = UnboundedHere(ip);
   PetscCall(UnboundedCount(tao, &fall));
   if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)

@@ -99,20 +99,25 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 */
 static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], PetscReal by_f[2], PetscReal *by_lambda)
 {
-  PetscInt         a   = 0;
-  const PetscInt   i   = IPTermLawsOfRow(set, row, &a);
-  const PetscReal *way = &set->way[2 * i], *dead = &set->dead[2 * i];
+  PetscInt         a = 0;
+  const PetscInt   i = IPTermLawsOfRow(set, row, &a);
+  const PetscReal *way, *dead;
 
   by_v[0] = by_v[1] = by_f[0] = by_f[1] = *by_lambda = 0.0;
-  if (i < 0) by_v[0] = 1.0;
-  for (PetscInt b = 0; i >= 0 && b < 2; b++) {
+  if (i < 0) {
+    by_v[0] = 1.0;
+    return;
+  }
+  way  = &set->way[2 * i];
+  dead = &set->dead[2 * i];
+  for (PetscInt b = 0; b < 2; b++) {
     const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b], across = one - way[a] * way[b];
 
     by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
     by_v[b] =
       set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive; /* a dead direction is across the way */
   }
-  if (i >= 0 && set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
+  if (set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
 }
 
 /* One row of the system, its diagonal raised by as little as makes dependent rows no obstacle. Rows of terms depend

@@ -11,8 +11,9 @@
 typedef struct {
   PetscReal f, gradient; /* objective and norm of its gradient */
   PetscReal unit;        /* of the objective, with scaling by gradients: 1, or what brings them down to the limit */
-  PetscReal length, equality; /* of c_I and c_E */
+  PetscReal length, equality; /* of c_I, but for rows that are out of reach, and of c_E */
   PetscReal x;
+  PetscReal reach;             /* how far the unknowns may be expected to move: scale.c; 0: not known */
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* of the terms that make up the objective */
@@ -44,13 +45,14 @@ typedef struct {
 
 /* Magnitudes by which residuals are divided; all 1 in the published measure */
 typedef struct {
-  PetscReal dual;     /* forces that cancel in the stationarity condition */
-  PetscReal length;   /* values of c_I */
-  PetscReal equality; /* values of c_E */
-  PetscReal pressure; /* multipliers, */
-  PetscReal balance;  /* and those of one active constraint that balances the objective's gradient; 0: not known */
-  PetscReal product;  /* length x pressure: complementarity and mu */
-  PetscReal energy;   /* the objective; PETSC_INFINITY in the measures that do not ask for it */
+  PetscReal dual;           /* forces that cancel in the stationarity condition */
+  PetscReal length;         /* values of c_I */
+  PetscReal equality;       /* values of c_E */
+  PetscReal equality_terms; /* terms that cancel in c_E, now */
+  PetscReal pressure;       /* multipliers, */
+  PetscReal balance; /* and those of one active constraint that balances the objective's gradient; 0: not known */
+  PetscReal product; /* length x pressure: complementarity and mu */
+  PetscReal energy;  /* the objective; PETSC_INFINITY in the measures that do not ask for it */
 } IPScale;
 
 /* Residuals of the optimality conditions at the current iterate */
@@ -58,11 +60,12 @@ typedef struct {
   PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
   PetscReal centrality;                    /* as complementarity, for the present mu */
   PetscReal error;                         /* max(dual, primal, complementarity): decides convergence, together with */
-  PetscReal work;                      /* what the residuals are worth in the objective, over a multiple of its size */
-  PetscReal work_dual;                 /* the stationarity residual's share of it */
-  PetscReal violation;                 /* of constraints, slacks apart, over their first size */
-  PetscReal unscaled;                  /* largest absolute entry of all residuals, mu = 0 */
-  PetscReal dual_norm;                 /* 2-norm of the stationarity residual */
+  PetscReal work;      /* what the residuals are worth in the objective, over a multiple of its size */
+  PetscReal work_dual; /* the stationarity residual's share of it */
+  PetscReal own;       /* largest violation over the terms of its own constraint; looked at near the end alone: own.c */
+  PetscReal violation; /* of constraints, slacks apart, over their first size */
+  PetscReal unscaled;  /* largest absolute entry of all residuals, mu = 0 */
+  PetscReal dual_norm; /* 2-norm of the stationarity residual */
   PetscReal inf_pr, inf_du, inf_compl; /* largest absolute entries of the primal and the dual residual, and of t z */
 } IPKKT;
 
@@ -73,7 +76,16 @@ PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscReal *mean);
 
+/* own.c */
+PETSC_INTERN PetscErrorCode IPOwnTerms(Tao, Mat, Vec sums, Vec largest);
+PETSC_INTERN PetscErrorCode IPOwnViolation(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPOwnActiveSize(Tao, PetscReal *);
+
 /* scale.c */
+PETSC_INTERN PetscErrorCode IPMeasureReach(Tao);
+PETSC_INTERN PetscReal      IPReach(const TAO_IPFILTER *, PetscReal xsize);
+PETSC_INTERN PetscErrorCode IPSizeWithinReach(Tao, Vec, PetscReal reach, PetscReal *);
+PETSC_INTERN PetscErrorCode IPValuesWithinReach(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
 

@@ -4,7 +4,7 @@
      l <= c_I, l <= c_I <= u   c = c_I - l
      c_I <= u                  c = u - c_I
      l = u                     an equality constraint c_I - l = 0, behind the caller's own ones of this rank
-     none                      nothing
+     none, or 1e19 and more    nothing
 
    Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
 */
@@ -22,9 +22,12 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscFunctionReturn(0);
 }
 
+/* Rows whose bound is this far off have none: IPOPT's nlp_lower_bound_inf and its counterpart */
+#define IP_NO_BOUND 1e19
+
 static inline PetscBool Finite(PetscReal bound)
 {
-  return (PetscBool)(PetscAbsReal(bound) < PETSC_INFINITY);
+  return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
 }
 
 /* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality

@@ -35,7 +35,8 @@ typedef struct {
   PetscReal theta0;             /* at the first iterate; negative: none yet */
   PetscReal theta_ref, phi_ref; /* units */
   PetscReal equality_weight;    /* brings c_E to the units of theta */
-  PetscReal rounding;           /* changes of phi below this mean nothing */
+  PetscReal rounding;           /* changes of phi below this mean nothing, */
+  PetscReal theta_rounding;     /* and values of theta */
   PetscReal alpha, alpha_dual;
   PetscInt  ntrials;
   PetscBool blocked;              /* whether it was the filter alone that refused the last trial point refused */
