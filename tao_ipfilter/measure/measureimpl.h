@@ -13,7 +13,7 @@ typedef struct {
   PetscReal unit;        /* of the objective, with scaling by gradients: 1, or what brings them down to the limit */
   PetscReal length, equality; /* of c_I, but for rows that are out of reach, and of c_E */
   PetscReal x;
-  PetscReal reach;             /* how far the unknowns may be expected to move: scale.c; 0: not known */
+  PetscReal reach;             /* how far unknowns may be expected to move: reach.c; 0: not known */
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* of the terms that make up the objective */
@@ -22,6 +22,7 @@ typedef struct {
 /* Stiffness of the objective at the start, from the diagonal of H */
 typedef struct {
   Vec       rho;    /* pressure per length that resists each constraint */
+  Vec       reach;  /* how far each constraint's value may be expected to change: reach.c; NULL: not known */
   PetscReal mean;   /* harmonic mean of rho, weighted */
   Vec       hdiag;  /* |diagonal of H|, now */
   PetscReal hscale; /* its mean at the start, */
@@ -77,15 +78,16 @@ PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscReal *mean);
 
 /* own.c */
-PETSC_INTERN PetscErrorCode IPOwnTerms(Tao, Mat, Vec sums, Vec largest);
+PETSC_INTERN PetscErrorCode IPOwnTerms(Mat, Vec x, Vec sums, Vec largest);
 PETSC_INTERN PetscErrorCode IPOwnViolation(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPOwnActiveSize(Tao, PetscReal *);
 
-/* scale.c */
+/* reach.c */
 PETSC_INTERN PetscErrorCode IPMeasureReach(Tao);
-PETSC_INTERN PetscReal      IPReach(const TAO_IPFILTER *, PetscReal xsize);
-PETSC_INTERN PetscErrorCode IPSizeWithinReach(Tao, Vec, PetscReal reach, PetscReal *);
+PETSC_INTERN PetscErrorCode IPSizeWithinReach(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode IPValuesWithinReach(Tao, Vec, Vec);
+
+/* scale.c */
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
 

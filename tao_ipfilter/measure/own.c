@@ -3,7 +3,7 @@
 #include "tao_ipfilter/ipfilterimpl.h"
 
 /* Of every row of J: sum_j |J_ij x_j|, the terms that cancel where it is met, and max_j |J_ij|; largest may be NULL */
-PetscErrorCode IPOwnTerms(Tao tao, Mat J, Vec sums, Vec largest)
+PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
 {
   Mat          terms;
   PetscScalar *sum, *most = NULL;
@@ -11,7 +11,7 @@ PetscErrorCode IPOwnTerms(Tao tao, Mat J, Vec sums, Vec largest)
 
   PetscFunctionBegin;
   PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &terms));
-  PetscCall(MatDiagonalScale(terms, NULL, tao->solution));
+  PetscCall(MatDiagonalScale(terms, NULL, x));
   PetscCall(MatGetOwnershipRange(terms, &rstart, &rend));
   PetscCall(VecGetArrayWrite(sums, &sum));
   if (largest) PetscCall(VecGetArrayWrite(largest, &most));
@@ -50,7 +50,7 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   for (PetscInt k = 2; k < 5; k++) PetscCall(IPGetWork(tao, space, &v[k]));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
   PetscCall(MatMult(J, tao->solution, v[2]));
-  PetscCall(IPOwnTerms(tao, J, v[3], v[4]));
+  PetscCall(IPOwnTerms(J, tao->solution, v[3], v[4]));
   PetscCall(VecGetLocalSize(c, &n));
   for (PetscInt k = 0; k < 5; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
   for (PetscInt i = 0; i < n; i++) {
@@ -104,7 +104,7 @@ PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
   PetscFunctionBegin;
   for (PetscInt k = 2; k < 4; k++) PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v[k]));
   PetscCall(MatMult(ip->jac.inequality, tao->solution, v[2]));
-  PetscCall(IPOwnTerms(tao, ip->jac.inequality, v[3], NULL));
+  PetscCall(IPOwnTerms(ip->jac.inequality, tao->solution, v[3], NULL));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   for (PetscInt k = 0; k < 4; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
   for (PetscInt i = 0; i < n; i++) {

@@ -3,7 +3,6 @@
 
 #define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
 #define IP_AMPLE     30.0  /* a gradient is small that moves the unknowns by no more than so many times the tolerance */
-#define IP_SOFT      1e-8  /* of the largest curvature: less counts as none */
 #define IP_RUNAWAY   100.0 /* an iterate counts for no more than so many times its first size */
 
 /* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
@@ -11,94 +10,6 @@
 static PetscReal Within(PetscReal size, PetscReal limit)
 {
   return limit > 0.0 ? PetscMin(size, limit) : size;
-}
-
-/* Values of c_I beyond this are out of reach: no unknown that moves as far as can be expected makes them zero, and no
-   size hangs on them. PETSC_INFINITY where nothing is known of that. */
-PetscReal IPReach(const TAO_IPFILTER *ip, PetscReal xsize)
-{
-  const PetscReal far = 1e4, reach = PetscMax(ip->first.reach, xsize) * ip->first.jacobian;
-
-  return reach > 0.0 ? far * reach : PETSC_INFINITY;
-}
-
-/* Largest entry of a vector in the layout of c_I that is within reach */
-PetscErrorCode IPSizeWithinReach(Tao tao, Vec v, PetscReal reach, PetscReal *size)
-{
-  const PetscScalar *a;
-  PetscReal          largest = 0.0;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(v, NORM_INFINITY, size));
-  if (!(*size > reach)) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(v, &n));
-  PetscCall(VecGetArrayRead(v, &a));
-  for (PetscInt i = 0; i < n; i++)
-    if (PetscAbsScalar(a[i]) <= reach) largest = PetscMax(largest, PetscAbsScalar(a[i]));
-  PetscCall(VecRestoreArrayRead(v, &a));
-  PetscCallMPI(MPI_Allreduce(&largest, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  PetscFunctionReturn(0);
-}
-
-/* The entries of v that are within reach; zeros in the place of the others */
-PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
-{
-  PetscReal    xsize, reach;
-  PetscScalar *a;
-  PetscInt     n;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  reach = IPReach((TAO_IPFILTER *)tao->data, xsize);
-  PetscCall(VecCopy(v, near));
-  PetscCall(VecGetLocalSize(near, &n));
-  PetscCall(VecGetArray(near, &a));
-  for (PetscInt i = 0; i < n; i++)
-    if (PetscAbsScalar(a[i]) > reach) a[i] = 0.0;
-  PetscCall(VecRestoreArray(near, &a));
-  PetscFunctionReturn(0);
-}
-
-/* How far the unknowns may be expected to move: their size, their Newton steps, each by itself, and the way to
-   constraints that are not met; where all of these are zero, the way to the nearest one. With it, what c_I measures
-   at the start. */
-PetscErrorCode IPMeasureReach(Tao tao)
-{
-  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  IPFirst           *first = &ip->first;
-  const PetscScalar *g, *h, *c;
-  PetscReal          way[2] = {0.0, PETSC_NINFINITY}, hmax; /* the largest, and - the least positive c_I */
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  first->reach = 0.0;
-  if (!ip->mi || !(first->jacobian > 0.0)) PetscFunctionReturn(0);
-  PetscCall(VecMax(ip->stiff.hdiag, NULL, &hmax));
-  PetscCall(VecGetLocalSize(tao->gradient, &n));
-  PetscCall(VecGetArrayRead(tao->gradient, &g));
-  PetscCall(VecGetArrayRead(ip->stiff.hdiag, &h));
-  for (PetscInt j = 0; j < n; j++)
-    if (PetscRealPart(h[j]) > IP_SOFT * hmax) way[0] = PetscMax(way[0], PetscAbsScalar(g[j]) / PetscRealPart(h[j]));
-  PetscCall(VecRestoreArrayRead(ip->stiff.hdiag, &h));
-  PetscCall(VecRestoreArrayRead(tao->gradient, &g));
-  PetscCall(VecGetLocalSize(ip->at.c, &n));
-  PetscCall(VecGetArrayRead(ip->at.c, &c));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal ci = PetscRealPart(c[i]);
-
-    way[0] = PetscMax(way[0], -ci / first->jacobian);
-    if (ci > 0.0) way[1] = PetscMax(way[1], -ci / first->jacobian);
-  }
-  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, way, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  if (first->equality_jacobian > 0.0) way[0] = PetscMax(way[0], first->equality / first->equality_jacobian);
-  first->reach = PetscMax(first->x, way[0]);
-  if (first->reach == 0.0 && way[1] > PETSC_NINFINITY) first->reach = -way[1];
-  if (!(first->length > IPReach(ip, first->x))) PetscFunctionReturn(0);
-  PetscCall(IPSizeWithinReach(tao, ip->at.c, IPReach(ip, first->x), &first->length));
-  if (first->length == 0.0) first->length = first->jacobian * first->reach;
-  PetscFunctionReturn(0);
 }
 
 /* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
@@ -112,8 +23,8 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscReal     c, t, gradient, upper = 0.0, transmitted = ip->first.jacobian * ip->pair[IP_SLACK].weight / ip->mi;
 
   PetscFunctionBegin;
-  PetscCall(IPSizeWithinReach(tao, ip->at.c, IPReach(ip, xsize), &c));
-  PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, IPReach(ip, xsize), &t));
+  PetscCall(IPSizeWithinReach(tao, ip->at.c, &c));
+  PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
@@ -136,7 +47,7 @@ static PetscErrorCode EqualityScale(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &sums));
-  PetscCall(IPOwnTerms(tao, ip->jac.equality, sums, NULL));
+  PetscCall(IPOwnTerms(ip->jac.equality, tao->solution, sums, NULL));
   PetscCall(VecNorm(sums, NORM_INFINITY, &norm));
   ip->scale.equality_terms = norm;
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &sums));
