@@ -77,7 +77,7 @@ static PetscErrorCode CountTinySteps(Tao tao)
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal limit = 1e4;
+  const PetscReal limit = 1e4, trace = 1e-3;
   PetscReal       times = 0.0, work = 0.0;
   char            relaxed[64] = "";
 
@@ -91,11 +91,13 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
       "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not "
       "exist",
       (double)ip->kkt.error, relaxed, (double)times));
-  else if (work > ip->tol)
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits",
-      (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
-  else
+  else if (work > ip->tol) {
+    const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
+
+    PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
+      "%s: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits",
+      share <= trace ? "acceptable" : "no solution", (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
+  } else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
       (double)ip->tol, relaxed));
   PetscFunctionReturn(0);

@@ -4,7 +4,7 @@
 */
 #include "../ipfilterimpl.h"
 
-#define IP_FAR  1e4  /* times the change of a constraint that can be expected: its value is out of reach */
+#define IP_FAR  1e3  /* times the change of a constraint that can be expected: its value is out of reach */
 #define IP_SOFT 1e-8 /* of the largest curvature: less counts as none */
 
 /* |x_j|, and the Newton step of each unknown by itself */
@@ -106,11 +106,18 @@ PetscErrorCode IPMeasureReach(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* No unknown is expected to move farther than that */
+PetscReal IPReachOfUnknowns(const TAO_IPFILTER *ip)
+{
+  return ip->first.reach > 0.0 ? IP_FAR * ip->first.reach : PETSC_INFINITY;
+}
+
 /* The entries of v, a vector in the layout of c_I, that are within reach; zeros in the place of the others. The reach
    grows with x. */
 PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
 {
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal    runaway = 100.0;
   PetscReal          xsize, far;
   const PetscScalar *r;
   PetscScalar       *a;
@@ -120,7 +127,7 @@ PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
   PetscCall(VecCopy(v, near));
   if (!ip->stiff.reach) PetscFunctionReturn(0);
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  far = IP_FAR * PetscMax(1.0, xsize / ip->first.reach);
+  far = IP_FAR * PetscClipInterval(xsize / ip->first.reach, 1.0, runaway);
   PetscCall(VecGetLocalSize(near, &n));
   PetscCall(VecGetArrayRead(ip->stiff.reach, &r));
   PetscCall(VecGetArray(near, &a));

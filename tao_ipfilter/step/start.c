@@ -106,9 +106,10 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
     if (!ip->pair[b].n) continue;
     PetscCall(VecGetArrayRead(ip->pair[b].t, &t));
     for (PetscInt j = 0; j < n; j++) {
-      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0), way = PetscRealPart(t[j]);
+      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0);
+      const PetscReal way   = PetscMin(PetscRealPart(t[j]), IPReachOfUnknowns(ip));
 
-      if (way >= PETSC_INFINITY) continue;
+      if (PetscRealPart(t[j]) >= PETSC_INFINITY) continue;
       if (force > linear * PetscRealPart(h[j]) * way) sum[0] += force * way;
       sum[1] += 1.0;
     }
@@ -252,7 +253,7 @@ static PetscErrorCode StartBounds(Tao tao)
   if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
     PetscCall(IPFreeStep(tao, &moved, &mean));
   if (moved) ip->mu = ip->opt.mu_start * mean;
-  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
+  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
     ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
