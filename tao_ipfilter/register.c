@@ -1,8 +1,8 @@
 /* The methods beside the interior point method, and the laws of norm terms: two lines each are all that
    names their folders. */
 #include "ipfilterimpl.h"
-#include "subspace/subspaceimpl.h"
-#include "friction/frictionimpl.h"
+#include "tao_ipfilter/subspace/subspaceimpl.h"
+#include "tao_ipfilter/friction/frictionimpl.h"
 
 PetscErrorCode IPRegisterMethods(TAO_IPFILTER *ip)
 {

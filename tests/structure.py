@@ -14,18 +14,22 @@ FILES = 20  # of a folder, C sources
 # The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
 LAYERS = """
 pc_amgf pc_amgf/blockamg
-tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear tao_ipfilter/step tao_ipfilter/driver
+tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear tao_ipfilter/step tao_ipfilter/driver
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
 pc_amgf/plugin
 src/error src/options src/files src/material src/model src/report
 src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
 src/scene/format src/scene/sections src/scene
 src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
-src/contact/search src/contact/surface src/contact/smooth src/contact/assembly src/contact/gaps src/contact
+src/contact/geometry src/contact/surface src/contact/search src/contact/smooth src/contact/assembly src/contact/gaps src/contact
 src/loads src/constraints src/state src/measure src/step src/run
 src/output src/checkpoint
 apps
 """.split()
+# Public headers, by the lowest folder that defines what they declare
+PUBLIC = {"rankerror.h": "src/error", "options.h": "src/options", "material.h": "src/material", "formulation.h": "src/model", "model.h": "src/model",
+          "report.h": "src/report", "mesh.h": "src/mesh/shapes", "scene.h": "src/scene", "elasticity.h": "src/elasticity/elements",
+          "contact.h": "src/contact/geometry", "step.h": "src/state", "accuracy.h": "src/run", "output.h": "src/output", "checkpoint.h": "src/state"}
 
 DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n", re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
@@ -102,9 +106,37 @@ def calls_upwards(graph):
         yield from (f"{path} -> {other}: {', '.join(sorted(names))}" for other, names in graph[path].items() if layer.get(other, -1) > layer[path])
 
 
+def includes_upwards():
+    """A file includes its own folder's header and those of folders before it, by their path from the top, and public headers of these"""
+    for path in sources("c") + sources("h"):
+        folder = os.path.dirname(path)
+        if folder not in LAYERS:
+            continue
+        for mark, name in re.findall(r'#\s*include ([<"])([^>"]+)', text(path)):
+            home = PUBLIC.get(name) if mark == "<" else os.path.dirname(name) or folder
+            if home and (home not in LAYERS or LAYERS.index(home) > LAYERS.index(folder)):
+                yield f"{path} includes {name}"
+
+
 def crowded_folders():
     count = collections.Counter(os.path.dirname(path) for path in sources("c"))
     yield from (f"{folder} has {n} source files, more than {FILES}" for folder, n in sorted(count.items()) if n > FILES)
+
+
+def readmes():
+    """Every folder has a README.md of a screen that names its files"""
+    for folder in sorted({os.path.dirname(path) for path in sources("c") + sources("h")}):
+        if not os.path.exists(os.path.join(TOP, folder, "README.md")):
+            yield f"{folder} has no README.md"
+            continue
+        page = text(folder + "/README.md")
+        lines = len(page.splitlines())
+        if not 8 <= lines <= 40:
+            yield f"{folder}/README.md has {lines} lines, not 8 to 40"
+        named = set(re.findall(r"`(\w+\.c)`", page))
+        own = {os.path.basename(path) for path in sources("c") if os.path.dirname(path) == folder}
+        yield from (f"{folder}/README.md does not name {name}" for name in sorted(own - named))
+        yield from (f"{folder}/README.md names {name}, which is not there" for name in sorted(named - own))
 
 
 def wide_lines():
@@ -164,7 +196,9 @@ def main():
     rules = {
         "no files call each other in a circle": circles(graph),
         "no folder calls one above it": calls_upwards(graph),
+        "no folder includes a header of one above it": includes_upwards(),
         f"no folder has more than {FILES} source files": crowded_folders(),
+        "every folder has a README that names its files": readmes(),
         f"no line is wider than {COLUMNS} columns": wide_lines(),
         "the sources are as `make format` writes them": unformatted(),
         "no two static functions have one name": repeated_statics(),

@@ -1,5 +1,5 @@
 /* The fields of a checkpoint. */
-#include "src/step/stepimpl.h"
+#include <checkpoint.h>
 #include <string.h>
 
 const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {

@@ -1,5 +1,6 @@
 /* The state of a simulation, to go on from: the path, and what the contact remembers. */
-#include "src/step/stepimpl.h"
+#include <checkpoint.h>
+#include "src/measure/measureimpl.h"
 
 /* A field of a global vector; NULL: zero */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)

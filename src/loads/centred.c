@@ -1,5 +1,5 @@
 /* Quadratic terms of the energy about a centre of their own */
-#include "src/step/stepimpl.h"
+#include "loadsimpl.h"
 
 /* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this
    diagonal; force may be NULL */

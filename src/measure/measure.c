@@ -1,5 +1,5 @@
 /* How good a state is, measured on the elements and the contact rows: forces, gaps, equilibrium, errors. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 /* q = J_full^T M z: the forces on the two sides cancel */
@@ -56,10 +56,10 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
   PetscFunctionReturn(0);
 }
 
-/* In the energy norm, relative to that of the displacement; report->energy is set */
-static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
+/* In the energy norm, relative to that of the displacement; report->energy is set. moves: it is rounding's */
+static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {
-  const PetscReal size = PetscSqrtReal(2.0 * report->energy);
+  const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
   PetscReal       sum = 0.0, *cells = NULL;
 
   PetscFunctionBegin;
@@ -78,16 +78,18 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
 /*
    What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
    and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
-   the energy
+   the energy. moves: there is no energy but rounding's, which nothing is relative to
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
-  StepReport *report)
+  PetscBool moves, StepReport *report)
 {
   PetscScalar work, duality = 0.0;
   PetscReal   press = 0.0;
   Vec         products;
 
   PetscFunctionBegin;
+  report->gap_error = report->algebraic_error = 0.0;
+  if (moves) PetscFunctionReturn(0);
   PetscCall(VecDot(u, residual, &work));
   if (weighted) {
     PetscCall(VecDuplicate(weighted, &products));
@@ -111,25 +113,28 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
    reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
    error
 */
-PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
+  StepReport *report)
 {
-  Simulation sim = p->sim;
-  Vec        force, ties, rigid, contact = NULL, weighted = NULL;
-  PetscReal  size, residual, rounding;
+  const Constraints constraints = SimulationConstraints(sim);
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL;
+  PetscReal         size, residual, rounding;
+  PetscBool         moves; /* the bodies move as a whole, without stress */
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
   rounding *= 1e-11 * sim->stiffness; /* what may be left of the forces of a body that moves as a whole */
   PetscCall(ForcesReserve(sim, report));
-  PetscCall(VecDuplicate(p->base, &force));
+  PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
-  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
+  moves = (PetscBool)(size <= rounding);
+  if (load) PetscCall(VecAXPY(force, -1.0, load));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
-    PetscCall(VecDuplicate(p->base, &contact));
+    PetscCall(VecDuplicate(u, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
@@ -139,19 +144,19 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
     PetscCall(VecAXPY(force, -1.0, contact));
     if (!sim->history.shear) PetscCall(VecDestroy(&contact));
   }
-  PetscCall(TiesGetForces(sim, force, &ties, &rigid));
-  PetscCall(WorkAdd(p, u, force, rigid, &contact, report));
+  PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
+  PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, rounding, report));
+  PetscCall(ForcesMeasureBodies(sim, u, load, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
-  report->equilibrium = size > rounding ? residual / size : 0.0;
-  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, report));
+  report->equilibrium = moves ? 0.0 : residual / size;
+  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, moves, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
-  if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
+  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, moves, report));
   PetscFunctionReturn(0);
 }

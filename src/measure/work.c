@@ -1,6 +1,6 @@
 /* The work of the forces from outside, dead loads and the reactions where displacements are prescribed, and of those
    in the contacts. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
 static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
@@ -56,19 +56,20 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
    prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
    where pairs rub, which end in WorkAdd(), NULL: none
 */
-PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
+PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
-  LoadPath       *path = &p->sim->path;
+  LoadPath       *path = &sim->path;
   const PetscReal work = path->work, taken = path->contact_work;
-  Vec             outside, reaction, way = p->w;
+  Vec             outside, reaction, way;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
   PetscCall(VecDuplicate(u, &reaction));
+  PetscCall(VecDuplicate(u, &way));
   PetscCall(VecCopy(unbalanced, outside));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, outside));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
-  if (p->load) PetscCall(VecWAXPY(outside, 1.0, p->load, reaction));
+  if (load) PetscCall(VecWAXPY(outside, 1.0, load, reaction));
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
@@ -76,9 +77,10 @@ PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, V
   PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(VecDestroy(&way));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (p->sim->history.shear && !p->sim->temperatures.n)
+  if (sim->history.shear && !sim->temperatures.n)
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 /* The life of a simulation, and what its caller may set and ask. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 /*@C
    SimulationCreate - Prepares to simulate a scene
@@ -257,6 +257,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->report.warnings));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree2(s->shear, s->slip));
+  PetscCall(PetscFree(s->cause));
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
   PetscCall(ResultsFree(&s->results));

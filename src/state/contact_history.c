@@ -1,5 +1,5 @@
 /* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
-#include "src/step/stepimpl.h"
+#include "stateimpl.h"
 
 static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 static const PetscReal open_share = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is

@@ -1,5 +1,5 @@
 /* How far a linearization of contact is from that at the state which was found with it, beside the gap. */
-#include "src/step/stepimpl.h"
+#include "stepimpl.h"
 
 /* What of the normals' turning a gap counts for: the forces stand askew by a hundred times the relative change of the
    gap at most */

@@ -1,5 +1,5 @@
 /* One line an iteration in IPOPT's columns. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points,
    Krylov iterations (f: with the filter) */

@@ -8,7 +8,6 @@
    does. The condition number is a small one whatever the mesh. Old factors serve other B_v and B_f for as long as
    GMRES is quick with them.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 

@@ -1,5 +1,4 @@
 /* The laws of norm terms as the subspace asks for them. */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "frictionimpl.h"
 
 struct _p_IPLaws {

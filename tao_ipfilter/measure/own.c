@@ -1,6 +1,6 @@
 /* Violations beside the terms that the constraints themselves are made of, now: the sizes at a start that lay far off,
    or those of other rows, would let anything pass. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 /* Of every row of J: sum_j |J_ij x_j|, the terms that cancel where it is met, and max_j |J_ij|; largest may be NULL */
 PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)

@@ -8,7 +8,6 @@
    active set this is CG preconditioned by the `fbf` cycle of PCAMGF; where the set changes nothing is lost, and P
    serves the next solve with the same K, whatever its constraints and loads.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 /* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which

@@ -1,5 +1,4 @@
 /* One line an iteration of the filtered subspace method. */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 /* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far,

@@ -10,7 +10,6 @@
    leads from feasible points to feasible ones, at any length up to 1. V outlives the step: with another H only the
    products H P are made anew.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 /* r = J^T force - grad f - H d without its part on W, which is zero but for rounding, and its norm */

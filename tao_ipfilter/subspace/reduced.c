@@ -3,7 +3,6 @@
    P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
    as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 /* A matrix of rows of A, its columns those of W, on the first rank; half: A has its upper triangle only */

@@ -1,6 +1,5 @@
 /* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner
    and directions of K. */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 /* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */

@@ -3,7 +3,6 @@
    span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
    of the preconditioner B of K alone to what the problem on V leaves of the residual.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
 #include "subspaceimpl.h"
 
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)

@@ -1,5 +1,5 @@
 /* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* Entries of a row that are this small beside its largest are rounding of exact zeros */
 #define ENTRY_DROP 1e-14

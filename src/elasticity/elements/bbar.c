@@ -11,7 +11,7 @@
    elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002:
    polynomials of the place, not of the cell's parameters.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 #define POLYNOMIALS 4 /* at most */
 
@@ -207,5 +207,10 @@ static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, P
   }
 }
 
-const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar,
-  ElementStrains_Bbar};
+const Element ElementBbar = {
+  .energy    = ElementEnergy_Bbar,
+  .force     = ElementForce_Bbar,
+  .stiffness = ElementStiffness_Bbar,
+  .cauchy    = ElementCauchy_Bbar,
+  .strains   = ElementStrains_Bbar,
+};

@@ -12,7 +12,7 @@
    class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
    versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 #define MODES 12
 
@@ -190,5 +190,11 @@ static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMateri
   }
 }
 
-const Element ElementIncompatible = {ElementEnergy_Incompatible, ElementForce_Incompatible,
-  ElementStiffness_Incompatible, ElementCauchy_Incompatible, ElementStrains_Incompatible};
+const Element ElementIncompatible = {
+  .nnodes    = 8,
+  .energy    = ElementEnergy_Incompatible,
+  .force     = ElementForce_Incompatible,
+  .stiffness = ElementStiffness_Incompatible,
+  .cauchy    = ElementCauchy_Incompatible,
+  .strains   = ElementStrains_Incompatible,
+};

@@ -1,5 +1,5 @@
 /* Level 0 grids made of blocks of cells, graded, and the limits of their numbers: what the shapes share */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 /* Both sides of a block that are normal to direction d */
 static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)

@@ -1,5 +1,5 @@
 /* Expressions of a scene file: evaluated, checked, and complained of. */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include "src/model/modelimpl.h"
 
 static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const char text[], const char variables[],

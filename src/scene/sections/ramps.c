@@ -1,5 +1,5 @@
 /* load and ramps: the program of the load itself and of what follows a program of its own */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 /* Equal parts of a rise from 0 to 1 */
 static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
