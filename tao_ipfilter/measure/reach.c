@@ -2,7 +2,7 @@
    Constraints out of reach: no unknown that moves as far as can be expected makes them zero. Rows of 1e8 or 1e10 that
    stand for none are such. No size hangs on them: beside them all that matters would be small.
 */
-#include "../ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_FAR  1e3  /* times the change of a constraint that can be expected: its value is out of reach */
 #define IP_SOFT 1e-8 /* of the largest curvature: less counts as none */

@@ -30,14 +30,23 @@ static inline PetscBool Finite(PetscReal bound)
   return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
 }
 
+/* Whether c is measured from the lower bound: not where that is so far off beside the upper one that rounding would
+   take what matters */
+static inline PetscBool FromLower(PetscReal l, PetscReal u)
+{
+  const PetscReal far = 1e6;
+
+  return (PetscBool)(Finite(l) && !(Finite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
+}
+
 /* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality
    constraint, rounding apart */
 static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range,
   PetscBool *equal)
 {
   *equal = (PetscBool)(Finite(l) && Finite(u) && u - l <= IP_TINY_STEP * PetscMax(PetscAbsReal(l), PetscAbsReal(u)));
-  *sign  = *equal ? 0.0 : (Finite(l) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
-  *base  = Finite(l) ? l : (Finite(u) ? u : 0.0);
+  *sign  = *equal ? 0.0 : (FromLower(l, u) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
+  *base  = FromLower(l, u) ? l : (Finite(u) ? u : 0.0);
   *range = Finite(l) && Finite(u) && !*equal ? u - l : PETSC_INFINITY;
 }
 
