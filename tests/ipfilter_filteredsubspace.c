@@ -1,10 +1,13 @@
+#define _GNU_SOURCE /* RTLD_NEXT */
 static char help[] =
   "The filtered subspace method: the interior point method's solution for a fraction of its linear iterations,\n\
 on the same solver and on another\n\
 one again, with dependent rows, by Newton's method where the objective is not quadratic; the interior point\n\
 method where it cannot be.\n\n";
 
+#include "attempt.h"
 #include "ipfilter_problem.h"
+#include <dlfcn.h>
 
 /* A membrane of n x n points over a cap, min 1/2 u^T H u - b^T u, g + J u >= 0: what J and H are made of */
 typedef struct {
@@ -303,8 +306,52 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
   PetscFunctionReturn(0);
 }
 
-/* Two unknowns with the Hessian (1 2; 2 1), 1 +- x_i >= 0, beside others that no row touches: a saddle of -0.003 inside, minima of -1.2 and -0.8 at corners. Factors of the two
-   raise no error, and each pivot on the diagonal is positive. */
+static PetscBool inertia_fails = PETSC_FALSE;
+
+/* In the place of PETSc's, which the library calls on the first rank alone: fails where it is to */
+PetscErrorCode MatGetInertia(Mat F, PetscInt *negative, PetscInt *zero, PetscInt *positive)
+{
+  PetscErrorCode (*theirs)(Mat, PetscInt *, PetscInt *, PetscInt *);
+
+  PetscFunctionBegin;
+  PetscCheck(!inertia_fails, PETSC_COMM_SELF, PETSC_ERR_LIB, "The first rank fails by itself");
+  *(void **)&theirs = dlsym(RTLD_NEXT, "MatGetInertia");
+  PetscCheck(theirs, PETSC_COMM_SELF, PETSC_ERR_LIB, "No MatGetInertia()");
+  PetscCall((*theirs)(F, negative, zero, positive));
+  PetscFunctionReturn(0);
+}
+
+/* What fails on the first rank, which alone solves the reduced problem, fails on all of them */
+static PetscErrorCode TestFirstRank(PetscInt n)
+{
+  Membrane       m = {.copies = 1};
+  PetscErrorCode error;
+  PetscMPIInt    failed, all;
+  Tao            tao;
+  Vec            x;
+
+  PetscFunctionBeginUser;
+  PetscCall(AssembleMembrane(n, &m));
+  PetscCall(AssembleCap(n, 0.0, &m));
+  PetscCall(VecDuplicate(m.q.b, &x));
+  PetscCall(CreateTao(&m, x, "true", &tao));
+  inertia_fails = PETSC_TRUE;
+  PetscCall(AttemptBegin());
+  error = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  inertia_fails = PETSC_FALSE;
+  failed        = error == PETSC_ERR_LIB;
+  PetscCallMPI(MPI_Allreduce(&failed, &all, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error of the first rank: %s\n", all ? "one of all ranks" : "NOT OF ALL"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&m.q));
+  PetscFunctionReturn(0);
+}
+
+/* Two unknowns with the Hessian (1 2; 2 1), 1 +- x_i >= 0, beside others that no row touches: a saddle of -0.003
+   inside, minima of -1.2 and -0.8 at corners. Factors of the two raise no error, and each pivot on the diagonal is
+   positive. */
 static PetscErrorCode TestConcave(void)
 {
   const PetscInt   size = 20;
@@ -365,6 +412,7 @@ int main(int argc, char **argv)
   PetscCall(TestConcave());
   PetscCall(TestLimit("-tao_max_it", n, 0));
   PetscCall(TestLimit("-tao_ipfilter_ksp_max_it", n, 1));
+  PetscCall(TestFirstRank(n));
   PetscCall(PetscFinalize());
   return 0;
 }
