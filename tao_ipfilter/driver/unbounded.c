@@ -27,13 +27,20 @@ static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
   PetscFunctionReturn(0);
 }
 
-/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x,
-   that says nothing */
-static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
+/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x, or
+   beside their own terms, that says nothing */
+static PetscErrorCode UnboundedHere(Tao tao, PetscBool *unbounded)
 {
-  const PetscReal fall = UnboundedFall(ip), small = 1e-3;
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal fall = UnboundedFall(ip), small = 1e-3, trace = 1e-6;
+  PetscReal       own;
 
-  return (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+  PetscFunctionBegin;
+  *unbounded = (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+  if (!*unbounded) PetscFunctionReturn(0);
+  PetscCall(IPOwnViolation(tao, &own));
+  *unbounded = (PetscBool)(own <= trace);
+  PetscFunctionReturn(0);
 }
 
 /* Counts whole steps in a row that a shift of the Hessian alone has kept short, and along which the objective fell as
@@ -120,7 +127,7 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
     *unbounded = PETSC_FALSE;
     PetscFunctionReturn(0);
   }
-  *unbounded = UnboundedHere(ip);
+  PetscCall(UnboundedHere(tao, unbounded));
   PetscCall(UnboundedCount(tao, &fall));
   if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)
     PetscCall(UnboundedAlong(tao, fall, f, unbounded));
