@@ -65,6 +65,10 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
+  PetscCheck(error.code != PETSC_ERR_MEM, comm, PETSC_ERR_USER_INPUT,
+    "%s has more keys than PETSc's options database holds, which is 512 of PETSc 3.18: leave out what is built in, or "
+    "join bodies in a Gmsh file",
+    file);
   PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ,
     "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
   PetscCall(PetscFree(text));
