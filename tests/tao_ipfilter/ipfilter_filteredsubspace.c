@@ -400,10 +400,17 @@ int main(int argc, char **argv)
   const PetscInt n         = 24;
   Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 0.5},
            indefinite = {.copies = 1, .stiffness = -0.05}, wells = {.copies = 1, .quartic = 0.5, .stiffness = -0.05};
+  PetscBool first_rank;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-first_rank", &first_rank));
+  if (first_rank) {
+    PetscCall(TestFirstRank(n));
+    PetscCall(PetscFinalize());
+    return 0;
+  }
   PetscCall(TestKept(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));
@@ -412,7 +419,6 @@ int main(int argc, char **argv)
   PetscCall(TestConcave());
   PetscCall(TestLimit("-tao_max_it", n, 0));
   PetscCall(TestLimit("-tao_ipfilter_ksp_max_it", n, 1));
-  PetscCall(TestFirstRank(n));
   PetscCall(PetscFinalize());
   return 0;
 }
@@ -422,5 +428,11 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3 5}}
+
+   # what an error leaves allocated is no leak
+   test:
+      suffix: first_rank
+      nsize: {{1 3}}
+      args: -first_rank -malloc_dump 0
 
 TEST*/
