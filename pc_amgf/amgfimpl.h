@@ -89,6 +89,7 @@ typedef struct {
   PC           amg;
   KSP          filter;
   PetscBool    configured; /* inner solvers have read their options */
+  PetscBool    bydefault;  /* nobody chose the AMG's type: PCBLOCKAMG, or BoomerAMG where that is not enough */
   PetscBool    active;     /* the subspace is looked for, set up and solved; else the AMG alone */
   PetscBool    optional;   /* no subspace is no mistake, and not warned of */
   PetscBool    warned;
@@ -149,6 +150,7 @@ PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt);
 /* inner.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFSetBlockAMG_Private(PC, PetscBool);
 /* lag.c */
 PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
