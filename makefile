@@ -14,7 +14,7 @@ include share/configuration.mk
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
 plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
-library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c))
+library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c))
 programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard apps/*.c)))
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
@@ -57,7 +57,7 @@ bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
 .PRECIOUS: build/%.o
--include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d)
+-include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)
 
 dependencies:
 	@./share/install-deps.sh

@@ -3,7 +3,7 @@
 #define CHECKPOINT_H
 
 #include <petscdmplex.h>
-#include "scene.h"
+#include "model.h"
 
 /* At the vertices that a rank owns, in the order of the global vectors */
 typedef struct {

@@ -6,7 +6,7 @@
 
 #include <petscdmplex.h>
 #include <petscmat.h>
-#include "scene.h"
+#include "model.h"
 
 typedef struct _n_Contact *Contact;
 

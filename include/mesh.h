@@ -11,7 +11,7 @@
 #define MESH_H
 
 #include <petscdmplex.h>
-#include "scene.h"
+#include "model.h"
 
 #define MESH_BODY_LABEL      "body"
 #define MESH_MAX_NODES       27 /* of a cell */

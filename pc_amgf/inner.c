@@ -30,14 +30,13 @@ static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
   static const char *const names[] = {"-pc_type", "-pc_hypre_type", "-pc_hypre_boomeramg_cycle_type",
     "-pc_hypre_boomeramg_max_iter", "-pc_hypre_boomeramg_tol", "-pc_hypre_boomeramg_grid_sweeps_all",
     "-pc_hypre_boomeramg_grid_sweeps_down", "-pc_hypre_boomeramg_grid_sweeps_up",
-    "-pc_hypre_boomeramg_grid_sweeps_coarse", "-pc_hypre_boomeramg_smooth_type",
-    "-pc_hypre_boomeramg_relax_type_all", "-pc_hypre_boomeramg_relax_type_down", "-pc_hypre_boomeramg_relax_type_up",
-    "-pc_hypre_boomeramg_relax_type_coarse", "-pc_hypre_boomeramg_relax_weight_all",
-    "-pc_hypre_boomeramg_relax_weight_level", "-pc_hypre_boomeramg_outer_relax_weight_all",
-    "-pc_hypre_boomeramg_outer_relax_weight_level", "-pc_hypre_boomeramg_no_CF",
-    "-pc_hypre_boomeramg_print_statistics"};
-  PetscOptions options;
-  const char  *prefix;
+    "-pc_hypre_boomeramg_grid_sweeps_coarse", "-pc_hypre_boomeramg_smooth_type", "-pc_hypre_boomeramg_relax_type_all",
+    "-pc_hypre_boomeramg_relax_type_down", "-pc_hypre_boomeramg_relax_type_up", "-pc_hypre_boomeramg_relax_type_coarse",
+    "-pc_hypre_boomeramg_relax_weight_all", "-pc_hypre_boomeramg_relax_weight_level",
+    "-pc_hypre_boomeramg_outer_relax_weight_all", "-pc_hypre_boomeramg_outer_relax_weight_level",
+    "-pc_hypre_boomeramg_no_CF", "-pc_hypre_boomeramg_print_statistics"};
+  PetscOptions             options;
+  const char              *prefix;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));

@@ -4,7 +4,7 @@
 static PetscBool initialized = PETSC_FALSE;
 
 #if !defined(PETSC_USE_COMPLEX)
-  #include "blockamg/blockamgimpl.h"
+  #include "pc_amgf/blockamg/blockamgimpl.h"
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
 #endif
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);

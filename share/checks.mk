@@ -9,8 +9,8 @@ DEBUG_TESTS     ?= $(SANITIZE_TESTS) $(SANITIZE_ERRORS) amgf_* ipfilter_* mesh_*
 SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
-TIDY_FILES     ?= $(wildcard src/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
-FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* apps tests tests/fuzz tests/stress share/bench,$(folder)/*.c $(folder)/*.h))
+TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
+FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/fuzz tests/stress share/bench,$(folder)/*.c $(folder)/*.h))
 linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
@@ -52,7 +52,7 @@ tidy:
 	  clang-format --dry-run -Werror $$file 2> /dev/null || { echo "tidy: $$file is not as .clang-format has it"; clean=1; }; \
 	done; \
 	for file in $(TIDY_FILES); do \
-	  clang-tidy --quiet $$file -- -std=c11 -Iinclude -I$$(dirname $$file) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(shell $(CC) --showme:compile 2>/dev/null) 2> build/tidy.err || clean=1; \
+	  clang-tidy --quiet $$file -- -std=c11 -Iinclude -I. $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(shell $(CC) --showme:compile 2>/dev/null) 2> build/tidy.err || clean=1; \
 	done; exit $$clean
 	@echo 'tidy: clean'
 

@@ -40,8 +40,9 @@ MARCH  ?=
 ifneq ($(MARCH),)
   override CFLAGS += -march=$(MARCH)
 endif
-COMPILE_FLAGS = -std=c11 -Wall -Wextra -fPIC -MMD -MP -Iinclude $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(CPPFLAGS) $(CFLAGS)
-COMPILE = $(CC) -I$(<D) $(COMPILE_FLAGS) -c
+# <mesh.h> is a public header of include/; "src/mesh/meshimpl.h" a private one, by its path from the top
+COMPILE_FLAGS = -std=c11 -Wall -Wextra -fPIC -MMD -MP -Iinclude -I. $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(CPPFLAGS) $(CFLAGS)
+COMPILE = $(CC) $(COMPILE_FLAGS) -c
 
 # Debian's Python packages serve Debian's Python only
 PYTHON := $(firstword $(wildcard /usr/bin/python3) python3)

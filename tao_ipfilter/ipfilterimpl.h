@@ -24,7 +24,7 @@
 #ifndef IPFILTERIMPL_H
 #define IPFILTERIMPL_H
 
-#include "driver/driverimpl.h"
+#include "tao_ipfilter/driver/driverimpl.h"
 
 typedef enum {
   IP_START_COLD,

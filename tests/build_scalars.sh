@@ -7,10 +7,10 @@ trap 'rm -rf "$work"' EXIT
 headers=$(pkg-config --cflags PETSc)
 
 # compile FILE...: with PETSc's own headers, told that scalars are complex
-compile() { mpicc -std=c11 -Wall -Wextra -Werror=incompatible-pointer-types -fsyntax-only -DPETSC_USE_COMPLEX -I"$AMGF_DIR/include" -I"$AMGF_DIR/pc_amgf" $headers "$@"; }
+compile() { mpicc -std=c11 -Wall -Wextra -Werror=incompatible-pointer-types -fsyntax-only -DPETSC_USE_COMPLEX -I"$AMGF_DIR/include" -I"$AMGF_DIR" $headers "$@"; }
 
 compile "$AMGF_DIR"/pc_amgf/*.c && echo "PCAMGF compiles"
-for file in tao_ipfilter/ipfilter.c src/step/simulation.c; do
+for file in tao_ipfilter/ipfilter.c src/run/simulation.c; do
   compile "$AMGF_DIR/$file" > refusal 2>&1 && echo "$file compiles"
   grep -o '[a-z]* needs a PETSc with real scalars' refusal | sort -u
 done

@@ -3,7 +3,7 @@ static char help[] =
 derivatives.\n\
   -pairs <n> : adversarial pairs of facets, on all ranks together\n";
 
-#include "../src/contact/contactimpl.h"
+#include "src/contact/contactimpl.h"
 #include "contact_report.h"
 
 static ContactRule rule;

@@ -1,6 +1,6 @@
 static char help[] = "Closest point of a bilinear facet, and the nearest of many facets, against exhaustive search.\n";
 
-#include "../src/contact/contactimpl.h"
+#include "src/contact/contactimpl.h"
 #include "contact_report.h"
 
 static void Point(const PetscReal x[12], PetscReal xi, PetscReal eta, PetscReal y[3])

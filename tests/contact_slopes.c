@@ -1,7 +1,7 @@
 static char help[] = "Derivatives of gap and cover over an overlap against central differences, where mesh lines cross "
                      "and where they pass through vertices.\n";
 
-#include "../src/contact/contactimpl.h"
+#include "src/contact/contactimpl.h"
 #include "contact_report.h"
 
 static ContactRule rule;

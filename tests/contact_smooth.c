@@ -2,7 +2,7 @@ static char help[] = "The gap of smooth surfaces: patches on cylinders and spher
                      "planes, rigid motions, forces, finite differences.\n";
 
 #include "contact_problem.h"
-#include "../src/contact/contactimpl.h"
+#include "src/contact/contactimpl.h"
 
 typedef enum {
   TUBES,

@@ -153,7 +153,7 @@ static PetscErrorCode TestMemory(void)
   PetscFunctionReturn(0);
 }
 
-/* As many cubes as it takes for a file to be dealt out to three ranks */
+/* As many cubes as it takes for a file to be distributed out to three ranks */
 static PetscErrorCode WriteBricks(const char file[])
 {
   enum {
@@ -191,10 +191,10 @@ static PetscErrorCode TestDeal(void)
 
   PetscFunctionBeginUser;
   PetscCall(WriteBricks(file));
-  ATTEMPT("the parts of a mesh", CreateStarved(&body, "DealPartition", PETSC_FALSE));
-  ATTEMPT("a part on the first rank", CreateStarved(&body, "DealPartCreate", PETSC_FALSE));
-  ATTEMPT("a part on the last rank", CreateStarved(&body, "DealReceive", PETSC_TRUE));
-  ATTEMPT("the grid of a part on the last rank", CreateStarved(&body, "DealUnpack", PETSC_TRUE));
+  ATTEMPT("the parts of a mesh", CreateStarved(&body, "DistributePartition", PETSC_FALSE));
+  ATTEMPT("a part on the first rank", CreateStarved(&body, "DistributePartCreate", PETSC_FALSE));
+  ATTEMPT("a part on the last rank", CreateStarved(&body, "DistributeReceive", PETSC_TRUE));
+  ATTEMPT("the grid of a part on the last rank", CreateStarved(&body, "DistributeUnpack", PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 

@@ -7,10 +7,10 @@ import shutil
 import subprocess
 
 TOP = os.environ["AMGF_DIR"]
-FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "apps")
+FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "src/*/*", "apps")
 COLUMNS = 120  # of a line of code
 FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
-LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "space", "step", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
+LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "step", "friction", "subspace", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
 
 DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n", re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
@@ -131,7 +131,8 @@ def misplaced_declarations(defined):
         sections = [(match.start(), match[1]) for match in SECTION.finditer(content)]
         for match in DECLARATION.finditer(content):
             above = [names for start, names in sections if start < match.start()]
-            homes = [os.path.join(folder, name) for name in above[-1].split(", ")] if above else []
+            names = above[-1].split(", ") if above else []
+            homes = [where for where in defined if os.path.basename(where) in names and where.split("/")[0] == folder.split("/")[0]]
             if homes and not any(match[1] in defined.get(home, ()) for home in homes):
                 real = [where for where, names in defined.items() if match[1] in names]
                 yield f"{path}: {match[1]} stands under {above[-1]}, is defined in {', '.join(real) or 'no file'}"

@@ -5,7 +5,7 @@
    down, from zero:   x = (L + D + S)^-1 b,  then the residual b - A x = S x - L^T x - E x
    up:                x = (D + S + L^T)^-1 (b - L x + S x - E x)
 */
-#include "../amgfimpl.h"
+#include "pc_amgf/amgfimpl.h"
 #include "blockamgimpl.h"
 #include <float.h>
 #if defined(__SSE__)

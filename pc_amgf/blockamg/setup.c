@@ -1,7 +1,7 @@
 /* Set-up: hypre's BoomerAMG sets up its hierarchy, which is converted and freed */
-#include "../amgfimpl.h"
+#include "pc_amgf/amgfimpl.h"
 #include "blockamgimpl.h"
-#include "../guard.h"
+#include "pc_amgf/guard.h"
 
 /* The preconditioner has failed, on all ranks */
 static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])

@@ -157,7 +157,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(PetscFree(thickness));
   PetscCall(ContactCreateTrace(c));
   PetscCall(ContactRowsCreate(c));
-  PetscCall(ContactShareCreate(c));
+  PetscCall(ContactHangingRowsCreate(c));
   PetscCall(ContactSetUpPairs(c));
   *contact = c;
   PetscFunctionReturn(0);

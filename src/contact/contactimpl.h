@@ -51,7 +51,7 @@ PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3],
        PetscReal normal[3]);
 
-/* patchslopes.c: derivatives of what is made of a patch's points. by: the derivative by each number of the patch, at
+/* patch_slopes.c: derivatives of what is made of a patch's points. by: the derivative by each number of the patch, at
    its place */
 PETSC_INTERN void ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
@@ -106,7 +106,7 @@ typedef struct {
 PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *,
   const ContactRule *, ContactOverlap *);
 
-/* overlapslopes.c: the weighted gap of two smooth surfaces over an overlap, and all that it changes with */
+/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and all that it changes with */
 typedef struct {
   PetscReal x[4][12],
     normal[4][12];        /* of int phi_A gap, for the four A: by a facet's vertices, and by the unit normals there */
@@ -233,7 +233,7 @@ PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner,
 PETSC_INTERN void ContactRingEdges(const ContactRing *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
 
-/* bend.c: normals of the smooth surface, from the facets' corners */
+/* corner_normals.c: normals of the smooth surface, from the facets' corners */
 #define CONTACT_FLAT_CORNER \
   1e-4 /* squared sine of the angle of a facet's corner, below which it is as good as straight */
 PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
@@ -244,10 +244,10 @@ PETSC_INTERN void      ContactRingNormal(const ContactRing *, PetscInt corner, P
 /* mirror.c: a ring's images in the planes that the surface ends on */
 PETSC_INTERN PetscErrorCode ContactRingAddImages(MPI_Comm, PetscReal length, PetscInt nown, ContactRing *);
 
-/* gather.c: makes a ring */
+/* ring_create.c: makes a ring */
 PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
 
-/* bendslopes.c: what the normals change with the nodes */
+/* corner_normal_slopes.c: what the normals change with the nodes */
 typedef struct {
   PetscInt     n;     /* blocks so far */
   PetscInt    *node;  /* of the ring; NULL: blocks are counted only */
@@ -323,11 +323,11 @@ typedef struct {
   PetscInt  *vertex;         /* [nlocal] local DMPlex points */
   PetscInt  *held; /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined
                      plane across which there is none; NULL: not yet asked for */
-  PetscReal *normal; /* [3 nlocal] averaged unit normals */
-  PetscReal *x;      /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;   /* int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight; /* the same, with that of hanging vertices at those they hang between */
-  Mat        share;  /* which rows what is added up for a row goes to; NULL: no vertex hangs, and it stays */
+  PetscReal *normal;  /* [3 nlocal] averaged unit normals */
+  PetscReal *x;       /* [3 nlocal] coordinates of the deformed vertices [length] */
+  Vec        mass;    /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight;  /* the same, with that of hanging vertices at those they hang between */
+  Mat        hanging; /* which rows what is added up for a row goes to; NULL: no vertex hangs, and it stays */
 } ContactRows;
 
 /* What the normals of all smooth surfaces change with a displacement; a rank has those of its own facets' corners */
@@ -335,7 +335,7 @@ typedef struct {
   PetscInt            nlocal; /* normals */
   ContactNormalSlopes blocks; /* the same nodes in the same order at every displacement */
   Mat                 slopes; /* three rows a normal, columns are the DM's global rows; NULL where no pair is smooth */
-} ContactBends;
+} ContactSmoothNormals;
 
 /* Along what a mortar gap is measured */
 typedef enum {
@@ -355,7 +355,7 @@ struct _n_Contact {
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* that the faces of the bodies are held by; the caller's */
   PetscBool                smoothed;      /* whether it has been looked which pairs are curved */
-  ContactBends             bends;
+  ContactSmoothNormals     bends;
   Mat trace; /* what is added to the mesh's displacement at vertices of the surfaces; NULL: no face has order 2 */
   ContactRule rule;  /* of the triangles that overlaps are cut into */
   PetscReal   reach; /* distance that pairs without one of their own look for at least [length] */
@@ -372,15 +372,16 @@ struct _n_Contact {
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 
-/* share.c: rows of hanging vertices */
-PETSC_INTERN PetscErrorCode ContactShareCreate(Contact);
-PETSC_INTERN PetscErrorCode ContactShareVector(Contact, Vec sums);
-PETSC_INTERN PetscErrorCode ContactShareMatrix(Contact, Mat *sums);
+/* hanging_rows.c: rows of hanging vertices */
+PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactHangingRowsVector(Contact, Vec sums);
+PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 
-/* bends.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings' displacement */
-PETSC_INTERN PetscErrorCode ContactBendsCreate(Contact);
-PETSC_INTERN PetscErrorCode ContactBendsUpdate(Contact);
-PETSC_INTERN PetscErrorCode ContactBendsDestroy(Contact);
+/* surface_normals.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings'
+   displacement */
+PETSC_INTERN PetscErrorCode ContactSmoothNormalsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactSmoothNormalsUpdate(Contact);
+PETSC_INTERN PetscErrorCode ContactSmoothNormalsDestroy(Contact);
 
 /* smooth.c: which pairs are curved, and their smooth surfaces */
 PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
@@ -427,7 +428,7 @@ PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, Co
 /*
    mortar.c, node.c: formulations of the gap.
 
-   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/scene/formulation.c.
+   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation.c.
 */
 typedef struct {
   /* Grows box to hold all that may face this rank's part of pair p */
@@ -445,7 +446,7 @@ typedef struct {
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], ContactIntegrals *);
 
-/* contact.c, linearize.c, deep.c: the object's life, its gap, and the error where bodies overlap deeper than it
-   looks, public */
+/* contact.c, linearize.c, initial_overlap.c: the object's life, its gap, and the error where bodies overlap deeper
+   than it looks, public */
 
 #endif

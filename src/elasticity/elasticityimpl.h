@@ -108,7 +108,7 @@ PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, Petsc
    full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from
    its law and its vertices.
 
-   A new element is one file with an Element, one line in element.c, and its name in src/scene/formulation.c. Where it
+   A new element is one file with an Element, one line in element.c, and its name in src/model/formulation.c. Where it
    is left out what order it is of, it takes cells of any.
 */
 typedef struct {
@@ -270,7 +270,7 @@ PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *v
 PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[]);
 
-/* recovery_order2.c */
+/* order2.c */
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 

@@ -90,7 +90,7 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
 /* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's
    partitioners are to part, is not; frees the bodies' grids */
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
-  PetscBool may, PetscBool *dealt, MeshCurves *curves, DM *dm)
+  PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {
   PetscInt64  ncells = 0;
   PetscBool   chosen, file = PETSC_FALSE;
@@ -104,8 +104,9 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
     file = (PetscBool)(file || bodies[b].shape == SHAPE_GMSH);
     ncells += meshes[b].ncells;
   }
-  *dealt = owners.dealt = (PetscBool)(may && file && !chosen && size > 1 && ncells >= MESH_MIN_CELLS_PER_RANK * size);
-  if (owners.dealt) PetscCall(MeshDealGrids(comm, nbodies, meshes, &owners));
+  *distributed = owners.distributed =
+    (PetscBool)(may && file && !chosen && size > 1 && ncells >= MESH_MIN_CELLS_PER_RANK * size);
+  if (owners.distributed) PetscCall(MeshDistributeGrids(comm, nbodies, meshes, &owners));
   PetscCall(MeshCreateLevel0(comm, nbodies, bodies, meshes, &owners, dm));
   PetscCall(MeshOwnersDestroy(&owners));
   PetscCall(MeshCurvesCreate(*dm, nbodies, meshes, curves));
@@ -122,8 +123,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscInt    before = 0, *orders;
   MeshBody   *meshes;
   MeshCurves  curves;
-  MeshHanging hanging = {NULL, NULL};
-  PetscBool   dealt = PETSC_FALSE, locally = (PetscBool)(local->nzones || local->marks);
+  MeshHanging hanging     = {NULL, NULL};
+  PetscBool   distributed = PETSC_FALSE, locally = (PetscBool)(local->nzones || local->marks);
 
   PetscFunctionBegin;
   PetscCall(MeshInitializePackage());
@@ -144,7 +145,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
 
-  PetscCall(MeshCreateParted(comm, nbodies, bodies, meshes, (PetscBool)!locally, &dealt, &curves, dm));
+  PetscCall(MeshCreateParted(comm, nbodies, bodies, meshes, (PetscBool)!locally, &distributed, &curves, dm));
   PetscCall(PetscFree(meshes));
   if (locally) before = refine;
   else if (size > 1) {
@@ -156,7 +157,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
     PetscCall(MeshCurvesRefine(before, *dm, &curves));
   }
   if (locally) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
-  if (size > 1 && !dealt) PetscCall(MeshDistribute(dm, &curves, &hanging));
+  if (size > 1 && !distributed) PetscCall(MeshDistribute(dm, &curves, &hanging));
   PetscCall(MeshRefine(dm, refine - before));
   PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
   PetscCall(MeshSetSection(*dm, orders));

@@ -163,7 +163,7 @@ static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners
   PetscFunctionReturn(0);
 }
 
-/* The other ranks' parts are empty, unless the grids were dealt out */
+/* The other ranks' parts are empty, unless the grids were distributed out */
 PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
   const MeshOwners *owners, DM *dm)
 {
@@ -189,7 +189,7 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
     error.message);
   PetscCall(DMPlexSymmetrize(cells));
   PetscCall(DMPlexStratify(cells));
-  if (owners->dealt) PetscCall(MeshShareVertices(cells, ncells, owners));
+  if (owners->distributed) PetscCall(MeshShareVertices(cells, ncells, owners));
   PetscCall(DMPlexInterpolate(cells, dm));
   PetscCall(DMPlexBuildCoordinatesFromCellList(*dm, 3, coordinates));
   PetscCall(DMDestroy(&cells));

@@ -55,7 +55,7 @@ PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, Petsc
 /*
    box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes.
 
-   A new shape is one file with a Shape, one line in shape.c, and its keys in src/scene/shapes.c.
+   A new shape is one file with a Shape, one line in shape.c, and its keys in src/scene/sections/shapes.c.
 */
 typedef struct {
   /* Names of the faces, NULL-terminated */
@@ -104,7 +104,7 @@ PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
 PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
-/* gmsh_stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
+/* stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
 #define GMSH_WORD 256
 
 typedef struct {
@@ -132,7 +132,7 @@ PETSC_INTERN PetscBool GmshGetReals(GmshStream *, PetscInt64 n, PetscReal values
 PETSC_INTERN PetscBool GmshGetCounts(GmshStream *, const char what[], PetscInt64 n, PetscInt64 counts[]);
 PETSC_INTERN PetscBool GmshGetCountWord(GmshStream *, const char what[], PetscInt64 *count);
 
-/* gmsh_types.c: what an element is, by Gmsh's number of its type */
+/* types.c: what an element is, by Gmsh's number of its type */
 #define GMSH_MAX_NODES 27
 
 typedef struct {
@@ -142,7 +142,7 @@ typedef struct {
 
 PETSC_INTERN const GmshType *GmshGetType(PetscInt64 type);
 
-/* gmsh_facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first;
+/* facets.c: quadrilaterals of cells: the corners in ascending order, and the one across from the first;
    triangles of tetrahedra: first -1, and none across */
 typedef struct {
   PetscInt   nodes[4], across;
@@ -167,7 +167,7 @@ PETSC_INTERN PetscBool      GmshFacetsAgree(const GmshFacets *, GmshStream *);
 PETSC_INTERN PetscBool      GmshFacetsBound(const GmshFacets *, PetscInt ncorners, const PetscInt64 corners[]);
 PETSC_INTERN PetscErrorCode GmshFacetsDestroy(GmshFacets *);
 
-/* gmsh_read.c: the mesh of a file. Not collective; what is wrong with its form and numbers, in a sentence of so many
+/* read.c: the mesh of a file. Not collective; what is wrong with its form and numbers, in a sentence of so many
    characters, or "" */
 typedef struct {
   const GmshType *type;
@@ -189,22 +189,22 @@ PETSC_INTERN PetscErrorCode GmshMeshDestroy(GmshMesh *);
 PETSC_INTERN PetscBool      GmshMeshHasTag(const GmshMesh *, const GmshElement *, PetscInt tag);
 PETSC_INTERN PetscErrorCode GmshMeshFindNode(const GmshMesh *, PetscInt number, PetscInt *place);
 
-/* gmsh_names.c, collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags
+/* names.c, collective. Names are in the order of the file, as MeshGetFaceNames() gives those of surfaces; tags
    may be NULL */
 PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names,
   PetscInt **tags);
 /* Error if the file has no physical volume of the body's name */
 PETSC_INTERN PetscErrorCode GmshGetVolumeTag(MPI_Comm, const SceneBody *, PetscInt *tag);
 
-/* gmsh_order2.c: the 27 places of a hexahedron, or 10 of a tetrahedron, from as many nodes as it has; the largest
+/* order2.c: the 27 places of a hexahedron, or 10 of a tetrahedron, from as many nodes as it has; the largest
    distance from the straight cell of its corners [length] */
 PETSC_INTERN const PetscInt GmshHexahedronEnds[20][2];
 PETSC_INTERN PetscReal      GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[]);
 
-/* arcs.c: a curve for a grid of straight cells whose surface stands for a curved one */
+/* curved_edges.c: a curve for a grid of straight cells whose surface stands for a curved one */
 PETSC_INTERN PetscErrorCode ShapeGridBend(ShapeGrid *);
 
-/* gmsh.c: a Gmsh file, read on rank 0; bodies that come from one file one after another share it */
+/* file.c: a Gmsh file, read on rank 0; bodies that come from one file one after another share it */
 typedef struct {
   const char *name;
   GmshMesh    mesh; /* without elements on the other ranks */
@@ -222,10 +222,10 @@ PETSC_INTERN PetscErrorCode MeshCheckSubfaces(MPI_Comm, const SceneBody *);
 PETSC_INTERN PetscErrorCode MeshLabelSubfaces(DM, const SceneBody *, const ShapeGrid *, PetscInt first);
 PETSC_INTERN PetscErrorCode MeshCheckSubfacesFilled(DM, const SceneBody *);
 
-/* spots.c: labels of the nodes at the scene's points and edges, as faces have them */
-PETSC_INTERN PetscErrorCode MeshLabelSpots(DM, Scene);
+/* point_labels.c: labels of the nodes at the scene's points and edges, as faces have them */
+PETSC_INTERN PetscErrorCode MeshLabelPoints(DM, Scene);
 
-/* rigid.c: a label of all that moves with a rigid body, after the last refinement */
+/* rigid_labels.c: a label of all that moves with a rigid body, after the last refinement */
 PETSC_INTERN PetscErrorCode MeshLabelRigid(DM, PetscInt nbodies, const SceneBody[]);
 
 /* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
@@ -274,10 +274,10 @@ PETSC_INTERN PetscErrorCode MeshQualityTableCreate(PetscInt nnodes, MeshQualityT
 PETSC_INTERN PetscReal      MeshCellQuality(const MeshQualityTable *, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
-/* refine.c: so many uniform refinements of a mesh in place */
+/* refine_uniform.c: so many uniform refinements of a mesh in place */
 PETSC_INTERN PetscErrorCode MeshRefine(DM *, PetscInt levels);
 
-/* hexes.c: hexahedra on one rank, some refined more often than others; of a mesh whose cells are their roots */
+/* hexahedra.c: hexahedra on one rank, some refined more often than others; of a mesh whose cells are their roots */
 typedef struct {
   PetscInt  ncells, *vertex; /* 8 a cell, in tensor order */
   PetscInt *root, *place;    /* 4 numbers a cell: where in its root the lower corner is, in cells of its size, and how
@@ -285,7 +285,7 @@ typedef struct {
   PetscInt  nvertices, maxvertices,
     *parent;                /* 4 a vertex: those that it was made amid, on an edge or a side; the others are negative */
   PetscReal             *x; /* 3 a vertex, as the mesh has them */
-  PetscInt               nplaced; /* the first so many vertices have been placed: mend.c */
+  PetscInt               nplaced; /* the first so many vertices have been placed: refine_inverted.c */
   PetscReal             *placed;  /* 3 a vertex, where they are with all vertices on the curves */
   struct _n_MeshMiddles *middles;
 } MeshHexes;
@@ -295,7 +295,7 @@ PETSC_INTERN PetscErrorCode MeshHexesMarkHolders(const MeshHexes *, PetscBool ma
 PETSC_INTERN PetscErrorCode MeshHexesFindHanging(const MeshHexes *, PetscBool hangs[]);
 PETSC_INTERN PetscErrorCode MeshHexesDestroy(MeshHexes *);
 
-/* zones.c: what the scene refines */
+/* refine_zones.c: what the scene refines */
 PETSC_INTERN PetscErrorCode MeshHexesRefineZones(DM, const SceneBody[], PetscInt n, const SceneRefinement[],
   MeshHexes *);
 
@@ -317,8 +317,8 @@ PETSC_INTERN PetscErrorCode MeshCurvesPlacePart(const MeshCurves *, const MeshHe
 PETSC_INTERN PetscErrorCode MeshCurvesCutOut(const MeshHexes *, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
 
-/* mend.c: fine cells stay the right side out */
-PETSC_INTERN PetscErrorCode MeshHexesMend(DM, const SceneBody[], const MeshCurves *, MeshHexes *);
+/* refine_inverted.c: fine cells stay the right side out */
+PETSC_INTERN PetscErrorCode MeshHexesRefineInverted(DM, const SceneBody[], const MeshCurves *, MeshHexes *);
 
 /* hanging.c: vertices amid an edge or a side of a cell; what is carried along as the mesh is distributed, and what
    becomes of it */
@@ -332,12 +332,12 @@ PETSC_INTERN PetscErrorCode MeshHangingFinish(DM, MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHangingPlace(DM);
 PETSC_INTERN PetscErrorCode MeshHangingDestroy(MeshHanging *);
 
-/* marks.c: marked cells */
+/* refine_marked.c: marked cells */
 PETSC_INTERN PetscErrorCode MeshNumberCells(DM, const MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHexesRefineMarks(const MeshMarks *, DM, const SceneBody[], const MeshCurves *,
   MeshHexes *);
 
-/* local.c: local refinement, in place; the mesh is that of the first rank, with its curves */
+/* refine_local.c: local refinement, in place; the mesh is that of the first rank, with its curves */
 #define MESH_INNER_LABEL "inner" /* of facets inside a body that have one cell */
 typedef struct {
   PetscInt               nzones;
@@ -351,22 +351,22 @@ PETSC_INTERN PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *, const
 PETSC_INTERN PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], const PetscInt weights[], PetscInt part[]);
 
-/* deal.c: collective; the grids on rank 0 become those of all ranks, each a part. Which rank owns each vertex here,
-   as which point of a mesh of cells and vertices */
+/* distribute_level0.c: collective; the grids on rank 0 become those of all ranks, each a part. Which rank owns each
+   vertex here, as which point of a mesh of cells and vertices */
 typedef struct {
-  PetscBool    dealt; /* else all is on rank 0 */
+  PetscBool    distributed; /* else all is on rank 0 */
   PetscInt     n;
   PetscSFNode *points;
 } MeshOwners;
-PETSC_INTERN PetscErrorCode MeshDealGrids(MPI_Comm, PetscInt nbodies, MeshBody[], MeshOwners *);
+PETSC_INTERN PetscErrorCode MeshDistributeGrids(MPI_Comm, PetscInt nbodies, MeshBody[], MeshOwners *);
 PETSC_INTERN PetscErrorCode MeshOwnersDestroy(MeshOwners *);
 
-/* level0.c: all bodies at level 0 with their labels, on rank 0 or dealt out; the first cell of each, tetrahedra
+/* level0.c: all bodies at level 0 with their labels, on rank 0 or distributed out; the first cell of each, tetrahedra
    before hexahedra as DMPlex wants them */
 PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[],
   const MeshOwners *, DM *);
 
-/* boundary.c, create.c, support.c: MeshCreate(), and whether the scene holds its bodies, public */
+/* boundary.c, create.c, check_supports.c: MeshCreate(), and whether the scene holds its bodies, public */
 
 #endif

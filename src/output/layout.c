@@ -27,8 +27,8 @@ PetscErrorCode OutputCreateMesh(DM dm, Output *output)
   PetscCall(PetscNew(output));
   PetscCall(PetscObjectGetComm((PetscObject)dm, &(*output)->comm));
   PetscCall(PetscObjectReference((PetscObject)dm));
-  (*output)->dm    = dm;
-  (*output)->claim = -1;
+  (*output)->dm   = dm;
+  (*output)->lock = -1;
   PetscCall(OutputCount(*output));
   PetscFunctionReturn(0);
 }

@@ -16,13 +16,13 @@ static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool
 static PetscErrorCode OutputBegin(Output output)
 {
   char file[PETSC_MAX_PATH_LEN];
-  int  earlier = output->claim;
+  int  earlier = output->lock;
 
   PetscFunctionBegin;
   PetscCall(OutputGetMeshFile(output, file, sizeof(file)));
   PetscCall(OutputWriteMesh(output));
-  PetscCall(ClaimBegin(output->comm, file, &output->claim));
-  ClaimEnd(&earlier);
+  PetscCall(LockFileBegin(output->comm, file, &output->lock));
+  LockFileEnd(&earlier);
   PetscCall(OutputWriteXDMF(output));
   output->meshed = PETSC_TRUE;
   PetscFunctionReturn(0);
@@ -77,7 +77,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
-  PetscCall(ClaimBegin(o->comm, file, &o->claim));
+  PetscCall(LockFileBegin(o->comm, file, &o->lock));
   PetscCall(OutputTestFile(o->comm, file, &earlier));
   if (!earlier) PetscCall(OutputBegin(o));
   *output = o;
@@ -228,7 +228,7 @@ PetscErrorCode OutputDestroy(Output *output)
 
   PetscFunctionBegin;
   if (!o) PetscFunctionReturn(0);
-  ClaimEnd(&o->claim);
+  LockFileEnd(&o->lock);
   for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
   PetscCall(PetscFree(o->bodynames));
   for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));

@@ -12,13 +12,13 @@
 #include <rankerror.h>
 #include <petscviewerhdf5.h>
 
-/* mute.c: standard output and error lead nowhere between the two */
+/* silence_output.c: standard output and error lead nowhere between the two */
 typedef struct {
   int kept[2]; /* descriptors; negative: none was free, and the stream stays as it is */
-} Mute;
+} SilencedOutput;
 
-PETSC_INTERN void MuteBegin(Mute *);
-PETSC_INTERN void MuteEnd(Mute *);
+PETSC_INTERN void SilenceOutputBegin(SilencedOutput *);
+PETSC_INTERN void SilenceOutputEnd(SilencedOutput *);
 
 /* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and
    names the file */
@@ -43,10 +43,10 @@ PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErro
 PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
   const void *ctx);
 
-/* claim.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first rank,
-   is closed. A file that does not exist is not kept */
-PETSC_INTERN PetscErrorCode ClaimBegin(MPI_Comm, const char file[], int *descriptor);
-PETSC_INTERN void           ClaimEnd(int *descriptor);
+/* lock_file.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first
+   rank, is closed. A file that does not exist is not kept */
+PETSC_INTERN PetscErrorCode LockFileBegin(MPI_Comm, const char file[], int *descriptor);
+PETSC_INTERN void           LockFileEnd(int *descriptor);
 
 /* A step that has been written */
 typedef struct {
@@ -57,8 +57,8 @@ typedef struct {
 struct _n_Output {
   MPI_Comm comm;
   DM       dm;
-  char    *base;  /* of the file names */
-  int      claim; /* of the mesh's file, a descriptor */
+  char    *base; /* of the file names */
+  int      lock; /* of the mesh's file, a descriptor */
   PetscInt nbodies;
   char   **bodynames;
   PetscInt npairs; /* of contact, that have fields of their own; of the steps written */
@@ -120,7 +120,7 @@ PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
 /* history.c: <base>.csv, one line a load step */
 PETSC_INTERN PetscErrorCode OutputWriteHistory(Output, const StepReport *);
 
-/* restart.c, checkpoint.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
+/* read.c, write.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
 typedef struct {
   const char *name;
   size_t      offset;

@@ -109,9 +109,9 @@ PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[],
   const char name[]);
 
-/* spots.c: displacements at points and along edges */
-PETSC_INTERN PetscErrorCode SceneReadSpot(SceneKeys, Scene, PetscInt body, SceneDisplacement *);
-PETSC_INTERN PetscErrorCode SceneViewSpot(Scene, PetscViewer, const SceneDisplacement *);
+/* point_displacements.c: displacements at points and along edges */
+PETSC_INTERN PetscErrorCode SceneReadPoint(SceneKeys, Scene, PetscInt body, SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneViewPoint(Scene, PetscViewer, const SceneDisplacement *);
 
 /* motions.c: rigid motions of faces and of rigid bodies */
 PETSC_INTERN PetscBool      SceneRotates(const SceneDisplacement *);

@@ -39,7 +39,7 @@ static PetscErrorCode SceneViewDisplacement(Scene scene, PetscViewer viewer, Pet
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", displacement->name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  if (displacement->at != DISPLACEMENT_FACE) PetscCall(SceneViewSpot(scene, viewer, displacement));
+  if (displacement->at != DISPLACEMENT_FACE) PetscCall(SceneViewPoint(scene, viewer, displacement));
   else PetscCall(SceneViewTarget(viewer, displacement->face));
   for (PetscInt i = 0; i < 3; ++i)
     free[i] = SceneIsWholeBody(displacement->face) ? displacement->released[i] : (PetscBool)!displacement->fixed[i];

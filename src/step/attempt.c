@@ -41,7 +41,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     PetscCall(ProximalRescue(p, u, report, &rescued));
     if (rescued) nsolves = 0;
   } while (again || rescued);
-  PetscCall(LooseTest(p, u, report));
+  PetscCall(WeakSpringsTest(p, u, report));
   PetscCall(RigidTest(p->sim, u, report));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
@@ -59,7 +59,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   report->gap_true = NAN;
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
-  PetscCall(ContactMemoryChange(&sim->memory, at_u, &report->gap_change));
+  PetscCall(ContactHistoryChange(&sim->history, at_u, &report->gap_change));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   *is_true = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
   report->gap_untrue =
@@ -149,7 +149,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
-    if (resume) PetscCall(GapAnticipate(p, p->sim->linearization));
+    if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
@@ -198,7 +198,7 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
   char                 sentence[128];
 
   PetscFunctionBegin;
-  PetscCall(ContactMemoryFindLost(&sim->memory, at_u, &lost, &nlost));
+  PetscCall(ContactHistoryFindLost(&sim->history, at_u, &lost, &nlost));
   *slid = (PetscBool)(nlost > 0);
   if (nlost) {
     PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
@@ -207,7 +207,7 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
     PetscCall(AttemptLinearizeGap(sim, p->time, u, &deep));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-    PetscCall(ContactMemoryLeastGap(&sim->memory, lost, deep, &least));
+    PetscCall(ContactHistoryLeastGap(&sim->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
       "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
@@ -233,14 +233,14 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 }
 
 /* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
-static PetscErrorCode AttemptNextLinearization(const StepProblem *p, GapSecants *secants, Vec u, Vec u_linearized,
-  StepReport *report, ContactLinearization *at_u)
+static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpdateSecants *secants, Vec u,
+  Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution;
 
   PetscFunctionBegin;
-  PetscCall(GapSecantsAdvance(secants, report->gap_change, u, u_linearized, &damped));
+  PetscCall(ContactUpdateSecantsAdvance(secants, report->gap_change, u, u_linearized, &damped));
   if (damped) PetscCall(AttemptSayDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
@@ -269,7 +269,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   *end  = PETSC_TRUE;
   *slid = PETSC_FALSE;
   PetscCall(AttemptLinearized(p, resume, u_linearized, u, report, sol));
-  if (report->contact_updates) PetscCall(LooseTestMotion(p, u_linearized, u, report));
+  if (report->contact_updates) PetscCall(WeakSpringsTestMotion(p, u_linearized, u, report));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
@@ -316,14 +316,14 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
 
 /* Whether the linearization just solved is to be solved further: it is the last one, or the first, and no more untrue
    than the solve was loose */
-static PetscErrorCode AttemptIsLoose(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
+static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
   PetscBool *again)
 {
   PetscReal size;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *again = (PetscBool)(report->converged && p->loose &&
+  *again = (PetscBool)(report->converged && p->ended_early &&
                        (end || (report->contact_updates == 1 && report->gap_change <= p->tolerance * size)));
   PetscFunctionReturn(0);
 }
@@ -338,11 +338,11 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
 
   PetscFunctionBegin;
   *rests = PETSC_FALSE;
-  PetscCall(RestIsDue(p, &due));
+  PetscCall(ZeroLoadStepIsDue(p, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(u));
   PetscCall(AttemptLinearizeGap(sim, p->time, u, &undeformed));
-  PetscCall(RestSolve(p, undeformed, u, report, sol, rests));
+  PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
   if (*rests) {
     PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = undeformed;
@@ -360,10 +360,10 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
 {
-  Simulation sim          = p->sim;
-  GapSecants secants      = {0};
-  Vec        u_linearized = sim->path.u;
-  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  Simulation           sim          = p->sim;
+  ContactUpdateSecants secants      = {0};
+  Vec                  u_linearized = sim->path.u;
+  PetscBool            end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -374,7 +374,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report,
       sol, at_u, &end, &slid));
-    PetscCall(AttemptIsLoose(p, end, u, report, &again));
+    PetscCall(AttemptEndedEarly(p, end, u, report, &again));
     last = (PetscBool)(again && end);
     if (again) {
       end = PETSC_FALSE;
@@ -387,7 +387,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
-  PetscCall(GapSecantsDestroy(&secants));
+  PetscCall(ContactUpdateSecantsDestroy(&secants));
   report->gap_untrue =
     (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
   if (report->gap_untrue) PetscCall(AttemptSayUntrue(sim, slid, report));

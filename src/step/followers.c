@@ -68,8 +68,8 @@ PetscErrorCode FollowersBegin(StepProblem *p)
 PetscErrorCode FollowersForget(StepProblem *p)
 {
   PetscFunctionBegin;
-  PetscCall(GapSecantsDestroy(&p->secants));
-  p->secants = (GapSecants){0};
+  PetscCall(ContactUpdateSecantsDestroy(&p->secants));
+  p->secants = (ContactUpdateSecants){0};
   PetscFunctionReturn(0);
 }
 
@@ -110,7 +110,7 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   }
   PetscCall(VecDestroy(&load));
   if (nsolves < max_followed) {
-    PetscCall(GapSecantsAdvance(&p->secants, off, u, p->followed, &damped));
+    PetscCall(ContactUpdateSecantsAdvance(&p->secants, off, u, p->followed, &damped));
     *again = PETSC_TRUE;
     PetscCall(FollowersLinearize(p));
   } else

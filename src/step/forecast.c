@@ -105,7 +105,7 @@ PetscErrorCode ForecastSetUp(Simulation sim)
 }
 
 /* The pressures of a pair as a field, or back */
-static PetscErrorCode ForecastCopyPressures(ContactMemory *m, PetscInt pair, Vec field, PetscBool back)
+static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Vec field, PetscBool back)
 {
   PetscScalar *a;
 
@@ -138,7 +138,7 @@ PetscErrorCode ForecastRecord(Simulation sim)
   for (PetscInt f = 0; f < found->nfields; ++f) {
     PetscCall(VecDuplicate(sim->path.u, &fields[f]));
     PetscCall(VecZeroEntries(fields[f]));
-    if (f) PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_FALSE));
+    if (f) PetscCall(ForecastCopyPressures(&sim->history, f - 1, fields[f], PETSC_FALSE));
   }
   PetscCall(VecCopy(sim->path.u, fields[0]));
   PetscFunctionReturn(0);
@@ -164,7 +164,7 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &energy));
   *foreseen = sim->forecast.used = EnergyIsFinite(energy);
   for (PetscInt f = 1; *foreseen && f < here->nfields; ++f)
-    PetscCall(ForecastCopyPressures(&sim->memory, f - 1, fields[f], PETSC_TRUE));
+    PetscCall(ForecastCopyPressures(&sim->history, f - 1, fields[f], PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -177,6 +177,6 @@ PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *ag
   if (!*again) PetscFunctionReturn(0);
   sim->forecast.failed = PETSC_TRUE;
   PetscCall(StepForecastDestroy(&sim->forecast.here));
-  if (sim->contact) PetscCall(PetscArrayzero(sim->memory.pressure, sim->memory.npairs * sim->memory.nowned));
+  if (sim->contact) PetscCall(PetscArrayzero(sim->history.pressure, sim->history.npairs * sim->history.nowned));
   PetscFunctionReturn(0);
 }

@@ -77,10 +77,10 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
 /* Tells the optimizer; scale: of the forces that are remembered, 0 where they are none to begin with */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
-  ContactLinearization lin = p->sim->linearization;
-  const ContactMemory *m   = &p->sim->memory;
-  PetscScalar         *f;
-  Vec                  force;
+  ContactLinearization  lin = p->sim->linearization;
+  const ContactHistory *m   = &p->sim->history;
+  PetscScalar          *f;
+  Vec                   force;
 
   PetscFunctionBegin;
   if (!p->friction.T) PetscFunctionReturn(0);
@@ -88,7 +88,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscCall(VecDuplicate(p->friction.t, &force));
   PetscCall(VecGetArrayWrite(force, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    const PetscReal *kept = &m->shear[3 * ContactMemoryIndex(m, lin, r)];
+    const PetscReal *kept = &m->shear[3 * ContactHistoryIndex(m, lin, r)];
 
     for (PetscInt a = 0; a < 2; ++a) {
       const PetscReal *t = &lin->tangent[6 * r + 3 * a];
@@ -106,7 +106,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->linearization;
-  ContactMemory       *m   = &p->sim->memory;
+  ContactHistory      *m   = &p->sim->history;
   const PetscScalar   *f;
   Vec                  force;
 
@@ -121,7 +121,7 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(VecGetArrayRead(force, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     for (PetscInt c = 0; c < 3; ++c)
-      m->shear[3 * ContactMemoryIndex(m, lin, r) + c] =
+      m->shear[3 * ContactHistoryIndex(m, lin, r) + c] =
         PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
   }
   PetscCall(VecRestoreArrayRead(force, &f));

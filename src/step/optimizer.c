@@ -25,9 +25,9 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscFunctionBegin;
   PetscCall(
     PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
-  interior = (PetscBool)(!ours || (given && !use && !p->friction.T));
-  p->loose = (PetscBool)(p->tolerance > p->sim->tolerances.optimizer && !p->centre && !interior);
-  if (p->loose) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
+  interior       = (PetscBool)(!ours || (given && !use && !p->friction.T));
+  p->ended_early = (PetscBool)(p->tolerance > p->sim->tolerances.optimizer && !p->centre && !interior);
+  if (p->ended_early) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscFunctionReturn(0);
 }
 
@@ -88,7 +88,7 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactMemoryRecall(&p->sim->memory, p->sim->linearization, scale, slack, pressure, any));
+  PetscCall(ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale, slack, pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
   PetscCall(VecDestroy(&pressure));
@@ -178,7 +178,7 @@ static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, c
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (sentence) PetscCall(PetscStrstr(sentence, "unbounded", &unbounded));
-  if (unbounded) PetscCall(FlightReport(sim, u, report));
+  if (unbounded) PetscCall(RigidMotionReport(sim, u, report));
   if (reason < 0 && sim->linearization && sim->linearization->slip) PetscCall(OptimizerSuspectFriction(report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
@@ -204,7 +204,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactMemoryStore(&p->sim->memory, lin, sol, slack ? slack : sol->gap,
+  PetscCall(ContactHistoryStore(&p->sim->history, lin, sol, slack ? slack : sol->gap,
     p->sim->stiffness)); /* no rows, or another optimizer: no slacks */
   PetscFunctionReturn(0);
 }

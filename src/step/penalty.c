@@ -232,7 +232,7 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
   PetscCall(ContactSolutionCreate(penalty->c, sol));
   PetscCall(VecCopy(penalty->c, sol->gap));
   PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, sim->linearization->mass));
-  PetscCall(ContactMemoryStore(&sim->memory, sim->linearization, sol, sol->gap, sim->stiffness));
+  PetscCall(ContactHistoryStore(&sim->history, sim->linearization, sol, sol->gap, sim->stiffness));
   PetscFunctionReturn(0);
 }
 

@@ -96,7 +96,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->base));
   PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));
-  PetscCall(GapSecantsDestroy(&p->secants));
+  PetscCall(ContactUpdateSecantsDestroy(&p->secants));
   PetscCall(VecDestroy(&p->load));
   PetscCall(VecDestroy(&p->force));
   PetscCall(VecDestroy(&p->lower));

@@ -97,7 +97,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
 /* Solves about one centre after another that move on by the same way each: friction does not hold a body, whichever
    way the first solve failed */
-static PetscErrorCode ProximalReportFlight(StepProblem *p, Vec u, StepReport *report)
+static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
   Vec way;
 
@@ -105,7 +105,7 @@ static PetscErrorCode ProximalReportFlight(StepProblem *p, Vec u, StepReport *re
   PetscCall(VecDuplicate(u, &way));
   PetscCall(VecWAXPY(way, -1.0, p->centre, u));
   PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
-  PetscCall(FlightReport(p->sim, way, report));
+  PetscCall(RigidMotionReport(p->sim, way, report));
   PetscCall(VecDestroy(&way));
   PetscFunctionReturn(0);
 }
@@ -134,7 +134,7 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
   p->carried = carried;
   if (*again) PetscCall(ProximalCentre(p, u));
-  else if (p->failed && !falls) PetscCall(ProximalReportFlight(p, u, report));
+  else if (p->failed && !falls) PetscCall(ProximalReportRigidMotion(p, u, report));
   else
     PetscCall(ReportReason(report, PETSC_FALSE,
       p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));

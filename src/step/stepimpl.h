@@ -20,9 +20,9 @@ PETSC_INTERN PetscErrorCode StepEventsRegister(void);
 PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
 PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);
 
-/* resident.c */
-PETSC_INTERN PetscErrorCode ResidentGet(MPI_Comm, PetscLogDouble *bytes);
-PETSC_INTERN PetscErrorCode ResidentGetPeak(MPI_Comm, PetscLogDouble *bytes);
+/* memory_usage.c */
+PETSC_INTERN PetscErrorCode MemoryUsageGet(MPI_Comm, PetscLogDouble *bytes);
+PETSC_INTERN PetscErrorCode MemoryUsageGetPeak(MPI_Comm, PetscLogDouble *bytes);
 
 /* report.c */
 PETSC_INTERN PetscErrorCode ReportWarn(MPI_Comm, RunReport *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
@@ -113,7 +113,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *);
 PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
 
-/* memory.c: pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
+/* contact_history.c: pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
 typedef struct {
   PetscSection global;           /* the mesh's */
   PetscInt     npairs, nowned;   /* nodes that this rank owns */
@@ -124,21 +124,21 @@ typedef struct {
   PetscReal   *settled;          /* that at the last state of equilibrium, */
   PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
   PetscReal   *dissipated;       /* and the work of friction [force length] */
-} ContactMemory;
+} ContactHistory;
 
-PETSC_INTERN PetscErrorCode ContactMemoryCreate(DM, Scene, ContactMemory *);
-PETSC_INTERN PetscInt       ContactMemoryIndex(const ContactMemory *, ContactLinearization, PetscInt row);
-PETSC_INTERN PetscErrorCode ContactMemoryStore(ContactMemory *, ContactLinearization, const ContactSolution *,
+PETSC_INTERN PetscErrorCode ContactHistoryCreate(DM, Scene, ContactHistory *);
+PETSC_INTERN PetscInt       ContactHistoryIndex(const ContactHistory *, ContactLinearization, PetscInt row);
+PETSC_INTERN PetscErrorCode ContactHistoryStore(ContactHistory *, ContactLinearization, const ContactSolution *,
   Vec slack, PetscReal stiffness);
-PETSC_INTERN PetscErrorCode ContactMemoryRecall(const ContactMemory *, ContactLinearization, PetscReal scale, Vec slack,
-  Vec pressure, PetscBool *any);
-PETSC_INTERN PetscErrorCode ContactMemoryChange(const ContactMemory *, ContactLinearization, PetscReal *change);
-PETSC_INTERN PetscErrorCode ContactMemoryFindClosed(const ContactMemory *, ContactLinearization, Vec closed);
-PETSC_INTERN PetscErrorCode ContactMemoryFindLost(const ContactMemory *, ContactLinearization, PetscBool **lost,
+PETSC_INTERN PetscErrorCode ContactHistoryRecall(const ContactHistory *, ContactLinearization, PetscReal scale,
+  Vec slack, Vec pressure, PetscBool *any);
+PETSC_INTERN PetscErrorCode ContactHistoryChange(const ContactHistory *, ContactLinearization, PetscReal *change);
+PETSC_INTERN PetscErrorCode ContactHistoryFindClosed(const ContactHistory *, ContactLinearization, Vec closed);
+PETSC_INTERN PetscErrorCode ContactHistoryFindLost(const ContactHistory *, ContactLinearization, PetscBool **lost,
   PetscInt *nlost);
-PETSC_INTERN PetscErrorCode ContactMemoryLeastGap(const ContactMemory *, const PetscBool lost[], ContactLinearization,
+PETSC_INTERN PetscErrorCode ContactHistoryLeastGap(const ContactHistory *, const PetscBool lost[], ContactLinearization,
   PetscReal *least);
-PETSC_INTERN PetscErrorCode ContactMemoryDestroy(ContactMemory *);
+PETSC_INTERN PetscErrorCode ContactHistoryDestroy(ContactHistory *);
 
 /* path.c: the last two states of equilibrium; load step k ends at time k */
 typedef struct {
@@ -250,7 +250,7 @@ struct _n_Simulation {
   PetscInt  first_step; /* of this run: 0, or that which it goes on with */
   PetscReal increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
   LoadPath  path;
-  ContactMemory        memory;
+  ContactHistory       history;
   PetscContainer       subspace; /* what the optimizer keeps from one load step to the next; NULL before the first */
   ContactLinearization linearization; /* of the last solve */
   ContactLinearization upcoming;      /* at path.u, of the faces as they are */
@@ -336,7 +336,7 @@ PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 
-/* secants.c: where the gap, or a load, is linearized next, within one solve; begins as all zeros */
+/* contact_update_secants.c: where the gap, or a load, is linearized next, within one solve; begins as all zeros */
 #define GAP_SECANTS 2
 typedef struct {
   PetscInt  n, stalls; /* solutions; the last ones without progress */
@@ -345,11 +345,11 @@ typedef struct {
   Vec
     solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
   Vec ways[GAP_SECANTS];    /* the same of the ways [length] */
-} GapSecants;
+} ContactUpdateSecants;
 
-PETSC_INTERN PetscErrorCode GapSecantsAdvance(GapSecants *, PetscReal change, Vec u, Vec u_linearized,
-  PetscBool *damped);
-PETSC_INTERN PetscErrorCode GapSecantsDestroy(GapSecants *);
+PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, PetscReal change, Vec u,
+  Vec u_linearized, PetscBool *damped);
+PETSC_INTERN PetscErrorCode ContactUpdateSecantsDestroy(ContactUpdateSecants *);
 
 /*
    problem.c: min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
@@ -364,25 +364,25 @@ typedef struct {
 } StepFriction;
 
 typedef struct {
-  Simulation sim;
-  PetscReal  time;
-  Mat        K;
-  Vec        base;
-  Vec        load;   /* dead load, and that which follows faces at p->followed [force]; NULL if there is none */
-  Vec        force;  /* gradient at base, zero on prescribed rows [force] */
-  PetscReal  energy; /* objective at base; of the quadratic model only */
-  Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
-  Vec        g;
-  Vec        lower, upper; /* NULL without bounds */
-  GapSecants secants;      /* where the load is taken next */
-  Vec        followed;     /* displacement at which the load is taken; NULL where no pressure follows its face */
-  Vec        centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
-  char      *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
-  PetscReal  carried;      /* what was left between the last solution and its centre [force] */
-  PetscReal  tolerance;    /* KKT error that the present linearization is solved to; 0: that of the load step */
-  PetscBool  loose;        /* the last solve ended by it, short of the load step's */
-  PetscReal  gap_change;   /* of the linearization before the last one */
-  Vec        w, Kw;
+  Simulation           sim;
+  PetscReal            time;
+  Mat                  K;
+  Vec                  base;
+  Vec                  load; /* dead load, and that which follows faces at p->followed [force]; NULL if there is none */
+  Vec                  force;  /* gradient at base, zero on prescribed rows [force] */
+  PetscReal            energy; /* objective at base; of the quadratic model only */
+  Mat                  J;      /* NULL without contact; columns of prescribed rows are zero */
+  Vec                  g;
+  Vec                  lower, upper; /* NULL without bounds */
+  ContactUpdateSecants secants;      /* where the load is taken next */
+  Vec                  followed; /* displacement at which the load is taken; NULL where no pressure follows its face */
+  Vec                  centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
+  char                *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
+  PetscReal            carried;      /* what was left between the last solution and its centre [force] */
+  PetscReal            tolerance; /* KKT error that the present linearization is solved to; 0: that of the load step */
+  PetscBool            ended_early; /* the last solve ended by it, short of the load step's */
+  PetscReal            gap_change;  /* of the linearization before the last one */
+  Vec                  w, Kw;
 
   StepFriction friction;
 } StepProblem;
@@ -420,7 +420,7 @@ PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolut
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
-/* frictionwork.c */
+/* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, const ContactSolution *, StepReport *);
 PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
@@ -443,12 +443,12 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 /* interference.c: overlaps that follow a ramp; gaps that wait for their load step are those of the faces as they are */
 PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
-/* flight.c */
-PETSC_INTERN PetscErrorCode FlightReport(Simulation, Vec u, StepReport *);
+/* diagnose_rigid_motion.c */
+PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, StepReport *);
 
-/* loose.c */
-PETSC_INTERN PetscErrorCode LooseTest(const StepProblem *, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode LooseTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
+/* check_weak_springs.c */
+PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
 /* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last
    solve */
@@ -458,12 +458,12 @@ PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, 
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
-/* anticipate.c */
-PETSC_INTERN PetscErrorCode GapAnticipate(StepProblem *, ContactLinearization);
+/* contact_update_anticipate.c */
+PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
 
-/* rest.c: a load step back to where nothing is asked for */
-PETSC_INTERN PetscErrorCode RestIsDue(const StepProblem *, PetscBool *);
-PETSC_INTERN PetscErrorCode RestSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
+/* zero_load_step.c: a load step back to where nothing is asked for */
+PETSC_INTERN PetscErrorCode ZeroLoadStepIsDue(const StepProblem *, PetscBool *);
+PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
   ContactSolution *, PetscBool *rests);
 
 /* forces.c: forces and moments by pair, by face and by body */
@@ -474,11 +474,11 @@ PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec
   StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
-/* cover.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry: [area, force,
-   gap x area] a vertex */
-PETSC_INTERN PetscErrorCode CoverEvenOut(Simulation, const SceneContactPair *, Vec carried);
+/* nodal_pressure.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry:
+   [area, force, gap x area] a vertex */
+PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
-/* contactpoints.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+/* contact_points.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* work.c */
@@ -503,13 +503,13 @@ PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, Pets
 /* adapt.c */
 PETSC_INTERN PetscErrorCode AdaptAddErrors(Simulation, PetscReal cells[]);
 
-/* adaptcontact.c */
+/* adapt_contact.c */
 PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
 
 /* measure.c */
 PETSC_INTERN PetscErrorCode MeasureState(const StepProblem *, Vec u, const ContactSolution *, StepReport *);
 
-/* start.c */
+/* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
 PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
 
@@ -520,7 +520,7 @@ PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepRe
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
-/* state.c, checkpoint.c, simulation.c, setup.c, step.c, contactfree.c, and accuracy.c on top of them, have no more
+/* fields.c, state.c, simulation.c, setup.c, step.c, contact_free.c, and accuracy.c on top of them, have no more
    than what step.h and accuracy.h offer */
 
 #endif

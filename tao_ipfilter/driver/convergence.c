@@ -1,5 +1,5 @@
 /* When the iteration ends, and with what reason. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero.
    Nothing there gives a scale to measure errors by, so it is not left to the iteration to find out. */
@@ -75,7 +75,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDegenerateCancellation(tao, &times));
-  PetscCall(IPWorthOfRelaxation(tao, &work));
+  PetscCall(IPErrorBoundOfRelaxation(tao, &work));
   if (ip->relax.by > 0.0)
     PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
   if (times > limit)

@@ -1,5 +1,5 @@
 /* One line an iteration in IPOPT's columns. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far,
    directions, active sets that the problem took, active constraints */

@@ -1,5 +1,5 @@
 /* Memory: vectors of the problem's sizes, made in TaoSetUp(), made anew when the sizes change, and freed. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 {

@@ -1,5 +1,5 @@
 /* The outer iteration. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* Objective, constraints and derivatives at the starting point; without them where the objective is not a number */
 static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)

@@ -7,8 +7,8 @@
    is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last
    block is switched on where the system is singular (dependent constraints).
 */
-#include "../ipfilterimpl.h"
-#include "../../pc_amgf/mumps.h"
+#include "tao_ipfilter/ipfilterimpl.h"
+#include "pc_amgf/mumps.h"
 
 PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
 {
@@ -298,7 +298,7 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscCall(VecNorm(bottom, NORM_INFINITY, &constraints));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &bottom));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &top));
-  *needless = (PetscBool)(forces <= asked * IPWorthForceUnit(ip) && constraints <= asked * ip->scale.equality);
+  *needless = (PetscBool)(forces <= asked * IPErrorBoundForceUnit(ip) && constraints <= asked * ip->scale.equality);
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,7 @@
 /* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it
    ends no program. */
-#include "../ipfilterimpl.h"
-#include "../../pc_amgf/guard.h"
+#include "tao_ipfilter/ipfilterimpl.h"
+#include "pc_amgf/guard.h"
 
 /* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can
    neither use again nor take apart: that one is left alone, with a reference that nobody gives back */

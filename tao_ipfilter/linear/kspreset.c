@@ -1,5 +1,5 @@
 /* KSPReset() for any KSP, as PETSc's flexible CG does not bear it. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* Flexible CG would go on with directions that are no longer there: it is made anew */
 PetscErrorCode IPKSPReset(KSP ksp)

@@ -5,7 +5,7 @@
 #ifndef IPFILTER_LINEARIMPL_H
 #define IPFILTER_LINEARIMPL_H
 
-#include "../system/systemimpl.h"
+#include "tao_ipfilter/system/systemimpl.h"
 
 /* What came of a linear solve */
 typedef enum {

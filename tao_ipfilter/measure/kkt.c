@@ -1,5 +1,5 @@
 /* Residuals of the optimality conditions. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z
    of the slacks */
@@ -149,7 +149,7 @@ PetscErrorCode IPComputeKKT(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPComputeScale(tao));
   if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE)
-    PetscCall(IPWorthEnergy(tao, &ip->scale.energy));
+    PetscCall(IPErrorBoundEnergy(tao, &ip->scale.energy));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
@@ -167,7 +167,7 @@ PetscErrorCode IPComputeKKT(Tao tao)
   k->complementarity = products / ip->scale.product;
   k->centrality      = deviation / ip->scale.product;
   k->error           = Larger(Larger(k->dual, k->primal), k->complementarity);
-  PetscCall(IPWorthOfResiduals(tao));
+  PetscCall(IPErrorBoundOfResiduals(tao));
   k->unscaled = Larger(Larger(k->inf_du, k->inf_pr), products);
   PetscFunctionReturn(0);
 }

@@ -5,7 +5,7 @@
 #ifndef IPFILTER_MEASUREIMPL_H
 #define IPFILTER_MEASUREIMPL_H
 
-#include "../problem/problemimpl.h"
+#include "tao_ipfilter/problem/problemimpl.h"
 
 /* Sizes at the starting point */
 typedef struct {
@@ -95,15 +95,15 @@ PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);
 /* resistance.c */
 PETSC_INTERN PetscErrorCode IPTermsResistance(Tao);
 
-/* worth.c */
-PETSC_INTERN PetscErrorCode IPWorthTerms(Tao, PetscReal *);
-PETSC_INTERN PetscErrorCode IPWorthEnergy(Tao, PetscReal *);
-PETSC_INTERN PetscErrorCode IPWorthOfResiduals(Tao);
-PETSC_INTERN PetscErrorCode IPWorthOfRelaxation(Tao, PetscReal *);
-PETSC_INTERN PetscBool      IPWorthWithin(const TAO_IPFILTER *, PetscReal gap);
-PETSC_INTERN PetscReal      IPWorthForceUnit(const TAO_IPFILTER *);
-PETSC_INTERN PetscErrorCode IPWorthForceUnitAfter(Tao, Vec, PetscReal *);
-PETSC_INTERN PetscReal      IPWorthLeastMu(const TAO_IPFILTER *);
+/* error_bound.c */
+PETSC_INTERN PetscErrorCode IPErrorBoundTerms(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPErrorBoundEnergy(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPErrorBoundOfResiduals(Tao);
+PETSC_INTERN PetscErrorCode IPErrorBoundOfRelaxation(Tao, PetscReal *);
+PETSC_INTERN PetscBool      IPErrorBoundWithin(const TAO_IPFILTER *, PetscReal gap);
+PETSC_INTERN PetscReal      IPErrorBoundForceUnit(const TAO_IPFILTER *);
+PETSC_INTERN PetscErrorCode IPErrorBoundForceUnitAfter(Tao, Vec, PetscReal *);
+PETSC_INTERN PetscReal      IPErrorBoundLeastMu(const TAO_IPFILTER *);
 
 /* kkt.c */
 PETSC_INTERN PetscReal      IPBothErrors(const TAO_IPFILTER *);

@@ -1,5 +1,5 @@
 /* The Hessian as the iteration sees it: the caller's matrix, or what it was converted to. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 PetscErrorCode IPHessianDestroy(IPHessian *hess)
 {

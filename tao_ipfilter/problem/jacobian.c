@@ -1,5 +1,5 @@
 /* The constraints' Jacobians as the iteration sees them: as AIJ, rows scaled, columns of fixed variables zeroed. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
 {

@@ -1,5 +1,5 @@
 /* Complementarity pairs (t, z): elementwise algebra of the barrier terms. An absent pair has t = PETSC_INFINITY. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
 {

@@ -8,7 +8,7 @@
 
    Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
 */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 PetscErrorCode IPSidesDestroy(IPSides *sides)
 {

@@ -1,5 +1,5 @@
 /* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* Weighted mean of t z over all pairs */
 PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
@@ -40,7 +40,7 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
     const PetscReal next =
-      PetscMax(IPWorthLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+      PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -72,7 +72,7 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
   ip->bar.corrector_max = 100.0 * before;
-  ip->mu                = PetscMax(sigma * before, IPWorthLeastMu(ip));
+  ip->mu                = PetscMax(sigma * before, IPErrorBoundLeastMu(ip));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscFunctionReturn(0);
 }
@@ -100,7 +100,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   PetscFunctionBegin;
   ip->bar.free = PETSC_FALSE;
   PetscCall(IPBarrierAverage(tao, &ip->mu));
-  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar.first), IPWorthLeastMu(ip));
+  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar.first), IPErrorBoundLeastMu(ip));
   PetscCall(IPFilterSetReset(&ip->filter));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);

@@ -1,6 +1,6 @@
 /* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough
    curvature. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 /* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than
    d^T |diag(H)| d, in which an unknown of another unit counts no more than the others do. */
@@ -126,8 +126,8 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
     largest = PetscMax(largest, product);
     total += sum;
   }
-  *finish =
-    (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product && IPWorthWithin(ip, total));
+  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product &&
+                        IPErrorBoundWithin(ip, total));
   PetscFunctionReturn(0);
 }
 
@@ -167,7 +167,7 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal factor = ip->opt.forcing_last * ip->tol;
-  PetscReal       norm, last = factor * IPWorthForceUnit(ip);
+  PetscReal       norm, last = factor * IPErrorBoundForceUnit(ip);
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;
 
@@ -178,7 +178,7 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscCall(DirectionSolveUnknowns(tao, rhs, ce, matrix, ForcingTarget(ip, last, norm), usable));
   if (*usable) {
     PetscCall(IPBackSubstitute(tao, rc));
-    PetscCall(IPWorthForceUnitAfter(tao, ip->dir.x, &last));
+    PetscCall(IPErrorBoundForceUnitAfter(tao, ip->dir.x, &last));
     last *= factor;
   }
   if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last)

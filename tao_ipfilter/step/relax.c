@@ -4,7 +4,7 @@
    the tolerance times their size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by
    more).
 */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 #define IP_RELAX_FIRST 1e-2 /* of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier of so many times what balances the objective's gradient is a large one */
@@ -57,7 +57,7 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   ip->relax.by = fraction * ip->tol * ip->relax.size;
   PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack,
     (double)ip->relax.by));
-  ip->mu = PetscMax(IPWorthLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * ip->relax.by * ip->scale.balance));
+  ip->mu = PetscMax(IPErrorBoundLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * ip->relax.by * ip->scale.balance));
   PetscCall(RelaxCenter(tao, ip->relax.by - before));
   PetscCall(IPFilterSetReset(&ip->filter));
   ip->rec.best_error = ip->rec.best_violation = PETSC_INFINITY;

@@ -1,5 +1,5 @@
 /* Starting values of slacks and multipliers. */
-#include "../ipfilterimpl.h"
+#include "tao_ipfilter/ipfilterimpl.h"
 
 #define IP_LEAST_START 1e-10 /* gap of the pairs at the start, as a fraction of the terms of the objective */
 
@@ -76,7 +76,7 @@ static PetscErrorCode GradientStiffness(Tao tao)
 
 /* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and
    only the bounds will end it: mean per pair of bounds */
-static PetscErrorCode BoundsWorth(Tao tao, PetscReal *worth)
+static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    linear = 100.0; /* ways that a step of Newton's method is long there */
@@ -127,9 +127,9 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
   ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
-  PetscCall(IPWorthTerms(tao, &terms));
+  PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
-  PetscCall(BoundsWorth(tao, &worth));
+  PetscCall(BoundsErrorBound(tao, &worth));
   ip->mu = PetscMax(ip->mu, ip->opt.mu_start * worth);
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));

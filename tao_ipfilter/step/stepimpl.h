@@ -5,7 +5,7 @@
 #ifndef IPFILTER_STEPIMPL_H
 #define IPFILTER_STEPIMPL_H
 
-#include "../space/spaceimpl.h"
+#include "tao_ipfilter/linear/linearimpl.h"
 
 /* The multiple delta of M_u that is added to the Hessian */
 typedef struct {
@@ -88,9 +88,6 @@ PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
-
-/* newtonsubspace.c */
-PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
 
 /* penalty.c */
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);

@@ -5,7 +5,7 @@
 #ifndef IPFILTER_SYSTEMIMPL_H
 #define IPFILTER_SYSTEMIMPL_H
 
-#include "../measure/measureimpl.h"
+#include "tao_ipfilter/measure/measureimpl.h"
 
 /* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too,
    or of norm terms */

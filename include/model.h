@@ -1,0 +1,268 @@
+/*
+   The model: what is to be simulated, as plain structs. Everybody knows them, and they know nobody. Lengths, forces and
+   pressures are in any consistent set of units.
+*/
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <petscsys.h>
+#include "material.h"
+#include "formulation.h"
+
+typedef enum {
+  SHAPE_BOX,
+  SHAPE_TUBE_ARC,
+  SHAPE_HALF_ELLIPSE,
+  SHAPE_SPHERE_SHELL,
+  SHAPE_SPHEROID_SHELL,
+  SHAPE_BALL,
+  SHAPE_GMSH
+} BodyShape;
+PETSC_EXTERN const char *const BodyShapes[];
+
+/* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to
+   x) */
+typedef struct {
+  PetscInt  axis;      /* 0, 1, 2: along x, y, z */
+  PetscReal center[3]; /* a point on the axis [length] */
+  PetscReal radii[2];  /* inner, outer [length] */
+  PetscReal angles[2]; /* from, to [degrees] */
+  PetscReal extent[2]; /* from, to along the axis [length] */
+} SceneTubeArc;
+
+/* Prism over half an ellipse, or over the half of that on one side of its plane of symmetry */
+typedef struct {
+  PetscInt  axis;      /* of the prism: 0, 1, 2 */
+  PetscInt  depth;     /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
+  PetscInt  half;      /* direction from the plane of symmetry to the half that is meant; PETSC_DECIDE: both halves */
+  PetscReal center[3]; /* a point on the line where the flat side meets the plane of symmetry [length] */
+  PetscReal semi_axes[2]; /* along depth, and across [length] */
+  PetscReal extent[2];    /* from, to along the axis [length] */
+} SceneHalfEllipse;
+
+typedef struct {
+  PetscReal radius, center[3]; /* [length] */
+} SceneSphere;
+
+/* The octants of shells and balls: cut out by the three coordinate planes through a corner */
+typedef struct {
+  PetscReal   corner[3];     /* [length] */
+  PetscInt    signs[3];      /* +-1: the side of each plane; 0 stands for 1 */
+  SceneSphere inner, outer;  /* sphere_shell; outer also ball */
+  SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
+  PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */
+  PetscReal   outer_axes[3];
+  PetscReal   layer_grading; /* thickness of the outermost layer over the innermost; 0 stands for 1 */
+  PetscInt    layer_even;    /* equal layers at the fine end of the grading; 0 stands for 1 */
+} SceneOctant;
+
+/* One volume of a Gmsh file */
+typedef struct {
+  char *file;   /* with its folder */
+  char *volume; /* physical name */
+} SceneGmsh;
+
+/* Facets of a face that lie in a box at refinement level 0, as a face of its own */
+typedef struct {
+  char     *name;               /* "<body>.<name>" is a face */
+  char     *of;                 /* the face, without its body */
+  PetscReal lower[3], upper[3]; /* bounds of the facets' centroids, may be infinite [length] */
+} SceneSubface;
+
+/* Refinement level 0 and the shape. An octant's patches are its cells along x, y and z; a half ellipse's are those of
+   its core along depth and across half of it, and those of the ring around the core. */
+typedef struct {
+  char       *name;
+  BodyShape   shape;
+  PetscReal   lower[3], upper[3]; /* box: corners [length] */
+  PetscInt    cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
+  Material    material;
+  ElementType element;
+  PetscInt  order; /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
+  PetscReal grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
+                               half_ellipse:     core along depth, core across, ring to the arc; 0: 1 */
+  PetscInt  even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt  layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
+  PetscBool curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  SceneTubeArc     tube;
+  SceneHalfEllipse ellipse;
+  SceneOctant      octant;
+  SceneGmsh        gmsh;
+  PetscInt         nsubfaces;
+  SceneSubface    *subfaces;
+} SceneBody;
+
+/* A load program: the factor at the end of each load step, linear in between, 0 before the first */
+typedef struct {
+  char      *name;
+  PetscReal *factor; /* nsteps values */
+} SceneRamp;
+
+typedef enum {
+  DISPLACEMENT_FACE, /* or all of a rigid body */
+  DISPLACEMENT_POINT,
+  DISPLACEMENT_EDGE
+} DisplacementPlace;
+
+#define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
+
+typedef struct {
+  char     *name;
+  char     *face;     /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>"
+                         SCENE_WHOLE_BODY */
+  PetscBool fixed[3]; /* which components are prescribed */
+  PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
+  PetscBool moves;    /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
+  PetscReal rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
+  PetscReal center[3];   /* which moves by value [length] */
+  PetscBool released[6]; /* of a rigid body: its motions along, and about, the axes through the center that are free,
+                            for forces to drive */
+  PetscBool inclined;  /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
+  PetscReal normal[3]; /* of any length */
+  DisplacementPlace at;
+  PetscInt          body;           /* of a point or an edge */
+  PetscReal         from[3], to[3]; /* ends of the edge; of a point the same [length] */
+  PetscInt          ramp;
+} SceneDisplacement;
+
+/* -value x normal of the reference face, a dead load, or of the deformed one */
+typedef struct {
+  char     *name;
+  char     *face;
+  PetscBool follows; /* the deformed normal and area */
+  PetscReal value;   /* at factor 1, positive pushes on the body [force/length^2] */
+  PetscInt  ramp;
+} ScenePressure;
+
+/* Dead load on a face, uniform; or with a resultant, and then linear where there is a moment */
+typedef struct {
+  char     *name;
+  char     *face;      /* of a resultant also all of a rigid body, "<body>" SCENE_WHOLE_BODY */
+  PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
+  PetscReal value[3];
+  PetscReal moment[3]; /* of a resultant, about the point where it acts, at factor 1 [force length] */
+  PetscBool placed;    /* it acts at a point that is given, else at the face's centroid */
+  PetscReal point[3];  /* [length] */
+  PetscInt  ramp;
+} SceneTraction;
+
+/* Springs between a face and the ground, or another face */
+typedef struct {
+  char     *name;
+  char     *face;
+  char     *to;       /* NULL: the ground; another face, which covers the first one */
+  PetscReal distance; /* facets further apart are not joined [length]; 0: chosen from their size */
+  PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
+} SceneSpring;
+
+typedef struct {
+  char     *name;
+  PetscInt  body;     /* index, or PETSC_DECIDE: every body */
+  PetscReal value[3]; /* at factor 1, per reference volume [force/length^3] */
+  PetscInt  ramp;
+} SceneBodyForce;
+
+/* Temperature above that without stress, of bodies that expand; those of one body add up */
+typedef struct {
+  char    *name;
+  PetscInt body;  /* index, or PETSC_DECIDE: every body that expands */
+  char    *value; /* an expression of the undeformed place x, y, z [temperature], at factor 1 */
+  PetscInt ramp;
+} SceneTemperature;
+
+typedef struct {
+  char     *name;
+  char     *mortar;    /* "<body>.<face>" */
+  char     *nonmortar; /* "<body>.<face>": carries the constraints */
+  GapType   gap;
+  PetscReal distance;          /* facets further apart never pair [length]; 0: chosen from the size of the faces */
+  PetscReal interference;      /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
+  PetscInt  interference_ramp; /* that it follows; PETSC_DECIDE: all of it is there from the start */
+  PetscReal friction;          /* coefficient; 0: none, PETSC_INFINITY: any force, which sticks */
+  PetscReal shear_limit;       /* largest shear of the contact [force/length^2]; PETSC_INFINITY: none */
+  PetscInt  friction_ramp;     /* that the coefficient follows; PETSC_DECIDE: none */
+  PetscBool smooth;            /* whether the gap is that of the smooth surfaces which curved faces stand for */
+} SceneContactPair;
+
+static inline PetscBool SceneContactPairRubs(const SceneContactPair *pair)
+{
+  return (PetscBool)(pair->friction > 0.0 && pair->shear_limit > 0.0);
+}
+
+/* Faces that are joined, undeformed */
+typedef struct {
+  char     *name;
+  char     *mortar;
+  char     *nonmortar; /* whose displacements follow */
+  PetscReal distance;  /* facets further apart are not joined [length]; 0: chosen from their size */
+} SceneTie;
+
+/* Cells that are refined more often than the others: near a face, near both faces of a contact pair, or in a box */
+typedef struct {
+  char     *name;
+  char     *face[2];            /* "<body>.<face>"; NULL: none */
+  PetscInt  body;               /* PETSC_DECIDE: any */
+  PetscReal lower[3], upper[3]; /* where there is no face [length] */
+  PetscReal distance;           /* from each face, or from the box [length] */
+  PetscInt  levels;             /* refinements beyond the uniform ones */
+} SceneRefinement;
+
+/* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
+typedef struct {
+  char     *name;
+  PetscInt  body; /* PETSC_DECIDE: any */
+  PetscBool line;
+  PetscInt  n;              /* points */
+  PetscReal from[3], to[3]; /* a point is at from [length] */
+} SceneProbe;
+
+/* A PETSc option, without its dash */
+typedef struct {
+  char     *name, *value;
+  PetscBool set; /* by the scene: neither the command line nor an options file has it */
+} SceneOption;
+
+typedef struct {
+  char              *name;
+  char              *units; /* a note for tables; NULL: not said */
+  PetscInt           nbodies;
+  SceneBody         *bodies;
+  PetscInt           ndisplacements;
+  SceneDisplacement *displacements;
+  PetscInt           npressures;
+  ScenePressure     *pressures;
+  PetscInt           ntractions; /* forces on faces too */
+  SceneTraction     *tractions;
+  PetscInt           nsprings;
+  SceneSpring       *springs;
+  PetscReal weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube
+                             root of the volume; 0: they are not */
+  PetscInt  nforces;
+  SceneBodyForce   *forces;
+  PetscInt          ntemperatures;
+  SceneTemperature *temperatures;
+  PetscInt          npairs;
+  SceneContactPair *pairs;
+  PetscInt          nties;
+  SceneTie         *ties;
+  PetscInt          nrefinements;
+  SceneRefinement  *refinements;
+  PetscInt          nprobes;
+  SceneProbe       *probes;
+  PetscInt          nsteps; /* load steps, at least 1 */
+  PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for whatever names no ramp */
+  SceneRamp        *ramps;
+  PetscInt          refine; /* uniform refinements of level 0 */
+  StepModel         model;
+  PetscInt contact_updates; /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
+  PetscInt displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
+  PetscInt noptions;            /* of the solver */
+  SceneOption *options;
+} * Scene;
+
+/* Factor of a ramp at a time: load step k ends at time k, from 1 */
+PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
+/* An expression of the place */
+PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
+
+#endif

@@ -1,0 +1,119 @@
+/* The fields of a checkpoint. */
+#include "src/step/stepimpl.h"
+#include <string.h>
+
+const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
+  [CHECKPOINT_PRESSURE]   = {"pressure", 1, PETSC_FALSE, PETSC_FALSE},
+  [CHECKPOINT_SLACK]      = {"slack", 1, PETSC_FALSE, PETSC_FALSE},
+  [CHECKPOINT_SHEAR]      = {"shear", 3, PETSC_TRUE, PETSC_TRUE},
+  [CHECKPOINT_SLIP_PATH]  = {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
+  [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
+};
+
+/*@C
+   CheckpointNamePairField - The name of what a checkpoint keeps of a contact pair
+
+   Not Collective
+
+   Input Parameters:
++  pair   - the pair
+.  kind   - which of CheckpointPairFields
+-  length - of the name
+
+   Output Parameters:
++  name - of the field
+-  kept - whether it is kept of this pair
+
+   Level: developer
+
+.seealso: `CheckpointAddField()`
+@*/
+PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length,
+  char name[], PetscBool *kept)
+{
+  const CheckpointPairField *field = &CheckpointPairFields[kind];
+
+  PetscFunctionBegin;
+  *kept = (PetscBool)(!field->friction || SceneContactPairRubs(pair));
+  PetscCall(PetscSNPrintf(name, length, "%s_%s", field->name, pair->name));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointAddField - Adds zeros at the vertices that this rank owns
+
+   Not Collective
+
+   Input Parameters:
++  checkpoint - the checkpoint
+.  name       - of the field
+.  components - values a vertex
+-  nvertices  - vertices of this rank
+
+   Output Parameter:
+.  values - to be filled, borrowed
+
+   Level: developer
+
+.seealso: `CheckpointGetField()`
+@*/
+PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], PetscInt components, PetscInt nvertices,
+  PetscReal **values)
+{
+  CheckpointField *field;
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((size_t)(checkpoint->nfields + 1) * sizeof(*checkpoint->fields), &checkpoint->fields));
+  field             = &checkpoint->fields[checkpoint->nfields++];
+  field->components = components;
+  PetscCall(PetscStrncpy(field->name, name, sizeof(field->name)));
+  PetscCall(PetscCalloc1(components * nvertices, &field->values));
+  *values = field->values;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointGetField - The values of a field
+
+   Not Collective
+
+   Input Parameters:
++  checkpoint - the checkpoint
+-  name       - of the field; one that is not there is an error
+
+   Output Parameter:
+.  values - borrowed
+
+   Level: developer
+
+.seealso: `CheckpointAddField()`
+@*/
+PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], const PetscReal **values)
+{
+  const CheckpointField *found = NULL;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < checkpoint->nfields; ++f) {
+    if (!strcmp(checkpoint->fields[f].name, name)) found = &checkpoint->fields[f];
+  }
+  PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "the checkpoint has no field \"%s\"", name);
+  *values = found->values;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointDestroy - Frees a checkpoint
+
+   Not Collective
+
+   Level: intermediate
+@*/
+PetscErrorCode CheckpointDestroy(Checkpoint *checkpoint)
+{
+  PetscFunctionBegin;
+  if (!*checkpoint) PetscFunctionReturn(0);
+  for (PetscInt f = 0; f < (*checkpoint)->nfields; ++f) PetscCall(PetscFree((*checkpoint)->fields[f].values));
+  PetscCall(PetscFree((*checkpoint)->fields));
+  PetscCall(PetscFree(*checkpoint));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,416 @@
+/* The way back from a checkpoint: to the mesh that it was taken on, or to another one of the same bodies. */
+#include "src/output/outputimpl.h"
+#include <scene.h>
+#include <mesh.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Numbers of a checkpoint that are attributes of its file */
+const CheckpointNumberField CheckpointNumbers[] = {
+  {"time", offsetof(struct _n_Checkpoint, time)},
+  {"previous_time", offsetof(struct _n_Checkpoint, previous_time)},
+  {"increment", offsetof(struct _n_Checkpoint, increment)},
+  {"largest_increment", offsetof(struct _n_Checkpoint, largest_increment)},
+  {"work", offsetof(struct _n_Checkpoint, work)},
+  {"contact_work", offsetof(struct _n_Checkpoint, contact_work)},
+  {NULL, 0},
+};
+
+PetscReal *CheckpointNumber(Checkpoint checkpoint, size_t i)
+{
+  return (PetscReal *)((char *)checkpoint + CheckpointNumbers[i].offset);
+}
+
+/* The mesh of the file, all of it on every rank */
+typedef struct {
+  PetscInt           ncells;
+  Vec                vertices;
+  IS                 cells, body;
+  const PetscScalar *x;
+  const PetscInt    *c, *b;
+  PetscInt          *first, *nnodes; /* of each cell: where its nodes begin, and how many there are */
+} RestartMesh;
+
+/* Which cell of the file each vertex of this rank is in */
+typedef struct {
+  MPI_Comm     comm;
+  const char  *file;
+  PetscViewer  viewer;
+  Scene        scene;
+  Output       output; /* the mesh of the run that goes on */
+  RestartMesh  mesh;
+  MeshLocator  locator; /* NULL: the vertices are those of the file in the same order */
+  PetscScalar *x;       /* the vertices of this rank */
+  PetscInt    *body;
+} Restart;
+
+/* nlocal: rows of this rank, or PETSC_DECIDE */
+static PetscErrorCode RestartLoad(Restart *r, const char name[], PetscInt nlocal, PetscInt components, Vec *v)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCreate(r->comm, v));
+  if (nlocal != PETSC_DECIDE) PetscCall(VecSetSizes(*v, nlocal * components, PETSC_DECIDE));
+  PetscCall(VecSetBlockSize(*v, components));
+  PetscCall(VecSetType(*v, VECSTANDARD));
+  PetscCall(PetscObjectSetName((PetscObject)*v, name));
+  PetscCall(VecLoad(*v, r->viewer));
+  PetscFunctionReturn(0);
+}
+
+/* All of it on every rank */
+static PetscErrorCode RestartLoadAll(Restart *r, const char name[], PetscInt components, Vec *all)
+{
+  Vec        v;
+  VecScatter scatter;
+
+  PetscFunctionBegin;
+  PetscCall(RestartLoad(r, name, PETSC_DECIDE, components, &v));
+  PetscCall(VecScatterCreateToAll(v, &scatter, all));
+  PetscCall(VecScatterBegin(scatter, v, *all, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, v, *all, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(VecDestroy(&v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartLoadIndices(Restart *r, const char name[], IS *all)
+{
+  IS is;
+
+  PetscFunctionBegin;
+  PetscCall(ISCreate(r->comm, &is));
+  PetscCall(ISSetType(is, ISGENERAL));
+  PetscCall(PetscObjectSetName((PetscObject)is, name));
+  PetscCall(ISLoad(is, r->viewer));
+  PetscCall(ISAllGather(is, all));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* The scene's text, and what this scene has not in common with it */
+static PetscErrorCode RestartCompare(Restart *r)
+{
+  IS              is;
+  const PetscInt *letters;
+  PetscInt        n;
+  char           *text, difference[512];
+
+  PetscFunctionBegin;
+  PetscCall(RestartLoadIndices(r, "scene", &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &letters));
+  PetscCall(PetscCalloc1(n + 1, &text));
+  for (PetscInt i = 0; i < n; ++i) text[i] = (char)letters[i];
+  PetscCall(ISRestoreIndices(is, &letters));
+  PetscCall(ISDestroy(&is));
+  PetscCall(SceneCompare(r->scene, text, difference, sizeof(difference)));
+  PetscCall(PetscFree(text));
+  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it is of another scene: in %s", difference);
+  PetscFunctionReturn(0);
+}
+
+/* The numbers, and whether the load is now where it was then */
+static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, "step", PETSC_INT, NULL, &checkpoint->step));
+  for (size_t i = 0; CheckpointNumbers[i].name; ++i)
+    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL,
+      CheckpointNumber(checkpoint, i)));
+  for (PetscInt k = 0; k < r->scene->nramps; ++k) {
+    const char *ramp = r->scene->ramps[k].name;
+    char        name[256];
+    PetscBool   has;
+    PetscReal   then, now;
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "ramp_%s", ramp));
+    PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, name, &has));
+    if (!has) continue;
+    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, &then));
+    PetscCall(SceneGetFactor(r->scene, k, checkpoint->time, &now));
+    PetscCheck(PetscAbsReal(now - then) <= 1e-9 * PetscMax(1, PetscAbsReal(then)), r->comm, PETSC_ERR_USER_INPUT,
+      "at its time %g the factor of ramp \"%s\" was %g, and in the scene it is %g", (double)checkpoint->time, ramp,
+      (double)then, (double)now);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether every rank has the vertices that stand in the file at the same place */
+static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
+{
+  const PetscInt     n = r->output->nowned;
+  PetscInt           size;
+  Vec                stored;
+  const PetscScalar *s;
+
+  PetscFunctionBegin;
+  PetscCall(RestartLoad(r, "vertices", PETSC_DECIDE, 3, &stored));
+  PetscCall(VecGetSize(stored, &size));
+  PetscCall(VecDestroy(&stored));
+  *same = (PetscBool)(size == 3 * r->output->nvertices);
+  if (!*same) PetscFunctionReturn(0);
+  PetscCall(RestartLoad(r, "vertices", n, 3, &stored));
+  PetscCall(VecGetArrayRead(stored, &s));
+  for (PetscInt i = 0; i < 3 * n; ++i) *same = (PetscBool)(*same && s[i] == r->x[i]);
+  PetscCall(VecRestoreArrayRead(stored, &s));
+  PetscCall(VecDestroy(&stored));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, r->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Node number `a` of a cell, of hexahedra in tensor order, which the file has in VTK's order */
+static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt a)
+{
+  static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+
+  return mesh->c[mesh->first[cell] + (mesh->nnodes[cell] == 8 ? vtk[a] : a)];
+}
+
+/* Where the nodes of each cell begin, and how many there are: 8, or as its kind says, which is before them */
+static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nindices)
+{
+  RestartMesh *mesh = &r->mesh;
+  PetscInt     at   = 0;
+  PetscBool    sound;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(mesh->ncells, &mesh->first, mesh->ncells, &mesh->nnodes));
+  for (PetscInt c = 0; c < mesh->ncells && at < nindices; ++c) {
+    mesh->nnodes[c] = mixed ? OutputKindNodes(mesh->c[at++]) : 8;
+    mesh->first[c]  = at;
+    at += mesh->nnodes[c] ? mesh->nnodes[c] : nindices;
+  }
+  sound = (PetscBool)(at == nindices);
+  PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+    "its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartLoadMesh(Restart *r)
+{
+  RestartMesh *mesh = &r->mesh;
+  PetscInt     nindices;
+  PetscBool    mixed;
+
+  PetscFunctionBegin;
+  PetscCall(RestartLoadAll(r, "vertices", 3, &mesh->vertices));
+  PetscCall(PetscViewerHDF5HasDataset(r->viewer, "mixed_cells", &mixed));
+  PetscCall(RestartLoadIndices(r, mixed ? "mixed_cells" : "cells", &mesh->cells));
+  PetscCall(RestartLoadIndices(r, "body", &mesh->body));
+  PetscCall(ISGetLocalSize(mesh->body, &mesh->ncells));
+  PetscCall(VecGetArrayRead(mesh->vertices, &mesh->x));
+  PetscCall(ISGetIndices(mesh->cells, &mesh->c));
+  PetscCall(ISGetIndices(mesh->body, &mesh->b));
+  PetscCall(ISGetLocalSize(mesh->cells, &nindices));
+  PetscCall(RestartFindCells(r, mixed, nindices));
+  PetscFunctionReturn(0);
+}
+
+/* Each vertex has its place in a cell of the file, of the same body */
+static PetscErrorCode RestartLocate(Restart *r)
+{
+  const MeshPlace *places;
+  PetscInt         lost = 0;
+
+  PetscFunctionBegin;
+  PetscCall(RestartLoadMesh(r));
+  PetscCall(MeshLocatorCreate(r->output->nowned, (const PetscReal(*)[3])r->x, r->body, &r->locator));
+  for (PetscInt c = 0; c < r->mesh.ncells; ++c) {
+    PetscReal X[MESH_MAX_NODES][3];
+
+    for (PetscInt a = 0; a < r->mesh.nnodes[c]; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(r->mesh.x[3 * RestartCellNode(&r->mesh, c, a) + d]);
+    }
+    PetscCall(MeshLocatorAddCell(r->locator, c, r->mesh.b[c], r->mesh.nnodes[c], X));
+  }
+  PetscCall(MeshLocatorGetPlaces(r->locator, &places));
+  for (PetscInt i = 0; i < r->output->nowned; ++i) lost += places[i].cell < 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPIU_INT, MPI_SUM, r->comm));
+  PetscCheck(!lost, r->comm, PETSC_ERR_USER_INPUT, "%" PetscInt_FMT " vertices of the mesh are in none of its cells",
+    lost);
+  PetscFunctionReturn(0);
+}
+
+/* Forces stay at the vertices that they are on: what is interpolated would be another sum */
+static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
+{
+  if (!force) return place->N[a];
+  return place->N[a] > 1 - PETSC_SQRT_MACHINE_EPSILON ? 1 : 0;
+}
+
+/* As it is, or interpolated in the file's cells */
+static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt components, PetscBool force,
+  Checkpoint checkpoint)
+{
+  Vec                stored;
+  const PetscScalar *s;
+  const MeshPlace   *places;
+  PetscReal         *values;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointAddField(checkpoint, name, components, r->output->nowned, &values));
+  if (r->locator) PetscCall(RestartLoadAll(r, name, components, &stored));
+  else PetscCall(RestartLoad(r, name, r->output->nowned, components, &stored));
+  PetscCall(VecGetArrayRead(stored, &s));
+  if (r->locator) {
+    PetscCall(MeshLocatorGetPlaces(r->locator, &places));
+    for (PetscInt i = 0; i < r->output->nowned * components; ++i) {
+      const MeshPlace *place = &places[i / components];
+
+      for (PetscInt a = 0; a < place->n; ++a)
+        values[i] += RestartWeight(place, a, force) *
+                     PetscRealPart(s[components * RestartCellNode(&r->mesh, place->cell, a) + i % components]);
+    }
+  } else {
+    for (PetscInt i = 0; i < r->output->nowned * components; ++i) values[i] = PetscRealPart(s[i]);
+  }
+  PetscCall(VecRestoreArrayRead(stored, &s));
+  PetscCall(VecDestroy(&stored));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
+{
+  PetscBool rubs = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
+  PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
+  PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
+  PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
+  if (rubs) PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
+  for (PetscInt p = 0; p < r->scene->npairs; ++p) {
+    for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
+      char      name[128];
+      PetscBool kept;
+
+      PetscCall(CheckpointNamePairField(&r->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
+      if (kept)
+        PetscCall(
+          RestartReadField(r, name, CheckpointPairFields[k].components, CheckpointPairFields[k].sum, checkpoint));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Is it HDF5, and all of it? The library would print a page of its own. The file's end stands at byte 40 of a
+   superblock of version 0 */
+static PetscErrorCode RestartCheckFile(const char file[])
+{
+  unsigned char head[48] = {0};
+  FILE         *stream   = fopen(file, "rb");
+  PetscInt64    length = 0, end = 0;
+  size_t        n = 0;
+
+  PetscFunctionBegin;
+  if (stream) {
+    n = fread(head, 1, sizeof(head), stream);
+    for (int i = 47; i >= 40 && !head[8]; --i) end = 256 * end + head[i];
+    if (!fseek(stream, 0, SEEK_END)) length = ftell(stream);
+    (void)fclose(stream);
+  }
+  PetscCheck(n == sizeof(head) && !memcmp(head, "\211HDF\r\n\032\n", 8), PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "it is no HDF5 file");
+  PetscCheck(length >= end, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", end, length);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartReadFile(Restart *r, Checkpoint checkpoint, PetscBool *same)
+{
+  PetscBool has;
+
+  PetscFunctionBegin;
+  PetscCall(RestartCheckFile(r->file));
+  PetscCall(PetscViewerHDF5Open(r->comm, r->file, FILE_MODE_READ, &r->viewer));
+  PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, "largest_increment", &has));
+  PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED, "it holds other results");
+  PetscCall(RestartCompare(r));
+  PetscCall(RestartReadNumbers(r, checkpoint));
+  PetscCall(RestartIsSame(r, same));
+  if (!*same) PetscCall(RestartLocate(r));
+  PetscCall(RestartReadFields(r, checkpoint));
+  PetscFunctionReturn(0);
+}
+
+/* The vertices of this rank, and their bodies */
+static PetscErrorCode RestartCreate(DM dm, Restart *r)
+{
+  Vec                vertices;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(OutputCreateMesh(dm, &r->output));
+  r->comm = r->output->comm;
+  PetscCall(PetscMalloc2(3 * r->output->nowned, &r->x, r->output->nowned, &r->body));
+  PetscCall(FieldsGetVertices(r->output, &vertices, r->body));
+  PetscCall(VecGetArrayRead(vertices, &x));
+  PetscCall(PetscArraycpy(r->x, x, 3 * r->output->nowned));
+  PetscCall(VecRestoreArrayRead(vertices, &x));
+  PetscCall(VecDestroy(&vertices));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartDestroy(Restart *r)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerDestroy(&r->viewer));
+  if (r->locator) {
+    PetscCall(MeshLocatorDestroy(&r->locator));
+    PetscCall(VecRestoreArrayRead(r->mesh.vertices, &r->mesh.x));
+    PetscCall(ISRestoreIndices(r->mesh.cells, &r->mesh.c));
+    PetscCall(ISRestoreIndices(r->mesh.body, &r->mesh.b));
+    PetscCall(VecDestroy(&r->mesh.vertices));
+    PetscCall(ISDestroy(&r->mesh.cells));
+    PetscCall(PetscFree2(r->mesh.first, r->mesh.nnodes));
+    PetscCall(ISDestroy(&r->mesh.body));
+  }
+  PetscCall(PetscFree2(r->x, r->body));
+  PetscCall(OutputDestroy(&r->output));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointRead - Reads a state from which a run can go on
+
+   Collective
+
+   Input Parameters:
++  scene - the scene; its load program may go on otherwise, and it may be refined
+.  dm    - its mesh
+-  file  - the HDF5 file
+
+   Output Parameters:
++  checkpoint - the state on this mesh; free with CheckpointDestroy()
+-  same       - whether the vertices are those of the file in the same order; else its fields were interpolated
+
+   Level: intermediate
+
+   Notes:
+   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks.
+   Every rank holds the vertices of the whole file meanwhile, unless they are the same.
+
+   Errors: PETSC_ERR_FILE_OPEN for no file; PETSC_ERR_USER_INPUT for one of another scene, or no checkpoint at all.
+
+.seealso: `CheckpointWriterWrite()`, `SimulationSetCheckpoint()`
+@*/
+PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint *checkpoint, PetscBool *same)
+{
+  Restart        r = {.file = file, .scene = scene};
+  RankError      error;
+  PetscErrorCode ierr;
+  PetscBool      exists;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(file, 'r', &exists));
+  PetscCheck(exists, PetscObjectComm((PetscObject)dm), PETSC_ERR_FILE_OPEN, "there is no checkpoint \"%s\"", file);
+  PetscCall(PetscNew(checkpoint));
+  PetscCall(RestartCreate(dm, &r));
+  PetscCall(RankErrorBegin(&error));
+  ierr = RestartReadFile(&r, *checkpoint, same);
+  PetscCall(RankErrorEnd(r.comm, ierr, &error));
+  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot go on from the checkpoint \"%s\": %s", file,
+    error.message);
+  PetscCall(RestartDestroy(&r));
+  PetscFunctionReturn(0);
+}

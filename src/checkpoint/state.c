@@ -1,0 +1,158 @@
+/* The state of a simulation, to go on from: the path, and what the contact remembers. */
+#include "src/step/stepimpl.h"
+
+/* A field of a global vector; NULL: zero */
+static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
+{
+  const PetscScalar *a;
+  PetscReal         *values;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointAddField(checkpoint, name, 3, nvertices, &values));
+  if (!v) PetscFunctionReturn(0);
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt i = 0; i < 3 * nvertices; ++i) values[i] = PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[], Vec v)
+{
+  const PetscReal *values;
+  PetscScalar     *a;
+  PetscInt         n;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointGetField(checkpoint, name, &values));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayWrite(v, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = values[i];
+  PetscCall(VecRestoreArrayWrite(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* In a vector of its own, as u is, in the place of the one that was */
+static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[], Vec u, Vec *force)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(force));
+  PetscCall(VecDuplicate(u, force));
+  PetscCall(CheckpointGetVec(checkpoint, name, *force));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
+{
+  const PetscInt   nvertices                      = sim->history.nowned;
+  PetscReal *const memory[CHECKPOINT_PAIR_FIELDS] = {
+    [CHECKPOINT_PRESSURE]   = sim->history.pressure,
+    [CHECKPOINT_SLACK]      = sim->history.slack,
+    [CHECKPOINT_SHEAR]      = sim->history.settled,
+    [CHECKPOINT_SLIP_PATH]  = sim->history.slip_path,
+    [CHECKPOINT_DISSIPATED] = sim->history.dissipated,
+  };
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; sim->contact && p < sim->scene->npairs; ++p) {
+    for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
+      const PetscInt components = CheckpointPairFields[k].components;
+      char           name[128];
+      PetscBool      kept;
+      PetscReal     *values;
+
+      PetscCall(CheckpointNamePairField(&sim->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
+      if (!kept) continue;
+      if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
+      else PetscCall(CheckpointAddField(checkpoint, name, components, nvertices, &values));
+      if (back) PetscCall(PetscArraycpy(memory[k] + components * p * nvertices, values, components * nvertices));
+      else PetscCall(PetscArraycpy(values, memory[k] + components * p * nvertices, components * nvertices));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetCheckpoint - Takes the state of a simulation, after a load step or one that was interrupted
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  checkpoint - the state; free with CheckpointDestroy()
+
+   Level: intermediate
+
+   Note:
+   What the optimizer keeps of its Krylov spaces is not in it: the first load step that goes on from it finds it again.
+
+.seealso: `SimulationSetCheckpoint()`, `CheckpointWriterWrite()`
+@*/
+PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
+{
+  const LoadPath *path = &sim->path;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(checkpoint));
+  (*checkpoint)->step              = (PetscInt)PetscFloorReal(path->time);
+  (*checkpoint)->time              = path->time;
+  (*checkpoint)->previous_time     = path->previous_time;
+  (*checkpoint)->increment         = sim->increment;
+  (*checkpoint)->largest_increment = path->largest_increment;
+  (*checkpoint)->work              = path->work;
+  (*checkpoint)->contact_work      = path->contact_work;
+  PetscCall(VecGetLocalSize(path->u, &n));
+  PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
+  PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
+  PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
+  if (sim->history.shear) PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
+  PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetCheckpoint - Puts a simulation into a state, from which load steps go on
+
+   Collective
+
+   Input Parameters:
++  sim        - the simulation, after SimulationSetUp() and before any load step
+-  checkpoint - the state, of this simulation's mesh
+
+   Output Parameter:
+.  step - the load step to go on with, from 0
+
+   Level: intermediate
+
+   Note:
+   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part
+   of the work in the first solve.
+
+.seealso: `SimulationGetCheckpoint()`, `CheckpointRead()`
+@*/
+PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
+{
+  LoadPath *path = &sim->path;
+
+  PetscFunctionBegin;
+  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
+    "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
+    ": the analysis is already complete",
+    (double)checkpoint->time, sim->scene->nsteps);
+  *step = sim->first_step = checkpoint->step;
+  sim->increment          = checkpoint->increment;
+  path->time              = checkpoint->time;
+  path->previous_time     = checkpoint->previous_time;
+  path->largest_increment = checkpoint->largest_increment;
+  path->work              = checkpoint->work;
+  path->contact_work      = checkpoint->contact_work;
+  PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
+  PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
+  PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
+  if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
+  PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(FrictionRecall(sim));
+  PetscFunctionReturn(0);
+}

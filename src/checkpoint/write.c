@@ -1,0 +1,183 @@
+/* A run's state on disk: a file that is whole or not there. */
+#include "src/output/outputimpl.h"
+#include <scene.h>
+#include <string.h>
+
+struct _n_CheckpointWriter {
+  Scene      scene;
+  DM         dm;
+  char      *file;
+  Output     mesh; /* NULL before the first state */
+  FileCommit commit;
+};
+
+/* What is written: a state, of which scene, on which mesh */
+typedef struct {
+  Checkpoint checkpoint;
+  Scene      scene;
+  Output     mesh;
+} CheckpointContents;
+
+/* One number a character, on the first rank: an attribute could not be as long */
+static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], const char text[], PetscViewer viewer)
+{
+  IS          is;
+  PetscInt   *letters, n;
+  size_t      length;
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PetscStrlen(text, &length));
+  n = rank ? 0 : (PetscInt)length;
+  PetscCall(PetscMalloc1(n, &letters));
+  for (PetscInt i = 0; i < n; ++i) letters[i] = (unsigned char)text[i];
+  PetscCall(ISCreateGeneral(comm, n, letters, PETSC_OWN_POINTER, &is));
+  PetscCall(PetscObjectSetName((PetscObject)is, name));
+  PetscCall(DatasetWriteIndices(is, viewer));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* How the run was asked for, for people to read */
+static PetscErrorCode CheckpointWriteWords(const CheckpointContents *contents, PetscViewer viewer)
+{
+  char *scene, *options;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetText(contents->scene, &scene));
+  PetscCall(CheckpointWriteText(contents->mesh->comm, "scene", scene, viewer));
+  PetscCall(PetscFree(scene));
+  PetscCall(PetscOptionsGetAll(NULL, &options));
+  PetscCall(CheckpointWriteText(contents->mesh->comm, "options", options[0] ? options : " ", viewer));
+  PetscCall(PetscFree(options));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointWriteNumbers(const CheckpointContents *contents, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "step", PETSC_INT, &contents->checkpoint->step));
+  for (size_t i = 0; CheckpointNumbers[i].name; ++i)
+    PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL,
+      CheckpointNumber(contents->checkpoint, i)));
+  for (PetscInt r = 0; r < contents->scene->nramps; ++r) {
+    char      name[256];
+    PetscReal factor;
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "ramp_%s", contents->scene->ramps[r].name));
+    PetscCall(SceneGetFactor(contents->scene, r, contents->checkpoint->time, &factor));
+    PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, name, PETSC_REAL, &factor));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
+{
+  const CheckpointContents *contents = (const CheckpointContents *)ctx;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointWriteWords(contents, viewer));
+  PetscCall(FieldsWriteMesh(viewer, contents->mesh));
+  for (PetscInt f = 0; f < contents->checkpoint->nfields; ++f) {
+    const CheckpointField *field = &contents->checkpoint->fields[f];
+    const PetscInt         n     = field->components * contents->mesh->nowned;
+    Vec                    data;
+    PetscScalar           *a;
+
+    PetscCall(DatasetCreate(contents->mesh->comm, field->name, contents->mesh->nowned, field->components, &data));
+    PetscCall(VecGetArrayWrite(data, &a));
+    for (PetscInt i = 0; i < n; ++i) a[i] = field->values[i];
+    PetscCall(VecRestoreArrayWrite(data, &a));
+    PetscCall(DatasetWrite(&data, viewer));
+  }
+  PetscCall(CheckpointWriteNumbers(contents, viewer));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointWriterCreate - Prepares to write states from which a run can go on
+
+   Collective
+
+   Input Parameters:
++  scene - the scene that is simulated; must outlive the writer
+.  dm    - its mesh
+-  file  - the HDF5 file; it is not touched before there is a state
+
+   Output Parameter:
+.  writer - the writer
+
+   Level: intermediate
+
+.seealso: `CheckpointWriterWrite()`, `CheckpointWriterDestroy()`, `CheckpointRead()`
+@*/
+PetscErrorCode CheckpointWriterCreate(Scene scene, DM dm, const char file[], CheckpointWriter *writer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(writer));
+  PetscCall(PetscObjectReference((PetscObject)dm));
+  (*writer)->scene = scene;
+  (*writer)->dm    = dm;
+  PetscCall(PetscStrallocpy(file, &(*writer)->file));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointWriterWrite - Writes a state, in the place of the one before
+
+   Collective
+
+   Input Parameters:
++  writer     - the writer
+-  checkpoint - the state, which is needed no longer afterwards
+
+   Level: intermediate
+
+   Notes:
+   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name
+   then, while the caller goes on: the one before stays until then, whatever happens. The next call, or
+   CheckpointWriterDestroy(), waits for it.
+
+   Errors: PETSC_ERR_FILE_WRITE where there is no room, for this state or the one before.
+
+.seealso: `CheckpointWriterCreate()`, `CheckpointWriterDestroy()`, `SimulationGetCheckpoint()`
+@*/
+PetscErrorCode CheckpointWriterWrite(CheckpointWriter writer, Checkpoint checkpoint)
+{
+  CheckpointContents contents = {.checkpoint = checkpoint, .scene = writer->scene};
+
+  PetscFunctionBegin;
+  PetscCall(FileCommitEnd(&writer->commit));
+  if (!writer->mesh) PetscCall(OutputCreateMesh(writer->dm, &writer->mesh));
+  contents.mesh = writer->mesh;
+  PetscCall(FileWriteHDF5(writer->mesh->comm, writer->file, CheckpointWriteContents, &contents, &writer->commit));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   CheckpointWriterDestroy - Waits until the last state is on the disk, and frees the writer
+
+   Collective
+
+   Input Parameter:
+.  writer - the writer, set to NULL; may point to NULL
+
+   Level: intermediate
+
+   Note:
+   Errors: PETSC_ERR_FILE_WRITE where the disk did not take it.
+
+.seealso: `CheckpointWriterCreate()`, `CheckpointWriterWrite()`
+@*/
+PetscErrorCode CheckpointWriterDestroy(CheckpointWriter *writer)
+{
+  PetscFunctionBegin;
+  if (!*writer) PetscFunctionReturn(0);
+  PetscCall(FileCommitEnd(&(*writer)->commit));
+  PetscCall(OutputDestroy(&(*writer)->mesh));
+  PetscCall(DMDestroy(&(*writer)->dm));
+  PetscCall(PetscFree((*writer)->file));
+  PetscCall(PetscFree(*writer));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,162 @@
+/* Ties between faces: the displacements of one face's nodes as means of the other's, as rows of a matrix. */
+#include "src/step/stepimpl.h"
+
+/* Adds up the ties; tied: which one owns a node, -1 none */
+static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
+{
+  MPI_Comm comm = sim->comm;
+
+  PetscFunctionBegin;
+  *all = NULL;
+  for (PetscInt t = 0; t < sim->scene->nties; ++t) {
+    const SceneTie *tie = &sim->scene->ties[t];
+    PetscInt        start, end, twice = -1;
+    Mat             rows;
+
+    PetscCall(ContactTieCreate(sim->dm, "tie", tie, &rows));
+    PetscCall(MatGetOwnershipRange(rows, &start, &end));
+    for (PetscInt i = start; i < end; ++i) {
+      PetscInt n;
+
+      PetscCall(MatGetRow(rows, i, &n, NULL, NULL));
+      if (n && tied[i - start] >= 0) twice = tied[i - start];
+      if (n) tied[i - start] = t;
+      PetscCall(MatRestoreRow(rows, i, &n, NULL, NULL));
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
+    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
+      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them",
+      sim->scene->ties[twice].name, tie->name);
+    if (*all) {
+      PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
+      PetscCall(MatDestroy(&rows));
+    } else *all = rows;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A node that others are tied to must not be tied itself */
+static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt tied[])
+{
+  Vec                is_tied, held;
+  PetscScalar       *a;
+  const PetscScalar *h;
+  PetscInt           n, chained = -1;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(all, &is_tied, &held));
+  PetscCall(VecGetLocalSize(is_tied, &n));
+  PetscCall(VecGetArray(is_tied, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = tied[i] >= 0 ? 1.0 : 0.0;
+  PetscCall(VecRestoreArray(is_tied, &a));
+  PetscCall(MatMult(all, is_tied, held));
+  PetscCall(VecGetArrayRead(held, &h));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (PetscAbsScalar(h[i]) > 1e-12) chained = tied[i];
+  }
+  PetscCall(VecRestoreArrayRead(held, &h));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
+  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT,
+    "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties",
+    sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
+  PetscCall(VecDestroy(&is_tied));
+  PetscCall(VecDestroy(&held));
+  PetscFunctionReturn(0);
+}
+
+/* Nor hang: the forces that it ties would not be those of a uniform stress */
+static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
+{
+  PetscInt start, end, hangs = -1;
+  Mat      means;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetHanging(sim->dm, &means));
+  if (!means) PetscFunctionReturn(0);
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    if (n && tied[i - start] >= 0) hangs = tied[i - start];
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
+  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT,
+    "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange "
+    "the two faces",
+    sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
+  PetscFunctionReturn(0);
+}
+
+/* Longest row of this rank */
+static PetscErrorCode JointsLongestRow(Mat all, PetscInt *longest)
+{
+  PetscInt start, end, n;
+
+  PetscFunctionBegin;
+  *longest = 1;
+  PetscCall(MatGetOwnershipRange(all, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
+    *longest = PetscMax(*longest, n);
+    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The matrix of the ties alone, and its rows that follow others; all: of nodes */
+PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
+  PetscBool follows[])
+{
+  PetscInt nlocal, rstart, start, longest;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(all, &start, NULL));
+  PetscCall(JointsLongestRow(all, &longest));
+  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
+  for (PetscInt i = 0; i < nlocal; ++i) {
+    const PetscInt     row = rstart + i, node = i / 3;
+    PetscInt           n;
+    const PetscInt    *columns;
+    const PetscScalar *values;
+
+    if (tied[node] < 0 || prescribed[i]) {
+      PetscCall(MatSetValue(*C, row, row, 1.0, INSERT_VALUES));
+      continue;
+    }
+    follows[i] = PETSC_TRUE;
+    PetscCall(MatGetRow(all, start + node, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k) {
+      if (PetscAbsScalar(values[k]) > 1e-14)
+        PetscCall(MatSetValue(*C, row, 3 * columns[k] + i % 3, values[k], INSERT_VALUES));
+    }
+    PetscCall(MatRestoreRow(all, start + node, &n, &columns, &values));
+  }
+  PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* NULL where no faces are tied */
+PetscErrorCode JointsCreate(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+{
+  PetscInt n, *tied;
+  Mat      all;
+
+  PetscFunctionBegin;
+  *C = NULL;
+  if (!sim->scene->nties) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(PetscMalloc1(n / 3, &tied));
+  for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
+  PetscCall(JointsCollect(sim, &all, tied));
+  PetscCall(JointsCheckChains(sim, all, tied));
+  PetscCall(JointsCheckHanging(sim, tied));
+  PetscCall(JointsExpand(sim, all, tied, prescribed, C, follows));
+  PetscCall(MatDestroy(&all));
+  PetscCall(PetscFree(tied));
+  PetscFunctionReturn(0);
+}

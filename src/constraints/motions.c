@@ -1,0 +1,63 @@
+/*
+   Rigid motions of faces and bodies: u = t + (R - 1) (X - c), with t and the rotation vector of R the sums over the
+   scene's entries of the same face or body, each times the factor of its ramp.
+*/
+#include "src/step/stepimpl.h"
+#include <string.h>
+
+/* The first entry of the same face or body, which stands for all of them */
+PetscInt MotionFindLeader(Scene scene, PetscInt d)
+{
+  PetscInt leader = 0;
+
+  while (strcmp(scene->displacements[leader].face, scene->displacements[d].face)) ++leader;
+  return leader;
+}
+
+/* R - 1 by Rodrigues' formula, r = |rotation| n: sin r [n] + (1 - cos r) [n]^2, in which small angles keep their
+   digits */
+static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
+{
+  PetscReal r[3], angle = 0.0, sine, versine;
+
+  for (PetscInt i = 0; i < 3; ++i) r[i] = degrees[i] * PETSC_PI / 180.0;
+  for (PetscInt i = 0; i < 3; ++i) angle += r[i] * r[i];
+  angle   = PetscSqrtReal(angle);
+  sine    = angle > 0.0 ? PetscSinReal(angle) / angle : 1.0;
+  versine = angle > 0.0 ? 2.0 * PetscSqr(PetscSinReal(0.5 * angle) / angle) : 0.5;
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
+
+    turn[i][i] = -versine * (r[j] * r[j] + r[k] * r[k]);
+    turn[i][j] = versine * r[i] * r[j] - sine * r[k];
+    turn[i][k] = versine * r[i] * r[k] + sine * r[j];
+  }
+}
+
+/* factor: of each ramp */
+void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMotion *motion)
+{
+  PetscReal degrees[3] = {0.0, 0.0, 0.0};
+
+  *motion = (RigidMotion){.t = {0.0, 0.0, 0.0}};
+  for (PetscInt d = leader; d < scene->ndisplacements; ++d) {
+    const SceneDisplacement *entry = &scene->displacements[d];
+
+    if (strcmp(entry->face, scene->displacements[leader].face)) continue;
+    for (PetscInt i = 0; i < 3; ++i) {
+      motion->t[i] += factor[entry->ramp] * entry->value[i];
+      degrees[i] += factor[entry->ramp] * entry->rotation[i];
+      if (entry->rotation[0] != 0.0 || entry->rotation[1] != 0.0 || entry->rotation[2] != 0.0)
+        motion->center[i] = entry->center[i];
+    }
+  }
+  MotionRotate(degrees, motion->turn);
+}
+
+PetscReal MotionDisplace(const RigidMotion *motion, const PetscScalar x[3], PetscInt i)
+{
+  PetscReal u = motion->t[i];
+
+  for (PetscInt j = 0; j < 3; ++j) u += motion->turn[i][j] * (PetscRealPart(x[j]) - motion->center[j]);
+  return u;
+}

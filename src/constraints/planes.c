@@ -1,0 +1,136 @@
+/*
+   Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
+   the others, by Gauss-Jordan elimination; those with the largest coefficients, and none that is prescribed.
+*/
+#include "src/step/stepimpl.h"
+
+typedef struct {
+  PetscInt  n; /* planes through the node */
+  PetscReal a[3][3];
+} NodePlanes;
+
+static PetscErrorCode PlanesCollect(Simulation sim, PetscInt rstart, NodePlanes nodes[])
+{
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d) {
+    const SceneDisplacement *plane = &sim->scene->displacements[d];
+    IS                       is;
+    const PetscInt          *rows;
+    const PetscReal         *m      = plane->normal;
+    const PetscReal          length = PetscSqrtReal(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    PetscInt                 n;
+
+    if (!plane->inclined) continue;
+    PetscCall(MeshGetFaceDofs(sim->dm, plane->face, 0, &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &rows));
+    for (PetscInt k = 0; k < n; ++k) {
+      NodePlanes *node = &nodes[(rows[k] - rstart) / 3];
+
+      if (node->n == 3) continue;
+      for (PetscInt c = 0; c < 3; ++c) node->a[node->n][c] = m[c] / length;
+      ++node->n;
+    }
+    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* pivot[plane]: the component that follows, negative: none is left to */
+static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], PetscInt pivot[3])
+{
+  const PetscReal rounding = 1e-10;
+  PetscBool       taken[3] = {prescribed[0], prescribed[1], prescribed[2]};
+
+  for (PetscInt p = 0; p < node->n; ++p) {
+    PetscInt k = -1;
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (!taken[c] && PetscAbsReal(node->a[p][c]) > rounding &&
+          (k < 0 || PetscAbsReal(node->a[p][c]) > PetscAbsReal(node->a[p][k])))
+        k = c;
+    }
+    pivot[p] = k;
+    if (k < 0) continue;
+    taken[k] = PETSC_TRUE;
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (c != k) node->a[p][c] /= node->a[p][k];
+    }
+    node->a[p][k] = 1.0;
+    for (PetscInt q = 0; q < node->n; ++q) {
+      const PetscReal factor = node->a[q][k];
+
+      for (PetscInt c = 0; q != p && c < 3; ++c) node->a[q][c] -= factor * node->a[p][c];
+    }
+  }
+}
+
+/* The matrix u = C x of the planes alone, and its rows that follow others; given: prescribed displacements at the end
+   of the load program */
+static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const PetscBool prescribed[], Vec given, Mat *C,
+  PetscBool follows[])
+{
+  PetscInt           nlocal, rstart;
+  PetscReal          worst = 0.0, size;
+  const PetscScalar *u;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(given, &nlocal));
+  PetscCall(VecGetOwnershipRange(given, &rstart, NULL));
+  PetscCall(VecNorm(given, NORM_INFINITY, &size));
+  PetscCall(VecGetArrayRead(given, &u));
+  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, C));
+  for (PetscInt i = 0; i < nlocal; i += 3) {
+    PetscInt pivot[3] = {-1, -1, -1};
+
+    PlanesEliminate(&nodes[i / 3], &prescribed[i], pivot);
+    for (PetscInt p = 0; p < nodes[i / 3].n; ++p) {
+      PetscReal off = 0.0;
+
+      if (pivot[p] >= 0) follows[i + pivot[p]] = PETSC_TRUE;
+      for (PetscInt c = 0; c < 3; ++c) off += prescribed[i + c] ? nodes[i / 3].a[p][c] * PetscRealPart(u[i + c]) : 0.0;
+      if (pivot[p] < 0) worst = PetscMax(worst, PetscAbsReal(off));
+      for (PetscInt c = 0; pivot[p] >= 0 && c < 3; ++c) {
+        if (c != pivot[p] && nodes[i / 3].a[p][c] != 0.0)
+          PetscCall(MatSetValue(*C, rstart + i + pivot[p], rstart + i + c, -nodes[i / 3].a[p][c], INSERT_VALUES));
+      }
+    }
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (!follows[i + c]) PetscCall(MatSetValue(*C, rstart + i + c, rstart + i + c, 1.0, INSERT_VALUES));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(given, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCheck(worst <= 1e-9 * size, sim->comm, PETSC_ERR_USER_INPUT,
+    "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
+  PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* C NULL where there are none; prescribed and follows: of this rank's rows */
+PetscErrorCode PlanesCreate(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+{
+  PetscInt    n, rstart;
+  PetscBool   any = PETSC_FALSE;
+  NodePlanes *nodes;
+  Vec         given;
+
+  PetscFunctionBegin;
+  *C = NULL;
+  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d)
+    any = (PetscBool)(any || sim->scene->displacements[d].inclined);
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscCalloc1(n / 3, &nodes));
+  PetscCall(PlanesCollect(sim, rstart, nodes));
+  PetscCall(VecDuplicate(sim->path.u, &given));
+  PetscCall(VecZeroEntries(given));
+  PetscCall(PrescribedApply(&sim->prescribed, (PetscReal)sim->scene->nsteps, given));
+  PetscCall(PlanesExpand(sim, nodes, prescribed, given, C, follows));
+  PetscCall(VecDestroy(&given));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,201 @@
+/* Prescribed displacements: from faces and components of the scene to owned global rows and values. */
+#include "src/step/stepimpl.h"
+
+/* At factor 1 of its ramp, or of a motion so that it leads to its factors */
+static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt component)
+{
+  const SceneDisplacement *entry  = &scene->displacements[d];
+  PetscReal                drives = 0.0;
+
+  if (!entry->moves)
+    return (PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE};
+  for (PetscInt e = d; e < scene->ndisplacements; ++e) {
+    const SceneDisplacement *other = &scene->displacements[e];
+
+    if (MotionFindLeader(scene, e) != d) continue;
+    for (PetscInt i = 0; i < 3; ++i) drives = other->value[i] != 0.0 || other->rotation[i] != 0.0 ? 1.0 : drives;
+  }
+  return (PrescribedValue){drives, 0, d};
+}
+
+static PetscErrorCode PrescribedCollect(DM dm, Scene scene, PetscInt *count, PetscInt *rows, PrescribedValue *values)
+{
+  const SceneDisplacement *d = scene->displacements;
+
+  PetscFunctionBegin;
+  *count = 0;
+  for (PetscInt i = 0; i < scene->ndisplacements; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      IS              is;
+      const PetscInt *idx;
+      PetscInt        nloc;
+
+      if (!d[i].fixed[c] || (d[i].moves && MotionFindLeader(scene, i) < i)) continue;
+      PetscCall(MeshGetFaceDofs(dm, d[i].face, c, &is));
+      PetscCall(ISGetLocalSize(is, &nloc));
+      if (rows) {
+        PetscCall(ISGetIndices(is, &idx));
+        for (PetscInt k = 0; k < nloc; ++k) {
+          rows[*count + k]   = idx[k];
+          values[*count + k] = PrescribedGetValue(scene, i, c);
+        }
+        PetscCall(ISRestoreIndices(is, &idx));
+      }
+      *count += nloc;
+      PetscCall(ISDestroy(&is));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What the rows are displaced by, in turn; factor: of each ramp */
+static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal factor[], PetscReal u[])
+{
+  const PetscScalar *x;
+  PetscInt           rstart, last = PETSC_DECIDE;
+  RigidMotion        motion;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(p->x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(p->x, &x));
+  for (PetscInt k = 0; k < p->n; ++k) {
+    const PrescribedValue *v = &p->values[k];
+    const PetscInt         i = p->rows[k] - rstart;
+
+    if (v->motion >= 0 && v->motion != last) MotionGet(p->scene, last = v->motion, factor, &motion);
+    u[k] = v->motion < 0 ? factor[v->ramp] * v->value : MotionDisplace(&motion, &x[i - i % 3], i % 3);
+  }
+  PetscCall(VecRestoreArrayRead(p->x, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Largest difference of what two faces prescribe of one row where all factors are the same; of motions beyond
+   rounding */
+static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
+{
+  PetscReal *u, *factor, size = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(p->n, &u, p->scene->nramps, &factor));
+  for (PetscInt r = 0; r < p->scene->nramps; ++r) factor[r] = all;
+  PetscCall(PrescribedEvaluate(p, factor, u));
+  for (PetscInt k = 0; k < p->n; ++k) size = PetscMax(size, PetscAbsReal(u[k]));
+  for (PetscInt k = 1; k < p->n; ++k) {
+    const PetscReal difference = PetscAbsReal(u[k] - u[k - 1]);
+    const PetscReal rounding   = p->values[k].motion < 0 && p->values[k - 1].motion < 0 ? 0.0 : 1e-12 * size;
+
+    if (p->rows[k] == p->rows[k - 1] && difference > rounding) *worst = PetscMax(*worst, difference);
+  }
+  PetscCall(PetscFree2(u, factor));
+  PetscFunctionReturn(0);
+}
+
+/* Faces share edges: one value a row remains, and two that differ are an error on every rank */
+static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
+{
+  PetscInt        unique   = 0;
+  PetscReal       worst[2] = {0.0, 0.0}; /* difference of two values; 1 if only their ramps differ */
+  PrescribedValue work;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSortIntWithDataArray(p->n, p->rows, p->values, sizeof(PrescribedValue), &work));
+  PetscCall(PrescribedDiffer(p, 1.0, &worst[0]));
+  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* of motions that end where they began */
+  for (PetscInt k = 0; k < p->n; ++k) {
+    if (unique && p->rows[unique - 1] == p->rows[k]) {
+      if (p->values[unique - 1].ramp != p->values[k].ramp) worst[1] = 1.0;
+      continue;
+    }
+    p->rows[unique]     = p->rows[k];
+    p->values[unique++] = p->values[k];
+  }
+  p->n = unique;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
+  PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT,
+    "displacements: two faces prescribe values that differ by %g on the vertices they share", (double)worst[0]);
+  PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT,
+    "displacements: two faces prescribe the same value by different ramps on the vertices they share");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PrescribedCreate(DM dm, Scene scene, const VertexPlaces *places, Prescribed *p)
+{
+  PetscFunctionBegin;
+  p->scene = scene;
+  p->x     = places->x;
+  PetscCall(PrescribedCollect(dm, scene, &p->n, NULL, NULL));
+  PetscCall(PetscMalloc2(p->n, &p->rows, p->n, &p->values));
+  PetscCall(PrescribedCollect(dm, scene, &p->n, p->rows, p->values));
+  PetscCall(PrescribedMerge(PetscObjectComm((PetscObject)dm), p));
+  PetscFunctionReturn(0);
+}
+
+/* u = what the time asks for on the prescribed rows; the other rows stay */
+PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
+{
+  PetscScalar *a;
+  PetscInt     rstart;
+  PetscReal   *factor, *values;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(p->scene->nramps, &factor, p->n, &values));
+  for (PetscInt r = 0; r < p->scene->nramps; ++r) PetscCall(SceneGetFactor(p->scene, r, time, &factor[r]));
+  PetscCall(PrescribedEvaluate(p, factor, values));
+  PetscCall(VecGetOwnershipRange(u, &rstart, NULL));
+  PetscCall(VecGetArray(u, &a));
+  for (PetscInt k = 0; k < p->n; ++k) a[p->rows[k] - rstart] = values[k];
+  PetscCall(VecRestoreArray(u, &a));
+  PetscCall(PetscFree2(factor, values));
+  PetscFunctionReturn(0);
+}
+
+/* One value on all prescribed rows */
+PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
+{
+  PetscScalar *a;
+  PetscInt     rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < p->n; ++k) a[p->rows[k] - rstart] = value;
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sum of each component over the driven rows, those whose prescribed value is not zero; over all prescribed rows where
+   none is driven. The sum over all rows would only say that the bodies are in equilibrium.
+*/
+PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
+{
+  const PetscScalar *a;
+  PetscInt           rstart;
+  PetscReal          driven[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  PetscBool          any       = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt k = 0; k < p->n; ++k) {
+    const PetscReal r = PetscRealPart(a[p->rows[k] - rstart]);
+
+    driven[3 + p->rows[k] % 3] += r;
+    if (p->values[k].value == 0.0) continue;
+    driven[p->rows[k] % 3] += r;
+    any = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, driven, 6, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)v)));
+  PetscCall(PetscArraycpy(sum, any ? driven : driven + 3, 3));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PrescribedDestroy(Prescribed *p)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(p->rows, p->values));
+  p->n = 0;
+  PetscFunctionReturn(0);
+}

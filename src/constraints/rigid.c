@@ -1,0 +1,361 @@
+/*
+   Rigid bodies that forces drive. Where a motion is free the displacements of all nodes follow those of as many rows
+   as there are free motions: u = R x + o, o being what is prescribed of the other motions. Free rotations are those
+   of small angles, u = r x (X - center).
+*/
+#include "src/step/stepimpl.h"
+
+/* Where the displacements of a rotation are off by 6e-4 of its arm */
+static const PetscReal largest_angle = 2.0; /* [degrees] */
+
+static PetscBool RigidIsReleased(const SceneDisplacement *d)
+{
+  PetscBool released = PETSC_FALSE;
+
+  for (PetscInt m = 0; m < 6; ++m) released = (PetscBool)(released || d->released[m]);
+  return released;
+}
+
+/* Component c at the place X of the body's free motions; angles times the body's size */
+static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const PetscScalar X[3], PetscInt c,
+  PetscReal row[6])
+{
+  for (PetscInt k = 0; k < body->n; ++k) {
+    const PetscInt m = body->motion[k], next = (m + 1) % 3, last = (m + 2) % 3;
+
+    row[k] = m == c ? 1.0 : 0.0;
+    if (m >= 3 && c == next) row[k] = -(PetscRealPart(X[last]) - d->center[last]) / body->size;
+    if (m >= 3 && c == last) row[k] = (PetscRealPart(X[next]) - d->center[next]) / body->size;
+  }
+}
+
+/* Global rows of the first component of the nodes that this rank owns */
+static PetscErrorCode RigidGetNodes(Simulation sim, const RigidBody *body, IS *nodes)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceDofs(sim->dm, sim->scene->displacements[body->leader].face, 0, nodes));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RigidMeasure(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+  const PetscInt nodes[], RigidBody *body)
+{
+  const PetscReal *center = sim->scene->displacements[body->leader].center;
+
+  PetscFunctionBegin;
+  body->size = 0.0;
+  for (PetscInt i = 0; i < 3 * n; ++i)
+    body->size = PetscMax(body->size, PetscAbsReal(PetscRealPart(x[nodes[i / 3] - rstart + i % 3]) - center[i % 3]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &body->size, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* The row with the largest component across those that carry motions already, unit[]; which becomes the next of them */
+static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+  const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
+{
+  struct {
+    double value;
+    int    rank;
+  } best = {-1.0, 0};
+  PetscReal   across[6], row[6];
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3 * n; ++i) {
+    PetscReal square = 0.0;
+
+    RigidGetRow(&sim->scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, row);
+    PetscCall(PetscArraycpy(across, row, 6));
+    for (PetscInt k = 0; k < 2 * found; ++k) {
+      PetscReal dot = 0.0;
+
+      for (PetscInt m = 0; m < body->n; ++m) dot += across[m] * unit[k % found][m];
+      for (PetscInt m = 0; m < body->n; ++m) across[m] -= dot * unit[k % found][m];
+    }
+    for (PetscInt m = 0; m < body->n; ++m) square += PetscSqr(across[m]);
+    if (square <= best.value) continue;
+    best.value       = square;
+    body->row[found] = nodes[i / 3] + i % 3;
+    for (PetscInt m = 0; m < body->n; ++m)
+      unit[found][m] = across[m] / PetscSqrtReal(PetscMax(square, PETSC_MACHINE_EPSILON));
+    PetscCall(PetscArraycpy(carriers[found], row, 6));
+  }
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  best.rank = rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, sim->comm));
+  PetscCallMPI(MPI_Bcast(&body->row[found], 1, MPIU_INT, best.rank, sim->comm));
+  PetscCallMPI(MPI_Bcast(unit[found], 6, MPIU_REAL, best.rank, sim->comm));
+  PetscCallMPI(MPI_Bcast(carriers[found], 6, MPIU_REAL, best.rank, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* inverse of a n x n matrix, by Gauss-Jordan elimination with pivoting by rows */
+static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
+{
+  for (PetscInt i = 0; i < 36; ++i) inverse[i / 6][i % 6] = i / 6 == i % 6 ? 1.0 : 0.0;
+  for (PetscInt k = 0; k < n; ++k) {
+    PetscInt  p = k;
+    PetscReal scale;
+
+    for (PetscInt i = k; i < n; ++i) p = PetscAbsReal(a[i][k]) > PetscAbsReal(a[p][k]) ? i : p;
+    for (PetscInt j = 0; j < n; ++j) {
+      const PetscReal swap[2] = {a[p][j], inverse[p][j]};
+
+      a[p][j]       = a[k][j];
+      inverse[p][j] = inverse[k][j];
+      a[k][j]       = swap[0];
+      inverse[k][j] = swap[1];
+    }
+    scale = 1.0 / a[k][k];
+    for (PetscInt j = 0; j < n; ++j) {
+      a[k][j] *= scale;
+      inverse[k][j] *= scale;
+    }
+    for (PetscInt i = 0; i < n; ++i) {
+      const PetscReal factor = a[i][k];
+
+      for (PetscInt j = 0; i != k && j < n; ++j) {
+        a[i][j] -= factor * a[k][j];
+        inverse[i][j] -= factor * inverse[k][j];
+      }
+    }
+  }
+}
+
+/* Rows of R: those that carry the motions have a 1, which is put there exactly */
+static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
+  PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3 * n; ++i) {
+    const PetscInt row = nodes[i / 3] + i % 3, local = row - rstart;
+    PetscReal      motion[6];
+    PetscBool      carries = PETSC_FALSE;
+
+    mine[local] = PETSC_TRUE;
+    if (prescribed[local]) continue;
+    for (PetscInt k = 0; k < body->n; ++k) carries = (PetscBool)(carries || body->row[k] == row);
+    if (carries) continue;
+    follows[local] = PETSC_TRUE;
+    RigidGetRow(&sim->scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, motion);
+    for (PetscInt k = 0; k < body->n; ++k) {
+      PetscReal share = 0.0;
+
+      for (PetscInt m = 0; m < body->n; ++m) share += motion[m] * body->inverse[m][k];
+      if (PetscAbsReal(share) > 1e-14) PetscCall(MatSetValue(sim->rigid.R, row, body->row[k], share, INSERT_VALUES));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RigidCreateBody(Simulation sim, PetscInt leader, const PetscBool prescribed[], PetscBool mine[],
+  PetscBool follows[], RigidBody *body)
+{
+  const SceneDisplacement *d = &sim->scene->displacements[leader];
+  IS                       is;
+  const PetscInt          *nodes;
+  const PetscScalar       *x;
+  PetscInt                 n, rstart;
+  PetscReal                unit[6][6], carriers[6][6];
+
+  PetscFunctionBegin;
+  body->leader = leader;
+  body->n      = 0;
+  for (PetscInt m = 0; m < 6; ++m) {
+    if (d->released[m]) body->motion[body->n++] = m;
+  }
+  PetscCall(RigidGetNodes(sim, body, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &nodes));
+  PetscCall(VecGetOwnershipRange(sim->places.x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(RigidMeasure(sim, rstart, x, n, nodes, body));
+  for (PetscInt k = 0; k < body->n; ++k) PetscCall(RigidFindCarrier(sim, rstart, x, n, nodes, k, unit, carriers, body));
+  RigidInvert(body->n, carriers, body->inverse);
+  PetscCall(RigidSetRows(sim, body, rstart, x, n, nodes, prescribed, mine, follows));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(ISRestoreIndices(is, &nodes));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* After the prescribed rows. prescribed and follows: of this rank's rows; without such bodies nothing is created */
+PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBool follows[])
+{
+  RigidBodies *rigid = &sim->rigid;
+  Scene        scene = sim->scene;
+  PetscInt     n, rstart;
+  PetscBool   *mine;
+  PetscScalar *elastic;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
+  if (!rigid->n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
+  PetscCall(VecDuplicate(sim->path.u, &rigid->elastic));
+  PetscCall(VecDuplicate(sim->path.u, &rigid->given));
+  PetscCall(VecDuplicate(sim->path.u, &rigid->held));
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscCalloc1(n, &mine));
+  PetscCall(MatCreateAIJ(sim->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 6, NULL, 6, NULL, &rigid->R));
+  rigid->n = 0;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    if (RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d)
+      PetscCall(RigidCreateBody(sim, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
+  }
+  PetscCall(VecGetArrayWrite(rigid->elastic, &elastic));
+  for (PetscInt i = 0; i < n; ++i) {
+    elastic[i] = mine[i] ? 0.0 : 1.0;
+    if (!(mine[i] && follows[i])) PetscCall(MatSetValue(rigid->R, rstart + i, rstart + i, 1.0, INSERT_VALUES));
+  }
+  PetscCall(VecRestoreArrayWrite(rigid->elastic, &elastic));
+  PetscCall(MatAssemblyBegin(rigid->R, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(rigid->R, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(mine));
+  PetscFunctionReturn(0);
+}
+
+/* o, what the motions that are prescribed displace the rows that follow by */
+PetscErrorCode RigidMove(Simulation sim, PetscReal time, Vec o)
+{
+  RigidBodies       *rigid = &sim->rigid;
+  const PetscScalar *x;
+  PetscScalar       *a;
+  PetscInt           rstart;
+  PetscReal         *factor;
+  RigidMotion        motion;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(sim->scene->nramps, &factor));
+  for (PetscInt r = 0; r < sim->scene->nramps; ++r) PetscCall(SceneGetFactor(sim->scene, r, time, &factor[r]));
+  PetscCall(VecZeroEntries(rigid->given));
+  PetscCall(VecGetOwnershipRange(rigid->given, &rstart, NULL));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArray(rigid->given, &a));
+  for (PetscInt b = 0; b < rigid->n; ++b) {
+    IS              is;
+    const PetscInt *nodes;
+    PetscInt        n;
+
+    MotionGet(sim->scene, rigid->bodies[b].leader, factor, &motion);
+    PetscCall(RigidGetNodes(sim, &rigid->bodies[b], &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &nodes));
+    for (PetscInt i = 0; i < 3 * n; ++i)
+      a[nodes[i / 3] + i % 3 - rstart] = MotionDisplace(&motion, &x[nodes[i / 3] - rstart], i % 3);
+    PetscCall(ISRestoreIndices(is, &nodes));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCall(VecRestoreArray(rigid->given, &a));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(PetscFree(factor));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, rigid->given));
+  PetscCall(MatMult(rigid->R, rigid->given, o));
+  PetscCall(VecAYPX(o, -1.0, rigid->given));
+  PetscFunctionReturn(0);
+}
+
+/* Springs on rigid bodies, the only stiffness that their own rows have: of the motions by C, u = C x */
+static PetscErrorCode RigidAddSprings(Simulation sim, Mat C, Mat stiffness)
+{
+  PetscInt n;
+  Mat      springs, product;
+  Vec      own;
+
+  PetscFunctionBegin;
+  if (!sim->springs.stiffness) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(sim->springs.stiffness, &own));
+  PetscCall(VecPointwiseMult(own, sim->springs.stiffness, sim->rigid.elastic));
+  PetscCall(VecAYPX(own, -1.0, sim->springs.stiffness));
+  PetscCall(VecGetLocalSize(own, &n));
+  PetscCall(MatCreateAIJ(sim->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &springs));
+  PetscCall(MatDiagonalSet(springs, own, INSERT_VALUES));
+  PetscCall(MatPtAP(springs, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatAXPY(stiffness, 1.0, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&product));
+  PetscCall(MatDestroy(&springs));
+  PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(0);
+}
+
+/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions to the centre of
+   proximal.c */
+PetscErrorCode RigidAddStiffness(Simulation sim, Mat C, Vec diagonal, Mat stiffness)
+{
+  const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
+  const PetscScalar *d;
+  PetscScalar       *held;
+  PetscInt           first, end;
+
+  PetscFunctionBegin;
+  PetscCall(RigidAddSprings(sim, C, stiffness));
+  PetscCall(VecZeroEntries(sim->rigid.held));
+  PetscCall(VecGetOwnershipRange(diagonal, &first, &end));
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  PetscCall(VecGetArray(sim->rigid.held, &held));
+  for (PetscInt b = 0; b < sim->rigid.n; ++b) {
+    const RigidBody *body = &sim->rigid.bodies[b];
+
+    for (PetscInt k = 0; k < body->n; ++k) {
+      if (body->row[k] >= first && body->row[k] < end) held[body->row[k] - first] = share * d[body->row[k] - first];
+    }
+  }
+  PetscCall(VecRestoreArray(sim->rigid.held, &held));
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(MatDiagonalSet(stiffness, sim->rigid.held, ADD_VALUES));
+  PetscFunctionReturn(0);
+}
+
+/* A solve has not converged where a free rotation is no small one */
+PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
+{
+  const PetscScalar *a, *given;
+  PetscInt           first, end;
+
+  PetscFunctionBegin;
+  if (!sim->rigid.n || !report->converged) PetscFunctionReturn(0);
+  PetscCall(VecGetOwnershipRange(u, &first, &end));
+  PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArrayRead(sim->rigid.given, &given));
+  for (PetscInt b = 0; b < sim->rigid.n; ++b) {
+    const RigidBody *body     = &sim->rigid.bodies[b];
+    PetscReal        moved[6] = {0.0}, square = 0.0, degrees;
+    char             reason[256];
+
+    for (PetscInt k = 0; k < body->n; ++k)
+      moved[k] = body->row[k] >= first && body->row[k] < end
+                   ? PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first])
+                   : 0.0;
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, sim->comm));
+    for (PetscInt k = 0; k < body->n; ++k) {
+      PetscReal angle = 0.0;
+
+      for (PetscInt m = 0; m < body->n; ++m) angle += body->inverse[k][m] * moved[m] / body->size;
+      if (body->motion[k] >= 3) square += PetscSqr(angle);
+    }
+    degrees = PetscSqrtReal(square) * 180.0 / PETSC_PI;
+    if (!(degrees > largest_angle)) continue;
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at "
+      "most: prescribe the rotation, or let more hold the body",
+      sim->scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
+    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  PetscCall(VecRestoreArrayRead(sim->rigid.given, &given));
+  PetscCall(VecRestoreArrayRead(u, &a));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RigidDestroy(RigidBodies *rigid)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&rigid->R));
+  PetscCall(VecDestroy(&rigid->elastic));
+  PetscCall(VecDestroy(&rigid->given));
+  PetscCall(VecDestroy(&rigid->held));
+  PetscCall(PetscFree(rigid->bodies));
+  PetscFunctionReturn(0);
+}

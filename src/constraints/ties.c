@@ -1,0 +1,330 @@
+/*
+   Tied faces, symmetry planes along no axis, hanging vertices and rigid bodies that forces drive: displacements there
+   are those that others give them, u = C x + o, and no unknowns. x is u with other numbers at their rows, which mean
+   nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in those
+   rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
+*/
+#include "src/step/stepimpl.h"
+
+/* Whether a local row is prescribed */
+static PetscErrorCode TiesMarkPrescribed(Simulation sim, PetscInt rstart, PetscBool prescribed[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->prescribed.n; ++k) prescribed[sim->prescribed.rows[k] - rstart] = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* NULL where no vertex hangs; those of faces with prescribed displacements have theirs */
+static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+{
+  PetscInt start, end, *hangs;
+  Mat      means;
+
+  PetscFunctionBegin;
+  *C = NULL;
+  PetscCall(MeshGetHanging(sim->dm, &means));
+  if (!means) PetscFunctionReturn(0);
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  PetscCall(PetscMalloc1(end - start, &hangs));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    hangs[i - start] = n ? 0 : -1;
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCall(JointsExpand(sim, means, hangs, prescribed, C, follows));
+  PetscCall(PetscFree(hangs));
+  PetscFunctionReturn(0);
+}
+
+/* C = A C; C NULL: A */
+static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
+{
+  Mat product;
+
+  PetscFunctionBegin;
+  if (!A) PetscFunctionReturn(0);
+  if (*C) {
+    PetscCall(MatMatMult(A, *C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+    PetscCall(MatDestroy(C));
+    *C = product;
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *C = A;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What is tied follows nodes on symmetry planes and hanging ones, and may be such a node itself: these come first and
+   last. What hangs does so between nodes on planes */
+static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
+{
+  PetscFunctionBegin;
+  *C = NULL;
+  PetscCall(TiesApplyNext(planes, C));
+  PetscCall(TiesApplyNext(hanging, C));
+  if (joints) {
+    PetscCall(TiesApplyNext(joints, C));
+    PetscCall(TiesApplyNext(planes, C));
+    PetscCall(TiesApplyNext(hanging, C));
+  }
+  PetscCall(MatDestroy(&joints));
+  PetscCall(MatDestroy(&planes));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TiesCreateIdentity(Vec layout, Mat *identity)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(layout, &start, &end));
+  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)layout), end - start, end - start, PETSC_DETERMINE,
+    PETSC_DETERMINE, 1, NULL, 0, NULL, identity));
+  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(*identity, i, i, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(*identity, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*identity, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* C, of all but rigid bodies, is the second factor to R, if there are any that forces drive */
+static PetscErrorCode TiesJoinRigid(Simulation sim)
+{
+  Ties *ties = &sim->ties;
+  Mat   C    = NULL;
+
+  PetscFunctionBegin;
+  if (!sim->rigid.R) PetscFunctionReturn(0);
+  ties->joined = ties->C;
+  PetscCall(TiesApplyNext(sim->rigid.R, &C));
+  PetscCall(TiesApplyNext(ties->joined, &C));
+  ties->C = C;
+  PetscCall(MatDuplicate(C, MAT_COPY_VALUES, &ties->elastic));
+  PetscCall(MatDiagonalScale(ties->elastic, sim->rigid.elastic, NULL));
+  PetscCall(VecDuplicate(sim->path.u, &ties->o));
+  PetscCall(VecZeroEntries(ties->o));
+  PetscFunctionReturn(0);
+}
+
+/* After the prescribed rows, before the stiffness */
+PetscErrorCode TiesCreate(Simulation sim)
+{
+  Ties      *ties = &sim->ties;
+  PetscInt   n, rstart;
+  PetscBool *prescribed, *follows;
+  Mat        joints, planes;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscCalloc2(n, &prescribed, n, &follows));
+  PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
+  PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
+  PetscCall(JointsCreate(sim, prescribed, &joints, follows));
+  PetscCall(TiesCreateHanging(sim, prescribed, &ties->hanging, follows));
+  PetscCall(RigidCreate(sim, prescribed, follows));
+  if (planes || joints || ties->hanging || sim->rigid.R || sim->springs.between) {
+    PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
+    PetscCall(TiesJoinRigid(sim));
+    if (!ties->C) PetscCall(TiesCreateIdentity(sim->path.u, &ties->C));
+    PetscCall(MatSetBlockSizes(ties->C, 3, 3));
+    PetscCall(PetscMalloc1(n, &ties->rows));
+    for (PetscInt i = 0; i < n; ++i) {
+      if (follows[i]) ties->rows[ties->n++] = rstart + i;
+    }
+    PetscCall(VecDuplicate(sim->path.u, &ties->work));
+    PetscCall(ElasticitySetMatType(sim->elasticity, MATAIJ));
+  }
+  PetscCall(PetscFree2(prescribed, follows));
+  PetscFunctionReturn(0);
+}
+
+/* To what is prescribed at a time */
+PetscErrorCode TiesMove(Simulation sim, PetscReal time)
+{
+  Ties *ties = &sim->ties;
+
+  PetscFunctionBegin;
+  if (!ties->o) PetscFunctionReturn(0);
+  PetscCall(RigidMove(sim, time, ties->joined ? ties->work : ties->o));
+  if (ties->joined) PetscCall(MatMult(ties->joined, ties->work, ties->o));
+  PetscFunctionReturn(0);
+}
+
+/* u = C u + o: the tied rows follow the others */
+PetscErrorCode TiesFollow(const Ties *ties, Vec u)
+{
+  PetscFunctionBegin;
+  if (!ties->C) PetscFunctionReturn(0);
+  PetscCall(VecCopy(u, ties->work));
+  PetscCall(MatMult(ties->C, ties->work, u));
+  if (ties->o) PetscCall(VecAXPY(u, 1.0, ties->o));
+  PetscFunctionReturn(0);
+}
+
+/* f = C^T f: forces on the tied rows go to the others */
+PetscErrorCode TiesGather(const Ties *ties, Vec f)
+{
+  PetscFunctionBegin;
+  if (!ties->C) PetscFunctionReturn(0);
+  PetscCall(VecCopy(f, ties->work));
+  PetscCall(MatMultTranspose(ties->C, ties->work, f));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those
+   between hanging vertices and the cells that they hang on; rigid: on rigid bodies that forces drive, what keeps them
+   rigid and to the motions that are prescribed. NULL where nothing follows
+*/
+PetscErrorCode TiesGetForces(Simulation sim, Vec force, Vec *ties, Vec *rigid)
+{
+  const Ties *t = &sim->ties;
+
+  PetscFunctionBegin;
+  *ties = *rigid = NULL;
+  if (!t->C) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(force, ties));
+  if (t->hanging) PetscCall(MatMultTranspose(t->hanging, force, *ties));
+  else PetscCall(VecCopy(force, *ties));
+  if (sim->rigid.R) {
+    PetscCall(VecDuplicate(force, rigid));
+    if (t->joined) PetscCall(MatMultTranspose(t->joined, force, *rigid));
+    else PetscCall(VecCopy(force, *rigid));
+    PetscCall(VecAXPY(*ties, -1.0, *rigid));
+    PetscCall(MatMultTranspose(sim->rigid.R, *rigid, force));
+    PetscCall(VecAXPY(*rigid, -1.0, force));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(TiesGather(t, force));
+  PetscCall(VecAXPY(*ties, -1.0, force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
+{
+  PetscScalar *a;
+  PetscInt     rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < ties->n; ++k) a[ties->rows[k] - rstart] = value;
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Prescribed and tied rows and columns hold nothing but the diagonal that they had */
+static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
+{
+  const Ties        *ties = &sim->ties;
+  PetscInt           rstart;
+  Vec                now;
+  PetscScalar       *d;
+  const PetscScalar *old;
+
+  PetscFunctionBegin;
+  PetscCall(MatZeroRowsColumns(tied, sim->prescribed.n, sim->prescribed.rows, 0.0, NULL, NULL));
+  PetscCall(VecDuplicate(diagonal, &now));
+  PetscCall(MatGetDiagonal(tied, now));
+  PetscCall(VecGetOwnershipRange(now, &rstart, NULL));
+  PetscCall(VecGetArray(now, &d));
+  PetscCall(VecGetArrayRead(diagonal, &old));
+  for (PetscInt k = 0; k < sim->prescribed.n; ++k)
+    d[sim->prescribed.rows[k] - rstart] = old[sim->prescribed.rows[k] - rstart];
+  for (PetscInt k = 0; k < ties->n; ++k) d[ties->rows[k] - rstart] = old[ties->rows[k] - rstart];
+  PetscCall(VecRestoreArrayRead(diagonal, &old));
+  PetscCall(VecRestoreArray(now, &d));
+  PetscCall(MatDiagonalSet(tied, now, INSERT_VALUES));
+  PetscCall(VecDestroy(&now));
+  PetscFunctionReturn(0);
+}
+
+/* C^T K C, with a place for every diagonal entry: that of the tied rows is not among the products */
+static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
+{
+  PetscBool aij;
+  Mat       identity, K = ties->K;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
+  if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
+  PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  if (!aij) PetscCall(MatDestroy(&K));
+  PetscCall(TiesCreateIdentity(diagonal, &identity));
+  PetscCall(MatAXPY(*tied, 1.0, identity, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatAXPY(*tied, -1.0, identity, SUBSET_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&identity));
+  PetscFunctionReturn(0);
+}
+
+/* The bodies' stiffness at u less the slope of loads that follow, of the tied displacements where faces are tied */
+PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
+{
+  Ties *ties = &sim->ties;
+  Vec   diagonal;
+  Mat   tied;
+
+  PetscFunctionBegin;
+  if (!ties->C) {
+    PetscCall(ElasticityTangent(sim->elasticity, u, K));
+    if (sim->follows) PetscCall(MatAXPY(K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ElasticityTangent(sim->elasticity, u, ties->K));
+  if (sim->follows) PetscCall(MatAXPY(ties->K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
+  PetscCall(VecDuplicate(u, &diagonal));
+  PetscCall(MatGetDiagonal(ties->K, diagonal));
+  PetscCall(TiesMultiply(ties, diagonal, &tied));
+  PetscCall(CouplingsAddStiffness(sim, ties->C, tied));
+  if (sim->rigid.R) PetscCall(RigidAddStiffness(sim, ties->C, diagonal, tied));
+  PetscCall(TiesClearRows(sim, diagonal, tied));
+  PetscCall(MatSetBlockSize(tied, 3));
+  PetscCall(MatSetOption(tied, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetOption(tied, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  PetscCall(MatHeaderReplace(K, &tied));
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(0);
+}
+
+/* The stiffness that solvers have, AIJ where faces are tied; that of the bodies as they are is in ties.K then */
+PetscErrorCode TiesCreateTangent(Simulation sim, Mat *K)
+{
+  PetscFunctionBegin;
+  PetscCall(ElasticityCreateTangent(sim->elasticity, K));
+  if (!sim->ties.C) PetscFunctionReturn(0);
+  sim->ties.K = *K;
+  PetscCall(MatDuplicate(sim->ties.K, MAT_DO_NOT_COPY_VALUES, K));
+  PetscFunctionReturn(0);
+}
+
+/* Adds forces at this rank's rows, 3 numbers a body, and over the ranks */
+PetscErrorCode TiesMeasure(Simulation sim, Vec forces, PetscReal bodies[])
+{
+  const PetscScalar *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(forces, &n));
+  PetscCall(VecGetArrayRead(forces, &a));
+  for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(forces, &a));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TiesDestroy(Ties *ties)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&ties->C));
+  PetscCall(MatDestroy(&ties->K));
+  PetscCall(MatDestroy(&ties->hanging));
+  PetscCall(MatDestroy(&ties->joined));
+  PetscCall(MatDestroy(&ties->elastic));
+  PetscCall(VecDestroy(&ties->o));
+  PetscCall(VecDestroy(&ties->work));
+  PetscCall(PetscFree(ties->rows));
+  PetscFunctionReturn(0);
+}

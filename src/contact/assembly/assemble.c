@@ -1,0 +1,460 @@
+/* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
+#include "src/contact/contactimpl.h"
+
+/* Entries of a row that are this small beside its largest are rounding of exact zeros */
+#define ENTRY_DROP 1e-14
+/* The same of a row of a smooth pair, which more was added up for */
+#define SLOPE_DROP 1e-12
+
+PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(as, sizeof(*as)));
+  as->dim = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
+  PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
+  PetscCall(VecZeroEntries(as->gap));
+  PetscCall(VecDuplicate(as->gap, &as->cover));
+  PetscCall(VecZeroEntries(as->cover));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[],
+  const PetscReal value[], const PetscReal normal[3])
+{
+  PetscFunctionBegin;
+  if (as->n + n > as->size) {
+    as->size = 2 * as->size + 1024;
+    PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->row));
+    PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->node));
+    for (PetscInt c = 0; c < as->dim; ++c) PetscCall(PetscRealloc(as->size * sizeof(PetscScalar), &as->value[c]));
+  }
+  for (PetscInt b = 0; b < n; ++b) {
+    as->row[as->n]  = row;
+    as->node[as->n] = node[b];
+    for (PetscInt c = 0; c < as->dim; ++c) as->value[c][as->n] = as->dim == 1 ? value[b] : value[b] * normal[c];
+    ++as->n;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A facet of a smooth pair: what its vertices and the normals there add to four rows */
+PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
+  const PetscInt bend[4], const ContactSlopes *slopes)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 4; ++a) {
+    PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
+    PetscCall(ContactEntriesAdd(&as->by_cover, row[a], 4, node, slopes->cover[a]));
+    PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
+    PetscCall(ContactEntriesAdd(&as->by_bend, row[a], 4, bend, slopes->normal[a]));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactEntriesDestroy(&as->rigid));
+  PetscCall(ContactEntriesDestroy(&as->by_cover));
+  PetscCall(ContactEntriesDestroy(&as->by_node));
+  PetscCall(ContactEntriesDestroy(&as->by_bend));
+  PetscCall(PetscFree(as->row));
+  PetscCall(PetscFree(as->node));
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
+  PetscCall(VecDestroy(&as->cover));
+  PetscCall(VecDestroy(&as->gap));
+  PetscFunctionReturn(0);
+}
+
+/* The couplings of all rows with vertices, one or three matrices of the same pattern */
+typedef struct {
+  PetscInt dim;
+  Mat      mat[3];
+} Coupling;
+
+/* A row of them; factor: what each value is to be multiplied by */
+typedef struct {
+  PetscInt           n;
+  const PetscInt    *node;
+  const PetscScalar *value[3];
+  PetscReal          factor[3];
+} CouplingRow;
+
+/* The sums over facets and ranks are made here */
+static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
+{
+  Vec      u;
+  PetscInt n, *row = as->row, *node = as->node;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(contact->dm, &u));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(DMRestoreGlobalVector(contact->dm, &u));
+  coupling->dim = as->dim;
+  if (as->dim > 1) PetscCall(PetscMalloc2(as->n, &row, as->n, &node));
+  for (PetscInt c = 0; c < as->dim; ++c) {
+    if (as->dim > 1) { /* the preallocation sorts them */
+      PetscCall(PetscArraycpy(row, as->row, as->n));
+      PetscCall(PetscArraycpy(node, as->node, as->n));
+    }
+    PetscCall(MatCreate(contact->comm, &coupling->mat[c]));
+    PetscCall(MatSetSizes(coupling->mat[c], contact->rows.nlocal, n / 3, PETSC_DETERMINE, PETSC_DETERMINE));
+    PetscCall(MatSetType(coupling->mat[c], MATAIJ));
+    PetscCall(MatSetPreallocationCOO(coupling->mat[c], as->n, row, node));
+    PetscCall(MatSetValuesCOO(coupling->mat[c], as->value[c], INSERT_VALUES));
+    PetscCall(ContactHangingRowsMatrix(contact, &coupling->mat[c]));
+  }
+  if (as->dim > 1) PetscCall(PetscFree2(row, node));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CouplingDestroy(Coupling *coupling)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatDestroy(&coupling->mat[c]));
+  PetscFunctionReturn(0);
+}
+
+/* Component c of the row's vectors is value[c], or value[0] for all, times factor[c] */
+static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
+  CouplingRow *r)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c)
+    PetscCall(MatGetRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  for (PetscInt c = coupling->dim; c < 3; ++c) r->value[c] = r->value[0];
+  for (PetscInt c = 0; c < 3; ++c) r->factor[c] = (coupling->dim == 1 ? normal[c] : 1.0) / mass;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row, CouplingRow *r)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < coupling->dim; ++c)
+    PetscCall(MatRestoreRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  PetscFunctionReturn(0);
+}
+
+/* kept[k]: local rows whose 1-norm, divided by the mass, is not below row_drop of the largest of all ranks */
+static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
+{
+  const ContactRows *rows = &contact->rows;
+  const PetscScalar *mass;
+  PetscInt           rstart;
+  PetscReal         *norm, largest = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
+  PetscCall(PetscCalloc1(rows->nlocal, &norm));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
+  for (PetscInt i = 0; i < rows->nlocal; ++i) {
+    CouplingRow r = {0};
+
+    PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
+    for (PetscInt c = 0; c < 3; ++c) {
+      for (PetscInt k = 0; k < r.n; ++k) norm[i] += PetscAbsScalar(r.value[c][k] * r.factor[c]);
+    }
+    PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
+    largest = PetscMax(largest, norm[i]);
+  }
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
+  *nkept = 0;
+  for (PetscInt i = 0; i < rows->nlocal; ++i) {
+    if (norm[i] > 0.0 && norm[i] >= contact->row_drop * largest) kept[(*nkept)++] = i;
+  }
+  PetscCall(PetscFree(norm));
+  PetscFunctionReturn(0);
+}
+
+/* One row of J; entries that are zero but for rounding are left out */
+static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
+  PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+{
+  PetscReal   largest = 0.0;
+  CouplingRow r       = {0};
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCall(CouplingGetRow(coupling, row, normal, mass, &r));
+  for (PetscInt c = 0; c < 3; ++c) {
+    for (PetscInt k = 0; k < r.n; ++k) largest = PetscMax(largest, PetscAbsScalar(r.value[c][k] * r.factor[c]));
+  }
+  for (PetscInt k = 0; k < r.n; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      const PetscScalar value = r.value[c][k] * r.factor[c];
+
+      if (PetscAbsScalar(value) <= ENTRY_DROP * largest) continue;
+      column[*n] = 3 * r.node[k] + c;
+      entry[*n]  = value;
+      ++*n;
+    }
+  }
+  PetscCall(CouplingRestoreRow(coupling, row, &r));
+  PetscFunctionReturn(0);
+}
+
+/* Longest row of a matrix, on this rank */
+static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
+{
+  PetscInt rstart, rend;
+
+  PetscFunctionBegin;
+  *longest = 0;
+  PetscCall(MatGetOwnershipRange(coupling, &rstart, &rend));
+  for (PetscInt i = rstart; i < rend; ++i) {
+    PetscInt ncols;
+
+    PetscCall(MatGetRow(coupling, i, &ncols, NULL, NULL));
+    *longest = PetscMax(*longest, ncols);
+    PetscCall(MatRestoreRow(coupling, i, &ncols, NULL, NULL));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What was added up by the rows, and a matrix of so many columns here */
+static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEntries *entries, Mat *mat)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, entries, mat));
+  PetscCall(ContactHangingRowsMatrix(contact, mat));
+  PetscFunctionReturn(0);
+}
+
+/*
+  From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does
+  not close its gap. Where the mean is zero, as under pressure, both are the same.
+*/
+static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
+{
+  PetscInt           n;
+  PetscScalar       *m;
+  const PetscScalar *cover;
+  Vec                mean;
+  Mat                by_cover;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(as->gap, &mean));
+  PetscCall(VecCopy(as->gap, mean));
+  PetscCall(VecGetLocalSize(mean, &n));
+  PetscCall(VecGetArray(mean, &m));
+  PetscCall(VecGetArrayRead(as->cover, &cover));
+  for (PetscInt i = 0; i < n; ++i) m[i] = PetscRealPart(cover[i]) > 0.0 ? m[i] / cover[i] : 0.0;
+  PetscCall(VecRestoreArrayRead(as->cover, &cover));
+  PetscCall(VecRestoreArray(mean, &m));
+  PetscCall(MatGetLocalSize(slopes, NULL, &n));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->by_cover, &by_cover));
+  PetscCall(MatDiagonalScale(by_cover, mean, NULL));
+  PetscCall(MatAXPY(slopes, -1.0, by_cover, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&by_cover));
+  PetscCall(VecDestroy(&mean));
+  PetscFunctionReturn(0);
+}
+
+/* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with
+   those that bend; the rows of other pairs are empty */
+static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
+{
+  PetscInt n;
+  Mat      bend, through;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(contact->bends.slopes, NULL, &n));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->rigid, rigid));
+  PetscCall(SlopesHoldCover(contact, as, *rigid));
+  PetscCall(SlopesCreateMatrix(contact, n, &as->by_node, bending));
+  PetscCall(SlopesCreateMatrix(contact, 3 * contact->bends.nlocal, &as->by_bend, &bend));
+  PetscCall(MatMatMult(bend, contact->bends.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
+  PetscCall(MatAXPY(*bending, 1.0, through, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&through));
+  PetscCall(MatDestroy(&bend));
+  PetscFunctionReturn(0);
+}
+
+/* One row of J of a smooth pair; entries that are zero but for rounding are left out */
+static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[],
+  PetscScalar entry[])
+{
+  PetscInt           ncols;
+  const PetscInt    *cols;
+  const PetscScalar *values;
+  PetscReal          largest = 0.0;
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCall(MatGetRow(slopes, row, &ncols, &cols, &values));
+  for (PetscInt k = 0; k < ncols; ++k) largest = PetscMax(largest, PetscAbsScalar(values[k]));
+  for (PetscInt k = 0; k < ncols; ++k) {
+    if (PetscAbsScalar(values[k]) <= SLOPE_DROP * largest) continue;
+    column[*n] = cols[k];
+    entry[*n]  = values[k] / mass;
+    ++*n;
+  }
+  PetscCall(MatRestoreRow(slopes, row, &ncols, &cols, &values));
+  PetscFunctionReturn(0);
+}
+
+/* The space for rows of the couplings, and of the slopes if there are any */
+static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, PetscInt *space)
+{
+  PetscInt longest = 0;
+
+  PetscFunctionBegin;
+  PetscCall(CouplingLongestRow(coupling->mat[0], space));
+  if (slopes) PetscCall(CouplingLongestRow(slopes, &longest));
+  *space = PetscMax(3 * *space, longest);
+  PetscFunctionReturn(0);
+}
+
+/* J of the kept rows: counts the entries of each row first, then puts them in. slopes: taken for smooth pairs unless
+   NULL */
+static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
+  const PetscInt kept[], Mat *J)
+{
+  const ContactRows *rows = &contact->rows;
+  const PetscScalar *mass;
+  PetscInt           rstart, jstart = 0, nlocal, cstart, cend, space, *column, *diagonal, *offdiagonal;
+  PetscScalar       *entry;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
+  PetscCall(MatGetOwnershipRangeColumn(coupling->mat[0], &cstart, &cend));
+  nlocal = 3 * (cend - cstart);
+  PetscCall(CouplingRowSpace(coupling, slopes, &space));
+  PetscCall(PetscMalloc4(space, &column, space, &entry, nkept, &diagonal, nkept, &offdiagonal));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
+  PetscCall(MatCreate(contact->comm, J));
+  PetscCall(MatSetSizes(*J, nkept, nlocal, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*J, MATAIJ));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    PetscInt pair = 0;
+
+    if (pass) {
+      PetscCall(MatXAIJSetPreallocation(*J, 1, diagonal, offdiagonal, NULL, NULL));
+      PetscCall(MatGetOwnershipRange(*J, &jstart, NULL));
+    }
+    for (PetscInt k = 0; k < nkept; ++k) {
+      const PetscInt i = kept[k], row = jstart + k;
+      PetscInt       n;
+
+      while (i >= rows->first[pair + 1]) ++pair;
+      if (slopes && contact->pairs[pair].mortar.patched)
+        PetscCall(SlopesGetRow(slopes, rstart + i, PetscRealPart(mass[i]), &n, column, entry));
+      else
+        PetscCall(
+          CouplingExpandRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &n, column, entry));
+      if (pass) PetscCall(MatSetValues(*J, 1, &row, n, column, entry, INSERT_VALUES));
+      else {
+        diagonal[k] = 0;
+        for (PetscInt e = 0; e < n; ++e) diagonal[k] += column[e] >= 3 * cstart && column[e] < 3 * cend;
+        offdiagonal[k] = n - diagonal[k];
+      }
+    }
+  }
+  PetscCall(MatAssemblyBegin(*J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
+  PetscCall(PetscFree4(column, entry, diagonal, offdiagonal));
+  PetscFunctionReturn(0);
+}
+
+/* Gap and mass of the kept rows, and where they stand */
+static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[],
+  ContactLinearization lin)
+{
+  const ContactRows *rows = &contact->rows;
+  const PetscScalar *mass, *gap;
+  PetscScalar       *m, *g;
+  PetscInt           pair = 0;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(lin->J, NULL, &lin->g));
+  PetscCall(VecDuplicate(lin->g, &lin->mass));
+  PetscCall(PetscMalloc1(lin->nlocal, &lin->vertex));
+  PetscCall(PetscMalloc1(lin->nlocal, &lin->pair));
+  PetscCall(VecGetArrayRead(rows->weight, &mass));
+  PetscCall(VecGetArrayRead(as->gap, &gap));
+  PetscCall(VecGetArray(lin->mass, &m));
+  PetscCall(VecGetArray(lin->g, &g));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    const PetscInt i = kept[k];
+
+    while (i >= rows->first[pair + 1]) ++pair;
+    m[k]           = mass[i];
+    g[k]           = gap[i] / mass[i];
+    lin->vertex[k] = rows->vertex[i];
+    lin->pair[k]   = pair;
+  }
+  PetscCall(VecRestoreArray(lin->g, &g));
+  PetscCall(VecRestoreArray(lin->mass, &m));
+  PetscCall(VecRestoreArrayRead(as->gap, &gap));
+  PetscCall(VecRestoreArrayRead(rows->weight, &mass));
+  PetscFunctionReturn(0);
+}
+
+/* J and what goes with it where pairs are smooth */
+static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
+  const PetscInt kept[], ContactLinearization lin)
+{
+  Mat rigid, bending;
+
+  PetscFunctionBegin;
+  PetscCall(SlopesCreate(contact, as, &rigid, &bending));
+  PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->J));
+  PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
+  PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->cover));
+  PetscCall(MatDestroy(&rigid));
+  PetscCall(MatDestroy(&bending));
+  PetscFunctionReturn(0);
+}
+
+/*
+  Forces on the surfaces' vertices become those on the nodes of order 2, and areas are shared as those of the facets
+  are. The gap of a pair that follows its nodes has its derivative by these.
+*/
+static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
+{
+  Vec          facets;
+  PetscScalar *f;
+
+  PetscFunctionBegin;
+  if (!lin->cover) PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &lin->cover));
+  PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->J));
+  if (lin->slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->slip));
+  if (!lin->derivative) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(lin->mass, &facets));
+  PetscCall(VecGetArrayWrite(facets, &f));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) f[k] = ContactPairFollows(&contact->pairs[lin->pair[k]]) ? 0.0 : 1.0;
+  PetscCall(VecRestoreArrayWrite(facets, &f));
+  PetscCall(ContactTraceDifferentiate(contact->trace, facets, lin->derivative));
+  PetscCall(VecDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* Collective */
+PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
+{
+  Coupling  coupling = {0};
+  PetscInt *kept;
+
+  PetscFunctionBegin;
+  PetscCall(VecAssemblyBegin(as->gap));
+  PetscCall(VecAssemblyEnd(as->gap));
+  PetscCall(VecAssemblyBegin(as->cover));
+  PetscCall(VecAssemblyEnd(as->cover));
+  PetscCall(ContactHangingRowsVector(contact, as->gap));
+  PetscCall(ContactHangingRowsVector(contact, as->cover));
+  PetscCall(CouplingCreate(contact, as, &coupling));
+  PetscCall(PetscNew(lin));
+  PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
+  PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
+  if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
+  else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
+  PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
+  if (contact->rubs) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
+  if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
+  PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
+  PetscCall(PetscFree(kept));
+  PetscCall(CouplingDestroy(&coupling));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,44 @@
+/* A matrix from entries that come in any order, for rows of any rank */
+#include "src/contact/contactimpl.h"
+
+/* value: of three columns for each of n blocks */
+PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],
+  const PetscReal value[])
+{
+  PetscFunctionBegin;
+  if (entries->n + 3 * n > entries->size) {
+    entries->size = 2 * entries->size + 3 * n + 1024;
+    PetscCall(PetscRealloc(entries->size * sizeof(PetscInt), &entries->row));
+    PetscCall(PetscRealloc(entries->size * sizeof(PetscInt), &entries->column));
+    PetscCall(PetscRealloc(entries->size * sizeof(PetscScalar), &entries->value));
+  }
+  for (PetscInt i = 0; i < 3 * n; ++i) {
+    entries->row[entries->n]    = row;
+    entries->column[entries->n] = 3 * block[i / 3] + i % 3;
+    entries->value[entries->n]  = value[i];
+    ++entries->n;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The numbers of rows and columns are this rank's; the entries' places are no more of use after it */
+PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm comm, PetscInt m, PetscInt n, ContactEntries *entries, Mat *mat)
+{
+  PetscFunctionBegin;
+  PetscCall(MatCreate(comm, mat));
+  PetscCall(MatSetSizes(*mat, m, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*mat, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(*mat, entries->n, entries->row, entries->column));
+  PetscCall(MatSetValuesCOO(*mat, entries->value, INSERT_VALUES));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactEntriesDestroy(ContactEntries *entries)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(entries->row));
+  PetscCall(PetscFree(entries->column));
+  PetscCall(PetscFree(entries->value));
+  entries->n = entries->size = 0;
+  PetscFunctionReturn(0);
+}

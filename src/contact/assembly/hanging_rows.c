@@ -1,0 +1,156 @@
+/*
+   Rows of hanging vertices: displacements of the nonmortar face are those of the other vertices, and so are its
+   multipliers. What is added up for the row of a vertex that hangs between others, phi_A its bilinear function, goes
+   to theirs, in parts of 1/2 or 1/4, and the row stays empty.
+*/
+#include <mesh.h>
+#include "src/contact/contactimpl.h"
+
+/* The pair's row of every node, plus 1; 0: it has none */
+static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec number)
+{
+  const ContactRows *rows = &contact->rows;
+  PetscSection       global;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(number));
+  PetscCall(VecGetOwnershipRange(rows->mass, &rstart, NULL));
+  PetscCall(DMGetGlobalSection(contact->dm, &global));
+  for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(global, rows->vertex[i], &offset));
+    PetscCall(VecSetValue(number, offset / 3, (PetscScalar)(rstart + i + 1), INSERT_VALUES));
+  }
+  PetscCall(VecAssemblyBegin(number));
+  PetscCall(VecAssemblyEnd(number));
+  PetscFunctionReturn(0);
+}
+
+/* Columns of the nodes that hang, in turn; NULL: counts them only */
+static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt columns[])
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt        length;
+    const PetscInt *node;
+
+    PetscCall(MatGetRow(means, i, &length, &node, NULL));
+    if (columns) PetscCall(PetscArraycpy(&columns[*n], node, length));
+    *n += length;
+    PetscCall(MatRestoreRow(means, i, &length, &node, NULL));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* number at the nodes that hanging ones are the mean of, in the order of the list */
+static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
+{
+  PetscInt   n, *columns;
+  IS         from;
+  VecScatter scatter;
+
+  PetscFunctionBegin;
+  PetscCall(HangingRowsListMeans(means, &n, NULL));
+  PetscCall(PetscMalloc1(n, &columns));
+  PetscCall(HangingRowsListMeans(means, &n, columns));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, columns, PETSC_OWN_POINTER, &from));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, gathered));
+  PetscCall(VecScatterCreate(number, from, *gathered, NULL, &scatter));
+  PetscCall(VecScatterBegin(scatter, number, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, number, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ISDestroy(&from));
+  PetscFunctionReturn(0);
+}
+
+/* Where the pair's rows go: to themselves, or those of hanging vertices to others */
+static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat share)
+{
+  PetscInt           start, end, k = 0;
+  const PetscScalar *own, *to;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  PetscCall(VecGetArrayRead(number, &own));
+  PetscCall(VecGetArrayRead(gathered, &to));
+  for (PetscInt i = start; i < end; ++i) {
+    const PetscInt     row = (PetscInt)PetscRealPart(own[i - start]) - 1;
+    PetscInt           n;
+    const PetscScalar *weight;
+    PetscBool          all = PETSC_TRUE;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, &weight));
+    for (PetscInt j = 0; j < n; ++j) all = (PetscBool)(all && PetscRealPart(to[k + j]) > 0.0);
+    if (row >= 0 && !(n && all)) PetscCall(MatSetValue(share, row, row, 1.0, INSERT_VALUES));
+    for (PetscInt j = 0; row >= 0 && all && j < n; ++j)
+      PetscCall(MatSetValue(share, row, (PetscInt)PetscRealPart(to[k + j]) - 1, weight[j], INSERT_VALUES));
+    k += n;
+    PetscCall(MatRestoreRow(means, i, &n, NULL, &weight));
+  }
+  PetscCall(VecRestoreArrayRead(gathered, &to));
+  PetscCall(VecRestoreArrayRead(number, &own));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. rows->hanging: NULL where no vertex of the mesh hangs; rows->weight: the masses with those of hanging
+   vertices given away */
+PetscErrorCode ContactHangingRowsCreate(Contact contact)
+{
+  ContactRows *rows = &contact->rows;
+  Mat          means;
+  Vec          number, gathered;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetHanging(contact->dm, &means));
+  PetscCall(PetscObjectReference((PetscObject)rows->mass));
+  rows->weight = rows->mass;
+  if (!means) PetscFunctionReturn(0);
+  PetscCall(MatCreateAIJ(contact->comm, rows->nlocal, rows->nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 4, NULL,
+    &rows->hanging));
+  PetscCall(MatCreateVecs(means, &number, NULL));
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    PetscCall(HangingRowsNumberRows(contact, p, number));
+    PetscCall(HangingRowsGather(means, number, &gathered));
+    PetscCall(HangingRowsFill(means, number, gathered, rows->hanging));
+    PetscCall(VecDestroy(&gathered));
+  }
+  PetscCall(VecDestroy(&number));
+  PetscCall(MatAssemblyBegin(rows->hanging, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(rows->hanging, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecDestroy(&rows->weight));
+  PetscCall(VecDuplicate(rows->mass, &rows->weight));
+  PetscCall(MatMultTranspose(rows->hanging, rows->mass, rows->weight));
+  PetscFunctionReturn(0);
+}
+
+/* Of what was added up, a value a row */
+PetscErrorCode ContactHangingRowsVector(Contact contact, Vec sums)
+{
+  Vec own;
+
+  PetscFunctionBegin;
+  if (!contact->rows.hanging) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(sums, &own));
+  PetscCall(VecCopy(sums, own));
+  PetscCall(MatMultTranspose(contact->rows.hanging, own, sums));
+  PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactHangingRowsMatrix(Contact contact, Mat *sums)
+{
+  Mat shared;
+
+  PetscFunctionBegin;
+  if (!contact->rows.hanging) PetscFunctionReturn(0);
+  PetscCall(MatTransposeMatMult(contact->rows.hanging, *sums, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &shared));
+  PetscCall(MatDestroy(sums));
+  *sums = shared;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,301 @@
+/*
+   The directions along which the rows of a pair with friction have no slip, and so no friction.
+
+   - Both faces end on the same symmetry plane, or both are driven by the same displacement: the prescribed
+     displacements allow no slip along that direction. The slip rows of these vertices are linearly dependent, so the
+     friction force is not unique. It is set to zero.
+   - A vertex is held, and the other face is free or driven by another displacement: friction acts.
+   - The pair sticks, and both faces are driven by different displacements: no friction force can prevent that slip.
+     The friction force is set to zero, and the rows are counted as frictionless for a warning.
+*/
+#include <stdlib.h>
+#include <string.h>
+#include "src/contact/contactimpl.h"
+
+static const PetscReal held_rounding = 1e-6; /* of places on one plane, relative to the size of the face */
+
+/* Where vertices of a mortar face are held along an axis */
+typedef struct {
+  PetscReal motion, place; /* along the axis [length] */
+} HeldPlace;
+
+typedef struct {
+  PetscBool  whole; /* the face as a whole, by this motion */
+  PetscInt   motion;
+  PetscInt   n; /* places of all ranks, each once */
+  HeldPlace *places;
+  PetscReal  rounding; /* [length] */
+} HeldFace;
+
+static int HeldPlaceCompare(const void *a, const void *b)
+{
+  const HeldPlace *p = (const HeldPlace *)a, *q = (const HeldPlace *)b;
+
+  if (p->motion != q->motion) return p->motion < q->motion ? -1 : 1;
+  return (p->place > q->place) - (p->place < q->place);
+}
+
+static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
+{
+  PetscInt kept = 0;
+
+  qsort(places, (size_t)*n, sizeof(*places), HeldPlaceCompare);
+  for (PetscInt i = 0; i < *n; ++i) {
+    if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding)
+      places[kept++] = places[i];
+  }
+  *n = kept;
+}
+
+/* The places of all ranks in place of this one's */
+static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
+{
+  PetscMPIInt size, n, *counts, *first;
+  HeldPlace  *all;
+  PetscInt    total = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &counts, size, &first));
+  PetscCall(PetscMPIIntCast(2 * face->n, &n));
+  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, counts, 1, MPI_INT, comm));
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    PetscCall(PetscMPIIntCast(total, &first[r]));
+    total += counts[r];
+  }
+  PetscCall(PetscMalloc1(total / 2, &all));
+  PetscCallMPI(MPI_Allgatherv(face->places, n, MPIU_REAL, all, counts, first, MPIU_REAL, comm));
+  PetscCall(PetscFree(face->places));
+  PetscCall(PetscFree2(counts, first));
+  face->places = all;
+  face->n      = total / 2;
+  HeldPlacesUnite(face->rounding, &face->n, face->places);
+  PetscFunctionReturn(0);
+}
+
+/*
+   What moves a rigid body along an axis: a displacement, CONTACT_AT_REST, CONTACT_FREE where it turns or forces
+   drive it; false: the body is not rigid
+*/
+static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
+{
+  const size_t length = strcspn(face, ".");
+  PetscBool    rigid  = PETSC_FALSE;
+
+  *motion = CONTACT_AT_REST;
+  for (PetscInt k = 0; k < contact->ndisplacements; ++k) {
+    const SceneDisplacement *d = &contact->displacements[k];
+    PetscBool                free;
+
+    if (!d->moves || strncmp(d->face, face, length) || strcmp(d->face + length, SCENE_WHOLE_BODY)) continue;
+    rigid = PETSC_TRUE;
+    free  = (PetscBool)(d->rotation[0] != 0.0 || d->rotation[1] != 0.0 || d->rotation[2] != 0.0);
+    for (PetscInt m = 0; m < 6; ++m) free = (PetscBool)(free || ((m == axis || m >= 3) && d->released[m]));
+    if (free || *motion == CONTACT_FREE) *motion = CONTACT_FREE;
+    else if (d->value[axis] != 0.0) *motion = k;
+  }
+  return rigid;
+}
+
+static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, HeldFace *face)
+{
+  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* negative of the least, largest */
+
+  PetscFunctionBegin;
+  *face       = (HeldFace){.rounding = held_rounding * PetscSqrtReal(s->area)};
+  face->whole = HeldRigidMotion(contact, s->name, axis, &face->motion);
+  if (face->whole) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
+  PetscCall(PetscMalloc1(4 * s->nfacets, &face->places));
+  PetscCall(ContactSurfaceFindMotions(contact->dm, contact->ndisplacements, contact->displacements, axis, s, motion));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    bounds[0] = PetscMax(bounds[0], -motion[i]);
+    bounds[1] = PetscMax(bounds[1], motion[i]);
+    if (motion[i] != CONTACT_FREE)
+      face->places[face->n++] = (HeldPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
+  }
+  PetscCall(PetscFree(motion));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_INT, MPI_MAX, contact->comm));
+  face->whole  = (PetscBool)(-bounds[0] == bounds[1]);
+  face->motion = bounds[1];
+  HeldPlacesUnite(face->rounding, &face->n, face->places);
+  PetscCall(HeldPlacesGather(contact->comm, face));
+  PetscFunctionReturn(0);
+}
+
+/*
+   held: the face is held along the axis at this coordinate, that of a vertex of the other face; alike: by the same
+   motion as that vertex
+*/
+static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
+{
+  *held  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
+  *alike = (PetscBool)(*held && face->motion == motion);
+  for (PetscInt i = 0; !face->whole && i < face->n; ++i) {
+    if (PetscAbsReal(face->places[i].place - place) > face->rounding) continue;
+    *held = PETSC_TRUE;
+    if ((PetscInt)face->places[i].motion == motion) *alike = PETSC_TRUE;
+  }
+}
+
+/*
+   held: the rows of the pair that have no slip along an axis. frictionless: those of them where the faces slide
+   nevertheless. There are none where the whole nonmortar face is held.
+*/
+static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
+  Vec held, Vec frictionless)
+{
+  const ContactSurface *s = &pair->nonmortar;
+  PetscInt             *motion, free = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
+  PetscCall(ContactSurfaceFindMotions(contact->dm, contact->ndisplacements, contact->displacements, axis, s, motion));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) free = free || motion[i] == CONTACT_FREE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &free, 1, MPIU_INT, MPI_MAX, contact->comm));
+  for (PetscInt i = 0; free && i < 4 * s->nfacets; ++i) {
+    PetscBool both, alike;
+
+    if (motion[i] == CONTACT_FREE) continue;
+    HeldFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
+    if (!alike && !(both && pair->sticks)) continue;
+    PetscCall(VecSetValue(held, pair->row[i], 1.0, INSERT_VALUES));
+    if (!alike) PetscCall(VecSetValue(frictionless, pair->row[i], 1.0, INSERT_VALUES));
+  }
+  PetscCall(PetscFree(motion));
+  PetscFunctionReturn(0);
+}
+
+/* The distance from the origin of the plane across a symmetry plane's normal that vertex i of a surface is on */
+static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisplacement *plane)
+{
+  PetscReal n[3] = {plane->normal[0], plane->normal[1], plane->normal[2]};
+
+  (void)ContactScaleToUnit(n);
+  return ContactDot(n, &s->reference[3 * i]);
+}
+
+static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacement *b)
+{
+  PetscReal m[3] = {a->normal[0], a->normal[1], a->normal[2]}, n[3] = {b->normal[0], b->normal[1], b->normal[2]};
+
+  (void)ContactScaleToUnit(m);
+  (void)ContactScaleToUnit(n);
+  return (PetscBool)(PetscAbsReal(ContactDot(m, n)) > 1.0 - held_rounding);
+}
+
+/*
+   Whether the mortar face does not move across symmetry plane k: it ends on the same plane, or is held as a whole
+   without such a motion. planes: of its vertices, as ContactSurfaceFindPlanes() has them; faces: along each axis
+*/
+static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
+  const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
+{
+  const SceneDisplacement *plane  = &contact->displacements[k];
+  PetscInt                 found  = 0;
+  PetscReal                moved  = 0.0;
+  PetscBool                whole  = PETSC_TRUE;
+  const PetscReal          margin = held_rounding * PetscSqrtReal(mortar->area);
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 4 * mortar->nfacets && !found; ++i) {
+    const SceneDisplacement *other = planes[i] ? &contact->displacements[planes[i] - 1] : NULL;
+    const PetscReal          sign  = other && ContactDot(plane->normal, other->normal) < 0.0 ? -1.0 : 1.0;
+
+    found = other && HeldParallel(plane, other) && PetscAbsReal(sign * HeldOffset(mortar, i, other) - offset) <= margin;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPIU_INT, MPI_MAX, contact->comm));
+  for (PetscInt axis = 0; axis < 3; ++axis) {
+    const HeldFace *face = &faces[axis];
+
+    whole = (PetscBool)(whole && face->whole && face->motion != CONTACT_FREE);
+    if (face->whole && face->motion >= 0)
+      moved += plane->normal[axis] * contact->displacements[face->motion].value[axis];
+  }
+  *across = (PetscBool)(found || (whole && PetscAbsReal(moved) <= margin));
+  PetscFunctionReturn(0);
+}
+
+/*
+   plane: the inclined symmetry plane, from 1, on which a row's vertex is, if the mortar face does not move across
+   it; none where all vertices are on planes
+*/
+static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const HeldFace mortar[3], Vec plane)
+{
+  const ContactSurface *s = &pair->nonmortar;
+  PetscInt             *planes, *others, off = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(4 * s->nfacets, &planes, 4 * pair->mortar.nfacets, &others));
+  PetscCall(ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, s, planes));
+  PetscCall(
+    ContactSurfaceFindPlanes(contact->dm, contact->ndisplacements, contact->displacements, &pair->mortar, others));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) off = off || !planes[i];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_INT, MPI_MAX, contact->comm));
+  for (PetscInt k = 0; off && k < contact->ndisplacements; ++k) {
+    PetscReal offset = PETSC_MIN_REAL;
+    PetscBool across = PETSC_FALSE;
+
+    if (!contact->displacements[k].inclined) continue;
+    for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+      if (planes[i] == k + 1) offset = HeldOffset(s, i, &contact->displacements[k]);
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &offset, 1, MPIU_REAL, MPIU_MAX, contact->comm));
+    PetscCall(HeldIsAcross(contact, &pair->mortar, mortar, others, k, offset, &across));
+    for (PetscInt i = 0; across && i < 4 * s->nfacets; ++i) {
+      if (planes[i] == k + 1) PetscCall(VecSetValue(plane, pair->row[i], planes[i], INSERT_VALUES));
+    }
+  }
+  PetscCall(PetscFree2(planes, others));
+  PetscFunctionReturn(0);
+}
+
+/*
+   contact->rows.held: bits of the axes along which each row has no slip, and planes; how many rows of each pair are
+   frictionless
+*/
+PetscErrorCode ContactFindHeld(Contact contact)
+{
+  ContactRows *rows = &contact->rows;
+  Vec          held[4], frictionless;
+
+  PetscFunctionBegin;
+  if (rows->held) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
+  PetscCall(VecDuplicate(rows->mass, &frictionless));
+  for (PetscInt c = 0; c < 4; ++c) {
+    PetscCall(VecDuplicate(rows->mass, &held[c]));
+    PetscCall(VecZeroEntries(held[c]));
+  }
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData *pair = &contact->pairs[p];
+    HeldFace         mortar[3];
+    PetscScalar      sum;
+
+    if (!pair->rubs) continue;
+    PetscCall(VecZeroEntries(frictionless));
+    for (PetscInt c = 0; c < 3; ++c) {
+      PetscCall(HeldFaceCreate(contact, &pair->mortar, c, &mortar[c]));
+      PetscCall(HeldMarkAxis(contact, pair, &mortar[c], c, held[c], frictionless));
+    }
+    PetscCall(HeldMarkPlanes(contact, pair, mortar, held[3]));
+    for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].places));
+    PetscCall(VecAssemblyBegin(frictionless));
+    PetscCall(VecAssemblyEnd(frictionless));
+    PetscCall(VecSum(frictionless, &sum));
+    pair->nfrictionless = (PetscInt)PetscRealPart(sum);
+  }
+  for (PetscInt c = 0; c < 4; ++c) {
+    const PetscScalar *a;
+
+    PetscCall(VecAssemblyBegin(held[c]));
+    PetscCall(VecAssemblyEnd(held[c]));
+    PetscCall(VecGetArrayRead(held[c], &a));
+    for (PetscInt i = 0; i < rows->nlocal; ++i)
+      rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0) << c;
+    PetscCall(VecRestoreArrayRead(held[c], &a));
+    PetscCall(VecDestroy(&held[c]));
+  }
+  PetscCall(VecDestroy(&frictionless));
+  PetscFunctionReturn(0);
+}

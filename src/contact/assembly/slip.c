@@ -1,0 +1,170 @@
+/*
+   The slip of the rows of pairs that rub: how far the mortar side has gone along the nonmortar one, in the means that
+   the mortar gap is taken in,
+
+     slip_A = (1/m_A) int phi_A (u2 - u1).t,   t = t1, t2 across the row's normal,
+
+   for any displacement u of the vertices. Where both faces touch, a rigid motion of both has none.
+
+   Of a row that has no slip along an axis, or across a plane (held.c), the tangent along it is zero.
+*/
+#include "src/contact/contactimpl.h"
+
+/* The part of a unit vector across a unit normal, of length 1; false where there is next to none */
+static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])
+{
+  const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
+
+  for (PetscInt c = 0; c < 3; ++c) t[c] = v[c] - along * n[c];
+  return (PetscBool)(ContactScaleToUnit(t) > least);
+}
+
+static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal t[3])
+{
+  PetscReal v[3] = {0.0, 0.0, 0.0};
+
+  v[axis] = 1.0;
+  return SlipTangentOf(n, v, t);
+}
+
+/* Two unit vectors across a unit normal and each other, of which the one across a plane through the vertex, of that
+   unit normal, is zero; false where the plane is none that the face ends on */
+static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
+{
+  if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
+  ContactCross(t + 3, n, t);
+  for (PetscInt d = 0; d < 3; ++d) t[3 + d] = 0.0;
+  return PETSC_TRUE;
+}
+
+/* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose
+   tangents are zero */
+static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
+{
+  PetscInt  axis = 0;
+  PetscReal along[3];
+
+  for (PetscInt c = 1; c < 3; ++c)
+    if (PetscAbsReal(n[c]) < PetscAbsReal(n[axis])) axis = c;
+  for (PetscInt c = 0; c < 3; ++c)
+    if (held >> c & 1 && SlipTangentAlong(n, c, along)) axis = c;
+  (void)SlipTangentAlong(n, axis, t + 3);
+  ContactCross(t + 3, n, t);
+  for (PetscInt c = 0; c < 3; ++c) {
+    if (!(held >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
+    for (PetscInt d = 0; d < 3; ++d) t[(c == axis ? 3 : 0) + d] = 0.0;
+  }
+}
+
+/* A tangent along which, more than across, the vertex is held becomes zero */
+static void SlipDropHeld(PetscInt held, PetscReal t[3])
+{
+  const PetscReal half  = 0.5;
+  PetscReal       along = 0.0;
+
+  for (PetscInt c = 0; c < 3; ++c)
+    if (held >> c & 1) along = PetscMax(along, PetscAbsReal(t[c]));
+  for (PetscInt c = 0; c < 3; ++c) t[c] = along > half ? 0.0 : t[c];
+}
+
+/* Of a row: none across what its vertex is held by */
+static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
+{
+  const PetscReal *n    = &contact->rows.normal[3 * row];
+  const PetscInt   held = contact->rows.held[row], plane = held / 8 - 1;
+  PetscReal        across[3];
+
+  if (plane >= 0) {
+    for (PetscInt c = 0; c < 3; ++c) across[c] = contact->displacements[plane].normal[c];
+    (void)ContactScaleToUnit(across);
+    if (SlipTangentsInPlane(n, across, t)) {
+      SlipDropHeld(held, t);
+      return;
+    }
+  }
+  SlipTangents(n, held % 8, t);
+}
+
+/* What a row of the couplings covers: the integral of phi_A over the other side, [length^2] */
+static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt k = 0; k < n; ++k) sum += 0.5 * PetscAbsScalar(values[k]);
+  return sum;
+}
+
+/* Entries of the two rows of slip, made from one of the couplings; NULL: counted only */
+static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to,
+  Mat slip, PetscReal *cover)
+{
+  const PetscInt    *node;
+  const PetscScalar *value;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(couplings, row, &n, &node, &value));
+  *cover = SlipCover(n, value);
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt rows[2] = {to, to + 1}, columns[3] = {3 * node[k], 3 * node[k] + 1, 3 * node[k] + 2};
+    PetscScalar    entries[6];
+
+    for (PetscInt e = 0; e < 6; ++e) entries[e] = value[k] * tangent[e] / mass;
+    PetscCall(MatSetValues(slip, 2, rows, 3, columns, entries, INSERT_VALUES));
+  }
+  PetscCall(MatRestoreRow(couplings, row, &n, &node, &value));
+  PetscFunctionReturn(0);
+}
+
+/* An empty matrix, two rows for each one of J, room for entries where the pair rubs */
+static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+{
+  PetscInt rstart, cstart, cend, *diagonal, *offdiagonal;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
+  PetscCall(MatGetOwnershipRangeColumn(couplings, &cstart, &cend));
+  PetscCall(PetscCalloc2(2 * lin->nlocal, &diagonal, 2 * lin->nlocal, &offdiagonal));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    const PetscInt *node;
+    PetscInt        n;
+
+    if (!contact->pairs[lin->pair[k]].rubs) continue;
+    PetscCall(MatGetRow(couplings, rstart + kept[k], &n, &node, NULL));
+    for (PetscInt b = 0; b < n; ++b) diagonal[2 * k] += 3 * (node[b] >= cstart && node[b] < cend);
+    offdiagonal[2 * k]     = 3 * n - diagonal[2 * k];
+    diagonal[2 * k + 1]    = diagonal[2 * k];
+    offdiagonal[2 * k + 1] = offdiagonal[2 * k];
+    PetscCall(MatRestoreRow(couplings, rstart + kept[k], &n, &node, NULL));
+  }
+  PetscCall(MatCreateAIJ(contact->comm, 2 * lin->nlocal, 3 * (cend - cstart), PETSC_DETERMINE, PETSC_DETERMINE, 0,
+    diagonal, 0, offdiagonal, &lin->slip));
+  PetscCall(PetscFree2(diagonal, offdiagonal));
+  PetscFunctionReturn(0);
+}
+
+/* lin->slip, lin->tangent and lin->covered of the kept rows; couplings: of rows with vertices, as integrals */
+PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+{
+  const PetscScalar *mass;
+  PetscInt           rstart, start;
+
+  PetscFunctionBegin;
+  PetscCall(ContactFindHeld(contact));
+  PetscCall(SlipCreateMatrix(contact, couplings, kept, lin));
+  PetscCall(PetscCalloc1(6 * lin->nlocal, &lin->tangent));
+  PetscCall(PetscCalloc1(lin->nlocal, &lin->covered));
+  PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(lin->slip, &start, NULL));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    SlipRowTangents(contact, kept[k], &lin->tangent[6 * k]);
+    if (contact->pairs[lin->pair[k]].rubs)
+      PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
+        lin->slip, &lin->covered[k]));
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(lin->slip, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}

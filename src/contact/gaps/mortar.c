@@ -1,0 +1,157 @@
+/* Mortar integrals of a pair of facets, and of all pairs of this rank's nonmortar facets */
+#include "src/contact/contactimpl.h"
+
+/* All sums over the points of the overlap; coordinates of both facets interpolated there */
+void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],
+  const PetscReal normals[12], ContactIntegrals *m)
+{
+  *m = (ContactIntegrals){0};
+  for (PetscInt q = 0; q < o->n; ++q) {
+    PetscReal phi1[4], phi2[4], d[3] = {0, 0, 0};
+
+    ContactShape(o->xi1[q], phi1);
+    ContactShape(o->xi2[q], phi2);
+    for (PetscInt b = 0; b < 4; ++b) {
+      for (PetscInt c = 0; c < 3; ++c) d[c] += phi2[b] * (x2[3 * b + c] - x1[c]) - phi1[b] * (x1[3 * b + c] - x1[c]);
+    }
+    for (PetscInt a = 0; a < 4; ++a) {
+      const PetscReal w = o->weight[q] * phi1[a];
+
+      for (PetscInt c = 0; c < 3; ++c) m->gap[a] += w * d[c] * normals[3 * a + c];
+      for (PetscInt b = 0; b < 4; ++b) {
+        m->D[a][b] += w * phi1[b];
+        m->M[a][b] += w * phi2[b];
+      }
+    }
+  }
+}
+
+/* A facet of the nonmortar face, and the sums over what it overlaps */
+typedef struct {
+  const PetscReal *x, *normal;
+  const PetscInt  *row, *node;
+  PetscInt         noverlaps;
+  PetscReal        gap[4], D[4][4];
+  ContactPatch     patch; /* of smooth pairs */
+  PetscReal        cover[4];
+  ContactSlopes    slopes;
+} MortarFacet;
+
+/* Adds a mortar facet of a smooth pair */
+static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
+  const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
+{
+  const PetscReal *x = &mortar->x[12 * k];
+  PetscReal        cover[4];
+  ContactPatch     patch;
+  ContactSlopes    slopes;
+
+  PetscFunctionBegin;
+  ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, &facet->slopes, &slopes);
+  for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
+  PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->bend[4 * k], &slopes));
+  PetscFunctionReturn(0);
+}
+
+/* Adds what a mortar facet overlaps */
+static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth,
+  const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
+{
+  ContactIntegrals m;
+
+  PetscFunctionBegin;
+  ContactIntegrate(overlap, facet->x, &mortar->x[12 * k], facet->normal, &m);
+  if (smooth) PetscCall(MortarAddPatch(rule, overlap, mortar, k, facet, m.gap, assembly));
+  for (PetscInt a = 0; a < 4; ++a) {
+    facet->gap[a] += m.gap[a];
+    for (PetscInt b = 0; b < 4; ++b) facet->D[a][b] -= m.D[a][b];
+    PetscCall(ContactAssemblyAdd(assembly, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
+  }
+  ++facet->noverlaps;
+  PetscFunctionReturn(0);
+}
+
+/* One nonmortar facet against the candidates near it; normal: at its vertices */
+static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule,
+  const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear,
+  const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
+{
+  const PetscBool smooth = pair->nonmortar.patched;
+  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
+         .normal               = normal,
+         .row                  = &pair->row[4 * f],
+         .node                 = &pair->nonmortar.node[4 * f]};
+  ContactOverlap  overlap;
+
+  PetscFunctionBegin;
+  if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
+  for (PetscInt k = 0; k < nnear; ++k) {
+    if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap))
+      PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
+  }
+  if (facet.noverlaps) {
+    PetscScalar gap[4], cover[4];
+
+    for (PetscInt a = 0; a < 4; ++a) {
+      gap[a]   = facet.gap[a];
+      cover[a] = facet.cover[a];
+      PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
+    }
+    if (smooth)
+      PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
+    PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
+    PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
+  }
+  *noverlaps += facet.noverlaps;
+  PetscFunctionReturn(0);
+}
+
+/* Box about what this rank's nonmortar facets sweep along their normals */
+static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal box[6])
+{
+  const ContactPairData *pair = &contact->pairs[p];
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
+    PetscReal swept[6];
+
+    ContactSweptBox(&pair->nonmortar.x[12 * f], pair->distance + pair->bulge, pair->depth + pair->bulge, swept);
+    for (PetscInt c = 0; c < 3; ++c) {
+      box[c]     = PetscMin(box[c], swept[c]);
+      box[3 + c] = PetscMax(box[3 + c], swept[3 + c]);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar,
+  ContactAssembly *assembly)
+{
+  ContactPairData           *pair   = &contact->pairs[p];
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop,
+    pair->distance + pair->bulge, pair->depth + pair->bulge};
+  ContactNear                near;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscCall(ContactSearch(&pair->nonmortar, limits.distance, limits.depth, mortar, &near));
+  PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
+    const PetscInt first = near.offset[f], n = near.offset[f + 1] - first;
+    PetscReal      normal[12];
+
+    if (!n) continue;
+    PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
+    for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
+      (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
+    PetscCall(MortarAddFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly,
+      &pair->nfacing));
+  }
+  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactNearDestroy(&near));
+  PetscFunctionReturn(0);
+}
+
+const ContactGapOps ContactGapMortar = {ContactBox_Mortar, ContactAdd_Mortar};

@@ -1,0 +1,223 @@
+/* Node to segment: each nonmortar vertex against the closest point of the mortar face */
+#include "src/contact/contactimpl.h"
+
+/* A vertex beyond the mortar face's border by more than this part of the facet's size faces nothing */
+#define BORDER_MARGIN 0.05
+
+/* Whether the closest point is on the border of the mortar face */
+static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
+{
+  static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* at (xi, eta) = (-1 or 1, -1 or 1) */
+  const PetscInt        i = xi[0] >= 1.0, j = xi[1] >= 1.0;
+
+  if (PetscAbsReal(xi[0]) >= 1.0 && PetscAbsReal(xi[1]) >= 1.0)
+    return (PetscBool)((border >> (4 + vertex[i][j]) & 1) != 0);
+  if (PetscAbsReal(xi[0]) >= 1.0) return (PetscBool)((border >> (i ? 1 : 3) & 1) != 0);
+  if (PetscAbsReal(xi[1]) >= 1.0) return (PetscBool)((border >> (j ? 2 : 0) & 1) != 0);
+  return PETSC_FALSE;
+}
+
+/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not along the
+   facet's normal there */
+static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
+{
+  const PetscReal *facet = &mortar->x[12 * nearest->facet];
+  PetscReal        t1[3], t2[3], n[3], r[3], area = 0.0, height = 0.0, beside = 0.0;
+
+  if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
+  ContactFacetTangents(facet, nearest->xi, t1, t2);
+  ContactCross(t1, t2, n);
+  if (ContactFacetIsTriangle(facet)) { /* at its last vertex the first tangent is zero */
+    ContactFacetAreaVector(facet, n);
+    for (PetscInt c = 0; c < 3; ++c) n[c] *= 0.25;
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c] = x[c] - nearest->y[c];
+    area += n[c] * n[c]; /* squared, of a quarter of the facet */
+    height += n[c] * r[c];
+  }
+  if (!(area > 0.0)) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) beside += PetscSqr(r[c] - height / area * n[c]);
+  return (PetscBool)(beside > PetscSqr(BORDER_MARGIN) * 4.0 * PetscSqrtReal(area));
+}
+
+/* Box about the balls around this rank's vertices that reach to the mortar face */
+static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box[6])
+{
+  const ContactRows *rows  = &contact->rows;
+  const PetscReal    reach = PetscMax(contact->pairs[p].distance, contact->pairs[p].depth) + contact->pairs[p].bulge;
+
+  PetscFunctionBegin;
+  for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      box[c]     = PetscMin(box[c], rows->x[3 * i + c] - reach);
+      box[3 + c] = PetscMax(box[3 + c], rows->x[3 * i + c] + reach);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The gap of a smooth pair and what it changes with */
+typedef struct {
+  PetscReal gap, vertex[3], facet[12], normal[12];
+  PetscReal rigid[12]; /* by the facet's vertices, the patch turning with the facet */
+} NodeGap;
+
+/* The closest point moves on its facet so as to stay the closest one, along the edge or to the corner that it is at */
+static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3],
+  const PetscReal by_xi[2], NodeGap *gap)
+{
+  PetscReal t[2][3], phi[4], dphi[4][2], r[3], H[3], twist[3], mu[2], det;
+  PetscBool moves[2];
+
+  ContactShape(nearest->xi, phi);
+  ContactShapeSlopes(nearest->xi, dphi);
+  ContactFacetTangents(facet, nearest->xi, t[0], t[1]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c]     = nearest->y[c] - x[c];
+    twist[c] = 0.25 * (facet[c] - facet[3 + c] + facet[6 + c] - facet[9 + c]);
+  }
+  for (PetscInt d = 0; d < 2; ++d) {
+    moves[d] = (PetscBool)(PetscAbsReal(nearest->xi[d]) < 1.0);
+    H[2 * d] = moves[d] ? ContactDot(t[d], t[d]) : 1.0;
+    mu[d]    = moves[d] ? -by_xi[d] : 0.0;
+  }
+  H[1] = moves[0] && moves[1] ? ContactDot(t[0], t[1]) + ContactDot(r, twist) : 0.0;
+  det  = H[0] * H[2] - H[1] * H[1];
+  if (!(det > 0.0)) return;
+  mu[0] = (H[2] * mu[0] - H[1] * mu[1]) / det;
+  mu[1] = moves[1] ? (-by_xi[1] - H[1] * mu[0]) / H[2] : 0.0;
+  for (PetscInt d = 0; d < 2; ++d) {
+    for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] -= mu[d] * t[d][c];
+    for (PetscInt i = 0; i < 12; ++i) {
+      const PetscReal moved = mu[d] * (phi[i / 3] * t[d][i % 3] + dphi[i / 3][d] * r[i % 3]);
+
+      gap->facet[i] += moved;
+      gap->rigid[i] += moved;
+    }
+  }
+}
+
+/* How far the vertex x, of normal n, is over the plane that touches the smooth surface beside its closest point,
+   along the normal of that */
+static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
+  const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
+{
+  ContactPatch patch, by;
+  PetscReal    r[3], m[3], phi[4], dphi[4][2], by_xi[2], by_normal[3], turn[3], length;
+
+  ContactPatchCreate(facet, normals, &patch);
+  ContactPatchEvaluate(&patch, nearest->xi, r, m);
+  length = ContactScaleToUnit(m);
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c] = x[c] - nearest->y[c] - r[c];
+    if (!(length > 0.0)) m[c] = -n[c];
+  }
+  gap->gap = ContactDot(r, m);
+  for (PetscInt c = 0; c < 3; ++c) {
+    by_normal[c]   = length > 0.0 ? (r[c] - gap->gap * m[c]) / length : 0.0;
+    gap->vertex[c] = m[c];
+    m[c]           = -m[c];
+  }
+  ContactPatchDifferentiate(&patch, nearest->xi, m, by_normal, by_xi, &by);
+  ContactPatchMoment(&patch, &by, turn);
+  ContactFacetTurn(facet, turn, gap->rigid);
+  ContactShape(nearest->xi, phi);
+  ContactShapeSlopes(nearest->xi, dphi);
+  for (PetscInt i = 0; i < 12; ++i) {
+    gap->facet[i] = phi[i / 3] * m[i % 3];
+    gap->rigid[i] += gap->facet[i];
+    gap->normal[i] = 0.0;
+    for (PetscInt d = 0; d < 2; ++d) by_xi[d] += dphi[i / 3][d] * facet[i] * m[i % 3];
+  }
+  ContactPatchChain(facet, &patch, &by, gap->facet, gap->normal);
+  NodeMoveClosest(facet, nearest, x, by_xi, gap);
+}
+
+/* Times the mass that the assembly divides by */
+static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar,
+  PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] *= mass;
+  for (PetscInt i = 0; i < 12; ++i) {
+    gap->facet[i] *= mass;
+    gap->rigid[i] *= mass;
+    gap->normal[i] *= mass;
+  }
+  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 1, &vertex, gap->vertex));
+  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->rigid));
+  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 1, &vertex, gap->vertex));
+  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 4, &mortar->node[4 * facet], gap->facet));
+  PetscCall(ContactEntriesAdd(&assembly->by_bend, row, 4, &mortar->bend[4 * facet], gap->normal));
+  PetscFunctionReturn(0);
+}
+
+/* Along the normal n from the vertex x to the closest point of a facet */
+static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
+{
+  const PetscReal r[3] = {nearest->y[0] - x[0], nearest->y[1] - x[1], nearest->y[2] - x[2]};
+
+  return ContactDot(r, n);
+}
+
+/* The gap, and the coupling N2_B(xi) - 1 of the facets; both times the mass that the assembly divides by */
+static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass,
+  const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
+{
+  const PetscScalar weighted = mass * gap->gap;
+  PetscSection      global;
+  PetscInt          offset;
+  PetscReal         value[4];
+
+  PetscFunctionBegin;
+  ContactShape(nearest->xi, value);
+  for (PetscInt b = 0; b < 4; ++b) value[b] *= mass;
+  PetscCall(
+    ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value, &contact->rows.normal[3 * i]));
+  PetscCall(DMGetGlobalSection(contact->dm, &global));
+  PetscCall(PetscSectionGetOffset(global, contact->rows.vertex[i], &offset));
+  offset /= 3;
+  value[0] = -mass;
+  PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
+  if (mortar->bend) PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
+  PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const ContactCandidates *mortar,
+  ContactAssembly *assembly)
+{
+  ContactPairData   *pair  = &contact->pairs[p];
+  const ContactRows *rows  = &contact->rows;
+  const PetscReal    reach = PetscMax(pair->distance, pair->depth) + pair->bulge;
+  const PetscScalar *mass;
+  PetscInt           rstart;
+  ContactTree        tree;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscCall(ContactTreeCreate(mortar, &tree));
+  PetscCall(VecGetOwnershipRange(rows->mass, &rstart, NULL));
+  PetscCall(VecGetArrayRead(rows->mass, &mass));
+  for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
+    const PetscReal *x = &rows->x[3 * i], *n = &rows->normal[3 * i];
+    ContactNearest   nearest;
+    NodeGap          gap;
+
+    ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
+    if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
+    if (pair->mortar.patched)
+      NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
+    else gap.gap = NodeFacetGap(&nearest, x, n);
+    if (gap.gap > pair->distance || gap.gap < -pair->depth) continue;
+    PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, &gap, assembly));
+    ++pair->nfacing;
+  }
+  PetscCall(VecRestoreArrayRead(rows->mass, &mass));
+  PetscCall(ContactTreeDestroy(&tree));
+  PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+const ContactGapOps ContactGapNode = {ContactBox_Node, ContactAdd_Node};

@@ -1,0 +1,193 @@
+/* Bodies that overlap at the start deeper than contact looks would pass for bodies that are not in contact: that is
+   an error */
+#include "contactimpl.h"
+
+/* A row only a deeper search has: its nonmortar vertex and the point of the mortar face it would belong to */
+typedef struct {
+  PetscReal pair, depth, x[3], y[3];
+} InitialOverlapRow;
+#define DEEP_REALS ((PetscMPIInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+
+static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal x[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) {
+    if (x[c] < box[c] || x[c] > box[3 + c]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* The length of the diagonal of all boxes if those of any pair's bodies overlap in more than a face, else 0 */
+static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
+{
+  PetscReal low[3]  = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
+            high[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, diagonal = 0.0;
+  PetscBool any = PETSC_FALSE;
+
+  for (PetscInt k = 0; k < nbodies; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      low[c]  = PetscMin(low[c], box[6 * k + c]);
+      high[c] = PetscMax(high[c], box[6 * k + 3 + c]);
+    }
+  }
+  for (PetscInt c = 0; c < 3; ++c) diagonal += PetscSqr(high[c] - low[c]);
+  diagonal = PetscSqrtReal(diagonal);
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    const PetscInt   i = contact->pairs[p].mortar.body, j = contact->pairs[p].nonmortar.body;
+    const PetscReal *a = &box[6 * i], *b = &box[6 * j];
+    PetscBool        overlap = (PetscBool)(i != j);
+
+    for (PetscInt c = 0; c < 3; ++c)
+      overlap = (PetscBool)(overlap && PetscMin(a[3 + c], b[3 + c]) - PetscMax(a[c], b[c]) >
+                                         PETSC_SQRT_MACHINE_EPSILON * diagonal);
+    any = (PetscBool)(any || overlap);
+  }
+  return any ? diagonal : 0.0;
+}
+
+/* The rows of `wide` that `usual` has not, deeper than their pair looks, where a body's box holds the other's point;
+   free `deep` */
+static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
+  ContactLinearization wide, PetscInt *n, InitialOverlapRow **deep)
+{
+  const ContactRows *rows = &contact->rows;
+  const PetscScalar *g;
+  PetscInt           k = 0, i = 0; /* of the row in usual and among all there may be; the order is the same */
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCall(PetscMalloc1(wide->nlocal, deep));
+  PetscCall(VecGetArrayRead(wide->g, &g));
+  for (PetscInt w = 0; w < wide->nlocal; ++w) {
+    const PetscInt         p = wide->pair[w], v = wide->vertex[w];
+    const ContactPairData *pair = &contact->pairs[p];
+    const PetscReal        gap  = PetscRealPart(g[w]);
+    InitialOverlapRow      row  = {.pair = (PetscReal)p, .depth = -gap};
+
+    while (k < usual->nlocal && (usual->pair[k] < p || (usual->pair[k] == p && usual->vertex[k] < v))) ++k;
+    i = PetscMax(i, rows->first[p]);
+    while (rows->vertex[i] != v) ++i;
+    if (k < usual->nlocal && usual->pair[k] == p && usual->vertex[k] == v) continue;
+    if (gap >= -pair->depth || pair->mortar.body == pair->nonmortar.body) continue;
+    for (PetscInt c = 0; c < 3; ++c) {
+      row.x[c] = rows->x[3 * i + c];
+      row.y[c] = row.x[c] + gap * rows->normal[3 * i + c];
+    }
+    if (InitialOverlapBoxHolds(&box[6 * pair->mortar.body], row.x) ||
+        InitialOverlapBoxHolds(&box[6 * pair->nonmortar.body], row.y))
+      (*deep)[(*n)++] = row;
+  }
+  PetscCall(VecRestoreArrayRead(wide->g, &g));
+  PetscFunctionReturn(0);
+}
+
+/* All ranks' rows on every rank; replaces `deep` */
+static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, InitialOverlapRow **deep)
+{
+  PetscMPIInt        size, mine = DEEP_REALS * (PetscMPIInt)*n, *count, *start;
+  InitialOverlapRow *all;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
+  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
+  start[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
+  PetscCall(PetscMalloc1(start[size] / DEEP_REALS, &all));
+  PetscCallMPI(MPI_Allgatherv(*deep, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
+  PetscCall(PetscFree(*deep));
+  *n    = start[size] / DEEP_REALS;
+  *deep = all;
+  PetscCall(PetscFree2(count, start));
+  PetscFunctionReturn(0);
+}
+
+/* The deepest row where one body's point is inside the other body, not only behind its face; of depth 0: none */
+static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
+  const InitialOverlapRow deep[], InitialOverlapRow *deepest)
+{
+  PetscReal *angle;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * n, &angle));
+  for (PetscInt k = 0; k < n; ++k) {
+    const ContactPairData *pair = &contact->pairs[(PetscInt)deep[k].pair];
+
+    angle[2 * k]     = ContactBoundarySolidAngle(boundary, pair->mortar.body, deep[k].x);
+    angle[2 * k + 1] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, deep[k].y);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 2 * n, MPIU_REAL, MPIU_SUM, contact->comm));
+  for (PetscInt k = 0; k < n; ++k) {
+    if (PetscMax(angle[2 * k], angle[2 * k + 1]) > 0.9 * 4.0 * PETSC_PI && deep[k].depth > deepest->depth)
+      *deepest = deep[k];
+  }
+  PetscCall(PetscFree(angle));
+  PetscFunctionReturn(0);
+}
+
+/* The deepest row that a search over this distance finds and `usual` does not have */
+static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
+  PetscReal distance, ContactLinearization usual, InitialOverlapRow *deepest)
+{
+  ContactLinearization wide;
+  InitialOverlapRow   *deep;
+  PetscInt             n;
+  Vec                  zero;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(contact->dm, &zero));
+  PetscCall(VecSet(zero, 0.0));
+  PetscCall(ContactSetReach(contact, 0.0, distance));
+  PetscCall(ContactLinearize(contact, zero, &wide));
+  PetscCall(ContactSetReach(contact, 0.0, 0.0));
+  PetscCall(DMRestoreGlobalVector(contact->dm, &zero));
+  PetscCall(InitialOverlapFindRows(contact, box, usual, wide, &n, &deep));
+  PetscCall(ContactLinearizationDestroy(&wide));
+  PetscCall(InitialOverlapGatherRows(contact->comm, &n, &deep));
+  PetscCall(InitialOverlapPickDeepest(contact, boundary, n, deep, deepest));
+  PetscCall(PetscFree(deep));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactCheckDepth - Makes sure that no bodies overlap, undeformed, deeper than contact looks
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- usual   - the gap linearized at zero displacement
+
+  Level: intermediate
+
+  Note:
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth
+  and what widens
+  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do
+  not.
+
+.seealso: `ContactLinearize()`, `ContactGetReach()`
+@*/
+PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
+{
+  ContactBoundary        boundary;
+  InitialOverlapRow      deepest = {0};
+  PetscReal             *box, distance;
+  const ContactPairData *pair;
+
+  PetscFunctionBegin;
+  PetscCall(ContactBoundaryCreate(contact->dm, &boundary));
+  PetscCall(PetscMalloc1(6 * boundary.nbodies, &box));
+  PetscCall(ContactBoundaryBoxes(&boundary, box));
+  distance = InitialOverlapFarthestApart(contact, boundary.nbodies, box);
+  if (distance > 0.0) PetscCall(InitialOverlapSearch(contact, &boundary, box, distance, usual, &deepest));
+  PetscCall(PetscFree(box));
+  PetscCall(ContactBoundaryDestroy(&boundary));
+  pair = &contact->pairs[(PetscInt)deepest.pair];
+  PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. "
+    "That is deeper than the contact search looks, %g: move them apart, or search deeper with -contact_search_depth "
+    "%.2g",
+    pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,
+    1.1 * (double)deepest.depth);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,58 @@
+/* The facet nearest to a vertex: branch and bound in the tree of boxes */
+#include "src/contact/contactimpl.h"
+
+/* Squared distance of a point from a box */
+static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt c = 0; c < 3; ++c) sum += PetscSqr(PetscMax(PetscMax(box[c] - x[c], x[c] - box[3 + c]), 0.0));
+  return sum;
+}
+
+/* Keeps the facet if it faces the vertex and is nearer than the nearest so far */
+static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3],
+  const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
+{
+  PetscReal n[3], xi[2], y[3], d;
+
+  if (!ContactFacetNormal(&facets->x[12 * f], n)) return;
+  if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] > cosine) return;
+  d = ContactClosestPoint(&facets->x[12 * f], x, xi, y);
+  if (d > *distance || (d == *distance && nearest->facet >= 0)) return;
+  *distance      = d;
+  nearest->facet = f;
+  for (PetscInt c = 0; c < 2; ++c) nearest->xi[c] = xi[c];
+  for (PetscInt c = 0; c < 3; ++c) nearest->y[c] = y[c];
+}
+
+/* Of the facets within reach whose normal makes at most this cosine with the vertex's, the nearest to x */
+void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach,
+  const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
+{
+  PetscInt  stack[CONTACT_TREE_DEPTH], depth = 0;
+  PetscReal distance = reach;
+
+  nearest->facet = -1;
+  if (t->nnodes) stack[depth++] = 0;
+  while (depth) {
+    const PetscInt         self = stack[--depth];
+    const ContactTreeNode *node = &t->node[self];
+
+    if (NearestBoxDistance(node->box, x) > distance * distance) continue;
+    if (node->second) { /* the nearer child is looked at first */
+      const PetscBool swap =
+        (PetscBool)(NearestBoxDistance(t->node[node->second].box, x) < NearestBoxDistance(t->node[self + 1].box, x));
+
+      stack[depth++] = swap ? self + 1 : node->second;
+      stack[depth++] = swap ? node->second : self + 1;
+      continue;
+    }
+    for (PetscInt i = node->first; i < node->last; ++i) {
+      const PetscInt f = t->order[i];
+
+      if (NearestBoxDistance(&t->box[6 * f], x) <= distance * distance)
+        NearestTryFacet(facets, f, cosine, x, normal, nearest, &distance);
+    }
+  }
+}

@@ -1,0 +1,227 @@
+/* What corner_normals.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives
+   of the normal's components */
+#include "src/contact/contactimpl.h"
+
+/* C = A + factor a b^T; A may be C, or NULL for none */
+static void AddOuter(const PetscReal A[9], PetscReal factor, const PetscReal a[3], const PetscReal b[3], PetscReal C[9])
+{
+  for (PetscInt i = 0; i < 9; ++i) C[i] = (A ? A[i] : 0.0) + factor * a[i / 3] * b[i % 3];
+}
+
+static void Times(const PetscReal A[9], const PetscReal a[3], PetscReal b[3])
+{
+  for (PetscInt i = 0; i < 3; ++i) b[i] = ContactDot(&A[3 * i], a);
+}
+
+/* From the derivative by v x a, or with factor -1 by a x v, to that by v */
+static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal factor, PetscReal B[9])
+{
+  for (PetscInt i = 0; i < 3; ++i) {
+    PetscReal row[3];
+
+    ContactCross(a, &A[3 * i], row);
+    for (PetscInt c = 0; c < 3; ++c) B[3 * i + c] = factor * row[c];
+  }
+}
+
+/* From the derivative by the unit vector n to that by what was scaled to it, of this length */
+static void ThroughUnit(const PetscReal A[9], const PetscReal n[3], PetscReal length, PetscReal B[9])
+{
+  PetscReal along[3];
+
+  Times(A, n, along);
+  AddOuter(A, -1.0, along, n, B);
+  for (PetscInt i = 0; i < 9; ++i) B[i] = length > 0.0 ? B[i] / length : 0.0;
+}
+
+static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *slopes)
+{
+  if (slopes->node) {
+    slopes->node[slopes->n] = node;
+    for (PetscInt i = 0; i < 9; ++i) slopes->value[9 * slopes->n + i] = A[i];
+  }
+  ++slopes->n;
+}
+
+/* factor A: by the node at a corner; an image moves against its node, and with the planes that it is seen in */
+static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
+{
+  const PetscInt node  = ring->node[corner];
+  ContactImage   image = {node, {-1, -1, -1}};
+  PetscReal      B[9];
+
+  if (node >= ring->nreal) image = ring->image[node - ring->nreal];
+  for (PetscInt i = 0; i < 9; ++i) B[i] = (image.plane[i % 3] < 0 ? factor : -factor) * A[i];
+  AddBlock(image.of, B, slopes);
+  for (PetscInt c = 0; c < 3; ++c) {
+    if (image.plane[c] < 0) continue;
+    for (PetscInt i = 0; i < 9; ++i) B[i] = i % 3 == c ? 2.0 * factor * A[i] : 0.0;
+    AddBlock(image.plane[c], B, slopes);
+  }
+}
+
+/* A: by the edge from a corner to the next, or to the one before */
+static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
+{
+  AddNode(ring, after ? ContactCornerAfter(ring, corner) : ContactCornerBefore(ring, corner), 1.0, A, slopes);
+  AddNode(ring, corner, -1.0, A, slopes);
+}
+
+/* A: by the unit normal that ContactRingFanNormal() has */
+static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9],
+  ContactNormalSlopes *slopes)
+{
+  PetscReal n[3], S[9];
+  PetscReal length = ContactRingFanNormal(ring, first, last, n);
+
+  ThroughUnit(A, n, length, S);
+  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
+    PetscReal edge[2][3], product[3], along[3], B[9], squares[2], weight;
+
+    ContactRingEdges(ring, corner, edge[0], edge[1]);
+    ContactCross(edge[0], edge[1], product);
+    for (PetscInt k = 0; k < 2; ++k) squares[k] = ContactDot(edge[k], edge[k]);
+    weight = squares[0] * squares[1] > 0.0 ? 1.0 / (squares[0] * squares[1]) : 0.0;
+    Times(S, product, along);
+    for (PetscInt k = 0; k < 2; ++k) {
+      ThroughCross(S, edge[1 - k], k ? -weight : weight, B);
+      AddOuter(B, weight > 0.0 ? -2.0 * weight / squares[k] : 0.0, along, edge[k], B);
+      AddEdge(ring, corner, (PetscBool)(k == 0), B, slopes);
+    }
+    if (corner == last) break;
+  }
+}
+
+static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[9], ContactNormalSlopes *slopes)
+{
+  PetscInt first, last;
+
+  (void)ContactRingFan(ring, corner, &first, &last);
+  AddFan(ring, first, last, A, slopes);
+}
+
+/* A: by the mended normal before it is scaled. The mean plus d_0 b_0 + d_1 b_1, D the dual vectors of the edges d */
+static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
+  ContactNormalSlopes *slopes)
+{
+  PetscReal d[2][3], m[2][3], D[2][3] = {{0}}, G[3], b[2] = {0}, mean[9], B[9], AD[2][3], det;
+
+  ContactRingEdges(ring, corner, d[0], d[1]);
+  for (PetscInt i = 0; i < 2; ++i) {
+    ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m[i]);
+    G[i] = ContactDot(d[i], d[i]);
+  }
+  G[2] = ContactDot(d[0], d[1]);
+  det  = G[0] * G[1] - G[2] * G[2];
+  if (det > CONTACT_FLAT_CORNER * G[0] * G[1]) {
+    for (PetscInt i = 0; i < 2; ++i) {
+      for (PetscInt c = 0; c < 3; ++c) D[i][c] = (G[1 - i] * d[i][c] - G[2] * d[1 - i][c]) / det;
+    }
+    for (PetscInt j = 0; j < 2; ++j) {
+      for (PetscInt i = 0; i < 2; ++i) b[j] -= ContactDot(D[j], D[i]) * (ContactDot(n, d[i]) + ContactDot(m[i], d[i]));
+    }
+  }
+  for (PetscInt i = 0; i < 9; ++i) mean[i] = A[i];
+  for (PetscInt i = 0; i < 2; ++i) {
+    Times(A, D[i], AD[i]);
+    AddOuter(mean, -1.0, AD[i], d[i], mean);
+    AddOuter(NULL, -1.0, AD[i], d[i], B);
+    AddMean(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), B, slopes);
+  }
+  AddMean(ring, corner, mean, slopes);
+  for (PetscInt i = 0; i < 2; ++i) {
+    PetscReal sum[3];
+
+    for (PetscInt c = 0; c < 3; ++c) sum[c] = n[c] + m[i][c] + b[0] * d[0][c] + b[1] * d[1][c];
+    AddOuter(NULL, -1.0, AD[i], sum, B);
+    for (PetscInt k = 0; k < 9; ++k) B[k] += b[i] * mean[k];
+    AddEdge(ring, corner, (PetscBool)(i == 0), B, slopes);
+  }
+}
+
+/* What MendBorder() sums along the edges that lead inward, c_k = across.d_k, r_k = -(n + m_k).d_k: the bend b = sum
+   r_k c_k / sum c_k^2 */
+typedef struct {
+  PetscReal along[3], across[3], length, bend, squares;
+} BorderBend;
+
+static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
+  BorderBend *border)
+{
+  PetscReal after[3], before[3], d[3], m[3], sum = 0.0;
+
+  ContactRingEdges(ring, first, after, d);
+  ContactRingEdges(ring, last, d, before);
+  for (PetscInt c = 0; c < 3; ++c) border->along[c] = after[c] - before[c];
+  ContactCross(n, border->along, border->across);
+  border->length  = ContactScaleToUnit(border->across);
+  border->squares = 0.0;
+  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
+    ContactRingEdges(ring, corner, after, d);
+    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
+    sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(border->across, d);
+    border->squares += PetscSqr(ContactDot(border->across, d));
+  }
+  border->bend = border->squares > 0.0 ? sum / border->squares : 0.0;
+}
+
+/* A: by the mended normal before it is scaled: the mean plus the bend times the direction across the border */
+static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
+  const PetscReal A[9], ContactNormalSlopes *slopes)
+{
+  PetscReal  AX[3], mean[9], across[9], B[9];
+  BorderBend border;
+
+  BorderBendCreate(ring, first, last, n, &border);
+  Times(A, border.across, AX);
+  for (PetscInt i = 0; i < 9; ++i) {
+    mean[i]   = A[i];
+    across[i] = border.bend * A[i];
+  }
+  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
+    PetscReal       after[3], d[3], m[3], c, r, by_edge[3];
+    const PetscReal inverse = border.squares > 0.0 ? 1.0 / border.squares : 0.0;
+
+    ContactRingEdges(ring, corner, after, d);
+    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
+    c = ContactDot(border.across, d);
+    r = -ContactDot(n, d) - ContactDot(m, d) - 2.0 * border.bend * c;
+    for (PetscInt k = 0; k < 3; ++k) by_edge[k] = -c * (n[k] + m[k]) + r * border.across[k];
+    AddOuter(mean, -c * inverse, AX, d, mean);
+    AddOuter(across, r * inverse, AX, d, across);
+    AddOuter(NULL, inverse, AX, by_edge, B);
+    AddEdge(ring, corner, PETSC_FALSE, B, slopes);
+    AddOuter(NULL, -c * inverse, AX, d, B);
+    AddMean(ring, ContactCornerBefore(ring, corner), B, slopes);
+  }
+  ThroughUnit(across, border.across, border.length, across);
+  ThroughCross(across, border.along, 1.0, B);
+  for (PetscInt i = 0; i < 9; ++i) mean[i] += B[i];
+  AddFan(ring, first, last, mean, slopes);
+  ThroughCross(across, n, -1.0, B);
+  AddEdge(ring, first, PETSC_TRUE, B, slopes);
+  for (PetscInt i = 0; i < 9; ++i) B[i] = -B[i];
+  AddEdge(ring, last, PETSC_FALSE, B, slopes);
+}
+
+/* The blocks of the normal at a corner; as many, and at the same nodes, whatever the displacement */
+void ContactRingNormalSlopes(const ContactRing *ring, PetscInt corner, ContactNormalSlopes *slopes)
+{
+  const PetscReal identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  PetscInt        first, last;
+  PetscReal       n[3], mended[3], length, A[9];
+
+  if (ContactRingFan(ring, corner, &first, &last)) {
+    AddFan(ring, first, last, identity, slopes);
+    return;
+  }
+  (void)ContactRingFanNormal(ring, first, last, n);
+  for (PetscInt c = 0; c < 3; ++c) mended[c] = n[c];
+  ContactRingMend(ring, first, last, mended);
+  length = ContactScaleToUnit(mended);
+  ThroughUnit(identity, mended, length, A);
+  if (first == last) AddMendedCorner(ring, corner, n, A, slopes);
+  else AddMendedBorder(ring, first, last, n, A, slopes);
+}

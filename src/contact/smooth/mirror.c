@@ -1,0 +1,196 @@
+/*
+  Where a face ends on a plane that its body is held on, the smooth surface goes on as in a mirror: the facets of a
+  ring near such a plane are seen in it, so that normals on the border are means like all others.
+*/
+#include "src/contact/contactimpl.h"
+
+/* On the undeformed border the normal, extrapolated from the facets, is in the plane but for this part of what the
+   facet's is out of it */
+#define MIRROR_OBLIQUE 0.2
+/* and but for rounding in files of meshes */
+#define MIRROR_ROUNDING 1e-6
+
+/* A plane across one of the axes that edges of the border lie in and are held on */
+typedef struct {
+  PetscReal axis, place;
+  PetscReal oblique; /* 0 or 1: the surface is not at right angles to it, on one rank or more */
+} MirrorPlane;
+#define MIRROR_REALS ((PetscMPIInt)(sizeof(MirrorPlane) / sizeof(PetscReal)))
+
+static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt axis)
+{
+  return (PetscBool)((ring->held[node] >> axis & 1) != 0);
+}
+
+/* Whether the surface leaves the plane at a corner otherwise than a curved one at right angles to it */
+static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, PetscInt axis)
+{
+  PetscReal x[12], facet[3], n[3];
+
+  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->x[3 * ring->node[4 * (corner / 4) + i / 3] + i % 3];
+  if (!ContactFacetNormal(x, facet)) return PETSC_TRUE;
+  ContactRingNormal(ring, corner, n);
+  return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
+}
+
+/* Adds a plane, or what is said of it if it is there */
+static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, MirrorPlane planes[])
+{
+  for (PetscInt k = 0; k < *n; ++k) {
+    if (planes[k].axis != plane.axis || PetscAbsReal(planes[k].place - plane.place) > tolerance) continue;
+    planes[k].oblique = PetscMax(planes[k].oblique, plane.oblique);
+    return;
+  }
+  planes[(*n)++] = plane;
+}
+
+/* The planes of this rank's own facets; space for three of each edge */
+static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n,
+  MirrorPlane planes[])
+{
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt i = 4 * ring->own; i < 4 * (ring->own + nown); ++i) {
+    const PetscInt   next = ContactCornerAfter(ring, i), v = ring->node[i], w = ring->node[next];
+    const PetscReal *x = &ring->x[3 * v], *y = &ring->x[3 * w];
+
+    if (ring->twin[i] >= 0 || ContactCornerIsNone(ring, i)) continue;
+    for (PetscInt axis = 0; axis < 3; ++axis) {
+      if (!MirrorHolds(ring, v, axis) || !MirrorHolds(ring, w, axis) || PetscAbsReal(y[axis] - x[axis]) > tolerance)
+        continue;
+      MirrorAddPlane((MirrorPlane){(PetscReal)axis, x[axis],
+                       MirrorIsOblique(ring, i, axis) || MirrorIsOblique(ring, next, axis) ? 1.0 : 0.0},
+        tolerance, n, planes);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. All planes of the surface, on every rank the same; free planes */
+static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance,
+  PetscInt *n, MirrorPlane **planes)
+{
+  PetscMPIInt  size, mine, *count, *start;
+  MirrorPlane *own, *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(12 * nown, &own));
+  PetscCall(MirrorFindOwn(ring, nown, tolerance, n, own));
+  mine = MIRROR_REALS * (PetscMPIInt)*n;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
+  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
+  start[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
+  PetscCall(PetscMalloc1(start[size] / MIRROR_REALS, &all));
+  PetscCallMPI(MPI_Allgatherv(own, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
+  *n      = 0;
+  *planes = all; /* what is put there has been read */
+  for (PetscInt k = 0; k < start[size] / MIRROR_REALS; ++k) MirrorAddPlane(all[k], tolerance, n, all);
+  PetscCall(PetscFree2(count, start));
+  PetscCall(PetscFree(own));
+  PetscFunctionReturn(0);
+}
+
+/* on[v]: node v is on the plane and held there; near[v]: or two facets from such a node at most. any: one of them is
+   on it */
+static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance,
+  PetscBool on[], PetscBool near[], PetscInt *any)
+{
+  const PetscInt axis = (PetscInt)plane->axis;
+
+  PetscFunctionBegin;
+  *any = -1;
+  for (PetscInt v = 0; v < ring->nnodes; ++v) {
+    on[v] = near[v] =
+      (PetscBool)(MirrorHolds(ring, v, axis) && PetscAbsReal(ring->x[3 * v + axis] - plane->place) <= tolerance);
+    if (on[v] && v < ring->nreal) *any = v;
+  }
+  for (PetscInt layer = 0; layer < 2; ++layer) {
+    PetscBool *grown;
+
+    PetscCall(PetscMalloc1(ring->nnodes, &grown));
+    PetscCall(PetscArraycpy(grown, near, ring->nnodes));
+    for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
+      for (PetscInt a = 0; near[ring->node[i]] && a < 4; ++a) grown[ring->node[4 * (i / 4) + a]] = PETSC_TRUE;
+    }
+    PetscCall(PetscArraycpy(near, grown, ring->nnodes));
+    PetscCall(PetscFree(grown));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The image of node v in the plane that the real node `at` is on */
+static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis, PetscInt at)
+{
+  const PetscInt g     = ring->nnodes - ring->nreal;
+  ContactImage   image = {v, {-1, -1, -1}};
+
+  PetscFunctionBegin;
+  if (v >= ring->nreal) image = ring->image[v - ring->nreal];
+  image.plane[axis] = at;
+  PetscCall(PetscRealloc((g + 1) * sizeof(ContactImage), &ring->image));
+  PetscCall(PetscRealloc((ring->nnodes + 1) * sizeof(PetscInt), &ring->held));
+  PetscCall(PetscRealloc(3 * (ring->nnodes + 1) * sizeof(PetscReal), &ring->x));
+  ring->image[g]           = image;
+  ring->held[ring->nnodes] = ring->held[v];
+  ++ring->nnodes;
+  ContactRingReflect(ring, ring->nnodes - 1);
+  PetscFunctionReturn(0);
+}
+
+/* The images of the facets near a plane; flips[f]: bits of the axes along which facet f is an image */
+static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance, PetscInt **flips)
+{
+  const PetscInt axis = (PetscInt)plane->axis, nfacets = ring->nfacets, nnodes = ring->nnodes;
+  PetscBool     *on, *near;
+  PetscInt      *image, at;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(nnodes, &on, nnodes, &near, nnodes, &image));
+  PetscCall(MirrorMarkNodes(ring, plane, tolerance, on, near, &at));
+  for (PetscInt v = 0; v < nnodes; ++v) image[v] = on[v] ? v : -1;
+  for (PetscInt f = 0; at >= 0 && f < nfacets; ++f) {
+    PetscInt *node;
+
+    if ((*flips)[f] >> axis & 1) continue;
+    node = &ring->node[4 * f];
+    if (!near[node[0]] || !near[node[1]] || !near[node[2]] || !near[node[3]]) continue;
+    PetscCall(PetscRealloc(4 * (ring->nfacets + 1) * sizeof(PetscInt), &ring->node));
+    PetscCall(PetscRealloc((ring->nfacets + 1) * sizeof(PetscInt), flips));
+    node                    = &ring->node[4 * f];
+    (*flips)[ring->nfacets] = (*flips)[f] | 1 << axis;
+    for (PetscInt a = 0; a < 4; ++a) { /* the other way round, to be seen from outside again */
+      static const PetscInt of_triangle[4] = {0, 2, 1, 1};
+      const PetscInt        v              = node[node[2] == node[3] ? of_triangle[a] : (4 - a) % 4];
+
+      if (image[v] < 0) {
+        image[v] = ring->nnodes;
+        PetscCall(MirrorAddNode(ring, v, axis, at));
+      }
+      ring->node[4 * ring->nfacets + a] = image[v];
+    }
+    ++ring->nfacets;
+  }
+  PetscCall(PetscFree3(on, near, image));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Adds the images of a ring's facets in all planes that the surface ends on at right angles; nothing
+   knows of their edges yet. length: of a facet */
+PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
+{
+  const PetscReal tolerance = MIRROR_ROUNDING * length;
+  PetscInt        n, *flips;
+  MirrorPlane    *planes;
+
+  PetscFunctionBegin;
+  PetscCall(MirrorFindPlanes(comm, ring, nown, tolerance, &n, &planes));
+  PetscCall(PetscCalloc1(ring->nfacets, &flips));
+  for (PetscInt k = 0; k < n; ++k) {
+    if (planes[k].oblique == 0.0) PetscCall(MirrorReflect(ring, &planes[k], tolerance, &flips));
+  }
+  PetscCall(PetscFree(flips));
+  PetscCall(PetscFree(planes));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,319 @@
+/*
+  The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), H the heights over the plane of the nonmortar
+  facet, and its derivatives by everything: places of the quadrature points, their weights, the plane, and the
+  patches; and those of the cover int phi_A. In that plane's own axes nothing changes with a rigid motion, so that the
+  forces that these derivatives are balance to rounding, their moments too.
+*/
+#include "src/contact/contactimpl.h"
+
+/* Sine of the angle about which two lines come to have no point of intersection to speak of: what is off by rounding,
+   or by the quadrature, would move it far */
+#define PARALLEL 5e-3
+
+typedef struct {
+  ContactFrame        frame;
+  const ContactPatch *patch[2];                 /* nonmortar, mortar */
+  PetscReal           p[2][4][2], height[2][4]; /* of the vertices, in the plane and over it */
+} PlanePair;
+
+/* Derivatives in the plane's axes: by the facets' vertices and by the corners of the overlap */
+typedef struct {
+  PetscReal p[2][4][2], corner[CONTACT_MAX_CORNERS][2];
+} PlaneMotion;
+
+/* Derivatives of one row's gap and cover */
+typedef struct {
+  PlaneMotion  gap, cover;
+  PetscReal    height[2][4];
+  ContactPatch patch[2];
+} PlaneSlopes;
+
+/* What a point of a facet is in the plane's axes: slopes by the place in the plane, at fixed shape of the surface */
+typedef struct {
+  PetscReal    phi[4], slope[4][2]; /* shape functions */
+  PetscReal    height, tilt[2];     /* of the smooth surface */
+  ContactPatch by;
+} PlanePoint;
+
+/* From derivatives by the parameters to derivatives in the plane */
+static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], PetscReal gradient[2])
+{
+  const PetscReal det = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+
+  gradient[0] = det != 0.0 ? (J[1][1] * by_xi[0] - J[1][0] * by_xi[1]) / det : 0.0;
+  gradient[1] = det != 0.0 ? (J[0][0] * by_xi[1] - J[0][1] * by_xi[0]) / det : 0.0;
+}
+
+static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PlanePoint *point)
+{
+  PetscReal dphi[4][2], J[2][2] = {{0}}, by_xi[2];
+
+  ContactShape(xi, point->phi);
+  ContactShapeSlopes(xi, dphi);
+  point->height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], by_xi, &point->by);
+  for (PetscInt a = 0; a < 4; ++a) {
+    point->height += point->phi[a] * pair->height[side][a];
+    for (PetscInt k = 0; k < 2; ++k) {
+      by_xi[k] += dphi[a][k] * pair->height[side][a];
+      for (PetscInt d = 0; d < 2; ++d) J[d][k] += dphi[a][k] * pair->p[side][a][d];
+    }
+  }
+  PlaneGradient(J, by_xi, point->tilt);
+  for (PetscInt a = 0; a < 4; ++a) PlaneGradient(J, dphi[a], point->slope[a]);
+}
+
+static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum)
+{
+  for (PetscInt e = 0; e < 4; ++e) {
+    for (PetscInt k = 0; k < 2; ++k) sum->slope[e][k] += factor * by->slope[e][k];
+    for (PetscInt c = 0; c < 3; ++c) {
+      sum->direction[e][c] += factor * by->direction[e][c];
+      sum->normal[3 * e + c] += factor * by->normal[3 * e + c];
+    }
+  }
+}
+
+/* Adds a point of this weight to row a's gap, returned; place: what the gap changes with the point's place in the
+   plane, all else the same */
+static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
+{
+  const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
+  PetscReal       own[2];
+
+  for (PetscInt d = 0; d < 2; ++d) {
+    own[d]   = weight * gap * point[0].slope[a][d] - share * point[0].tilt[d];
+    place[d] = own[d] + share * point[1].tilt[d];
+  }
+  for (PetscInt b = 0; b < 4; ++b) {
+    by->height[0][b] -= share * point[0].phi[b];
+    by->height[1][b] += share * point[1].phi[b];
+    for (PetscInt d = 0; d < 2; ++d) {
+      by->gap.p[0][b][d] -= point[0].phi[b] * own[d];
+      by->gap.p[1][b][d] -= point[1].phi[b] * share * point[1].tilt[d];
+    }
+  }
+  AddPatch(-share, &point[0].by, &by->patch[0]);
+  AddPatch(share, &point[1].by, &by->patch[1]);
+  return share * gap;
+}
+
+/* The same of the cover */
+static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal weight, PlaneMotion *by,
+  PetscReal place[2])
+{
+  for (PetscInt d = 0; d < 2; ++d) {
+    place[d] = weight * point->slope[a][d];
+    for (PetscInt b = 0; b < 4; ++b) by->p[0][b][d] -= point->phi[b] * place[d];
+  }
+  return weight * point->phi[a];
+}
+
+/* What its corners share of the derivative by a point of a triangle */
+static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentric[3], const PetscReal place[2],
+  PlaneMotion *by)
+{
+  for (PetscInt v = 0; v < 3; ++v) {
+    for (PetscInt d = 0; d < 2; ++d) by->corner[triangle->corner[v]][d] += barycentric[v] * place[d];
+  }
+}
+
+/* The derivative of a sum over a triangle by its area */
+static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, PetscReal mean, PlaneMotion *by)
+{
+  for (PetscInt v = 0; v < 3; ++v) {
+    const PetscReal *from   = o->corner[triangle->corner[(v + 1) % 3]].y,
+                    *to     = o->corner[triangle->corner[(v + 2) % 3]].y;
+    const PetscReal turn[2] = {from[1] - to[1], to[0] - from[0]}; /* twice what the area changes with */
+
+    for (PetscInt d = 0; d < 2; ++d) by->corner[triangle->corner[v]][d] += 0.5 * triangle->sign * mean * turn[d];
+  }
+}
+
+/* The points of triangle t, and its area's derivative, which a triangle of no area has as well */
+static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair,
+  PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
+{
+  const ContactTriangle *triangle = &o->triangle[t];
+  PetscReal              mean[4] = {0}, mean_cover[4] = {0};
+
+  for (PetscInt q = 0; q < rule->n; ++q) {
+    const PetscInt k = t * rule->n + q;
+    PlanePoint     point[2];
+
+    PlanePointEvaluate(pair, 0, o->xi1[k], &point[0]);
+    PlanePointEvaluate(pair, 1, o->xi2[k], &point[1]);
+    for (PetscInt a = 0; a < 4; ++a) {
+      PetscReal place[2];
+
+      gap[a] += AddPoint(point, a, o->weight[k], &by[a], place);
+      AddPlace(triangle, rule->barycentric[q], place, &by[a].gap);
+      cover[a] += AddPointCover(&point[0], a, o->weight[k], &by[a].cover, place);
+      AddPlace(triangle, rule->barycentric[q], place, &by[a].cover);
+      mean[a] += rule->weight[q] * point[0].phi[a] * (point[1].height - point[0].height);
+      mean_cover[a] += rule->weight[q] * point[0].phi[a];
+    }
+  }
+  for (PetscInt a = 0; a < 4; ++a) {
+    AddArea(o, triangle, mean[a], &by[a].gap);
+    AddArea(o, triangle, mean_cover[a], &by[a].cover);
+  }
+}
+
+/* Shares what a corner's motion with its line k adds to the gap between the two vertices that the line is through */
+static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2],
+  PlaneMotion *by)
+{
+  const PetscInt   from = corner->line[k][0], to = corner->line[k][1];
+  const PetscReal *x = pair->p[from / 4][from % 4], *y = pair->p[to / 4][to % 4], d[2] = {y[0] - x[0], y[1] - x[1]};
+  const PetscReal  size = d[0] * d[0] + d[1] * d[1],
+                  s     = size > 0.0 ? ((corner->y[0] - x[0]) * d[0] + (corner->y[1] - x[1]) * d[1]) / size : 0.5;
+
+  for (PetscInt c = 0; c < 2; ++c) {
+    by->p[from / 4][from % 4][c] += (1.0 - s) * force[c];
+    by->p[to / 4][to % 4][c] += s * force[c];
+  }
+}
+
+/* Hands the derivative by a corner on to the vertices that the lines which meet there are through; where they are
+   hardly two, it stays where it is on the nonmortar facet's */
+static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const PetscReal force[2], PlaneMotion *by)
+{
+  PetscReal normal[2][2], along[2][2], staying[2], sine, stays;
+
+  if (corner->line[0][0] == corner->line[1][0] && corner->line[0][1] == corner->line[1][1]) {
+    MoveLine(pair, corner, 0, force, by);
+    return;
+  }
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscInt   from = corner->line[k][0], to = corner->line[k][1];
+    const PetscReal *x = pair->p[from / 4][from % 4], *y = pair->p[to / 4][to % 4];
+    PetscReal        length;
+
+    if (corner->line[0][0] / 4 == corner->line[1][0] / 4 &&
+        (from == corner->line[1 - k][0] ||
+          from == corner->line[1 - k][1])) { /* a vertex of the facet that both are of */
+      for (PetscInt c = 0; c < 2; ++c) by->p[from / 4][from % 4][c] += force[c];
+      return;
+    }
+    for (PetscInt c = 0; c < 2; ++c) along[k][c] = y[c] - x[c];
+    length = PetscSqrtReal(PetscSqr(along[k][0]) + PetscSqr(along[k][1]));
+    for (PetscInt c = 0; length > 0.0 && c < 2; ++c) along[k][c] /= length;
+    normal[k][0] = -along[k][1];
+    normal[k][1] = along[k][0];
+  }
+  sine  = normal[0][0] * along[1][0] + normal[0][1] * along[1][1];
+  stays = 1.0 / (1.0 + PetscPowRealInt(sine / PARALLEL, 8));
+  for (PetscInt c = 0; c < 2; ++c) staying[c] = stays * force[c];
+  MoveLine(pair, corner, corner->line[0][0] < 4 ? 0 : 1, staying, by);
+  for (PetscInt k = 0; sine != 0.0 && k < 2; ++k) {
+    const PetscReal part =
+                      (1.0 - stays) * (along[1 - k][0] * force[0] + along[1 - k][1] * force[1]) / (k ? -sine : sine),
+                    pushed[2] = {part * normal[k][0], part * normal[k][1]};
+
+    MoveLine(pair, corner, k, pushed, by);
+  }
+}
+
+/* From the plane's axes to the vertices of one facet; height: by those over the plane, NULL: nothing */
+static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const PetscReal *height, PetscReal by_x[12])
+{
+  const PetscReal(*axis)[3] = pair->frame.axis;
+
+  for (PetscInt i = 0; i < 12; ++i) {
+    const PetscInt b = i / 3, c = i % 3;
+
+    by_x[i] = p[b][0] * axis[0][c] + p[b][1] * axis[1][c] + (height ? height[b] * axis[2][c] : 0.0);
+  }
+}
+
+/* Adds the moment of derivatives by the vertices, about the plane's origin */
+static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const PetscReal by_x[12], PetscReal moment[3])
+{
+  for (PetscInt b = 0; b < 4; ++b) {
+    const PetscReal r[3] = {x[3 * b] - frame->origin[0], x[3 * b + 1] - frame->origin[1],
+      x[3 * b + 2] - frame->origin[2]};
+    PetscReal       m[3];
+
+    ContactCross(r, &by_x[3 * b], m);
+    for (PetscInt c = 0; c < 3; ++c) moment[c] += m[c];
+  }
+}
+
+/*
+  Row a. The plane tilts with the nonmortar facet, and all that is seen from it turns back. Patches either bend as
+  normals turn, or keep their shape and turn with their facets, the nonmortar one then with the plane
+*/
+static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
+{
+  ContactSlopes *const to[2]     = {nonmortar, mortar};
+  PetscReal            moment[3] = {0, 0, 0}, turn[2][3], back[3], tilt[12];
+
+  for (PetscInt side = 0; side < 2; ++side) {
+    PetscReal by_x[12], by_normal[12] = {0};
+
+    LeavePlane(pair, by->gap.p[side], by->height[side], by_x);
+    AddMoment(&pair->frame, x[side], by_x, moment);
+    for (PetscInt i = 0; i < 12; ++i) to[side]->rigid[a][i] += by_x[i];
+    ContactPatchChain(x[side], pair->patch[side], &by->patch[side], by_x, by_normal);
+    ContactPatchMoment(pair->patch[side], &by->patch[side], turn[side]);
+    for (PetscInt i = 0; i < 12; ++i) {
+      to[side]->x[a][i] += by_x[i];
+      to[side]->normal[a][i] += by_normal[i];
+    }
+  }
+  ContactFacetTurn(x[1], turn[1], tilt);
+  for (PetscInt i = 0; i < 12; ++i) mortar->rigid[a][i] += tilt[i];
+  for (PetscInt c = 0; c < 3; ++c) back[c] = -moment[c] - turn[1][c];
+  ContactFacetTurn(x[0], back, tilt);
+  for (PetscInt i = 0; i < 12; ++i) nonmortar->rigid[a][i] += tilt[i];
+  for (PetscInt c = 0; c < 3; ++c) back[c] -= turn[0][c];
+  ContactFacetTurn(x[0], back, tilt);
+  for (PetscInt i = 0; i < 12; ++i) nonmortar->x[a][i] += tilt[i];
+}
+
+/* Row a's cover */
+static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneMotion *by,
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
+{
+  ContactSlopes *const to[2]     = {nonmortar, mortar};
+  PetscReal            moment[3] = {0, 0, 0}, by_x[12], tilt[12];
+
+  for (PetscInt side = 0; side < 2; ++side) {
+    LeavePlane(pair, by->p[side], NULL, by_x);
+    AddMoment(&pair->frame, x[side], by_x, moment);
+    for (PetscInt i = 0; i < 12; ++i) to[side]->cover[a][i] += by_x[i];
+  }
+  for (PetscInt c = 0; c < 3; ++c) moment[c] = -moment[c];
+  ContactFacetTurn(x[0], moment, tilt);
+  for (PetscInt i = 0; i < 12; ++i) nonmortar->cover[a][i] += tilt[i];
+}
+
+/*
+  The overlap of x1 and x2 as ContactOverlapFind() left it. gap[A] = int phi_A (H2 - H1), cover[A] = int phi_A; their
+  derivatives are put into mortar and added to nonmortar
+*/
+void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
+  const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
+{
+  const PetscReal *const x[2]  = {x1, x2};
+  const ContactSlopes    none  = {.x = {{0}}};
+  PlanePair              pair  = {.patch = {patch1, patch2}};
+  PlaneSlopes            by[4] = {{.height = {{0}}}};
+
+  for (PetscInt a = 0; a < 4; ++a) gap[a] = cover[a] = 0.0;
+  *mortar = none;
+  if (!ContactFrameCreate(x1, &pair.frame)) return;
+  ContactFrameProject(&pair.frame, x1, pair.p[0], pair.height[0]);
+  ContactFrameProject(&pair.frame, x2, pair.p[1], pair.height[1]);
+  for (PetscInt t = 0; t < o->ntriangles; ++t) AddTriangle(o, rule, t, &pair, gap, cover, by);
+  for (PetscInt a = 0; a < 4; ++a) {
+    for (PetscInt k = 0; k < o->ncorners; ++k) {
+      MoveCorner(&pair, &o->corner[k], by[a].gap.corner[k], &by[a].gap);
+      MoveCorner(&pair, &o->corner[k], by[a].cover.corner[k], &by[a].cover);
+    }
+    AddRow(&pair, a, x, &by[a], nonmortar, mortar);
+    AddRowCover(&pair, a, x, &by[a].cover, nonmortar, mortar);
+  }
+}

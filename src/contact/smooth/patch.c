@@ -1,0 +1,84 @@
+/*
+  The smooth surface that a facet stands for: the facet, and what curved edges stand off its straight ones. An edge
+  between vertices of normals n0 and n1 is the cubic whose chord is the straight edge d, bent along the mean N of the
+  normals; its height at eta in [0, 1] is eta (1 - eta) (a0 (1 - eta) - a1 eta) with a = -2 d.n/(1 + N.n): the tangent
+  of half an angle twice in place of the tangent of the angle, so that an arc's middle is exact. Heights of opposite
+  edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput. Aided Geom. Design 22 (2005)).
+  In a triangle, where the third edge is a point, that of the first counts with the square: quadratic edges then make
+  the quadratic surface.
+*/
+#include "src/contact/contactimpl.h"
+
+/* Ends of an edge are not steeper than this against its chord: normals of a crumpled face mean nothing */
+#define STEEPEST 0.7
+/* Nor are edges bent where a normal is missing, or that turn by 119 degrees and more: length of the sum of the two
+   normals */
+#define LEAST_SUM 1.01
+
+/* Whether edge e has the normals to be bent by */
+PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
+{
+  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
+  PetscReal        N[3];
+
+  for (PetscInt c = 0; c < 3; ++c) N[c] = n[0][c] + n[1][c];
+  return (PetscBool)(ContactDot(N, N) > PetscSqr(LEAST_SUM));
+}
+
+/* Edge e from vertex e to the next; straight where a normal is missing or the two are opposite */
+static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
+{
+  const PetscReal *x0 = &x[3 * e], *x1 = &x[3 * ((e + 1) % 4)],
+                  *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
+  PetscReal *N          = p->direction[e], d[3], length, steepest;
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    d[c] = x1[c] - x0[c];
+    N[c] = n[0][c] + n[1][c];
+  }
+  length         = PetscSqrtReal(ContactDot(N, N));
+  steepest       = STEEPEST * PetscSqrtReal(ContactDot(d, d));
+  p->slope[e][0] = p->slope[e][1] = 0.0;
+  if (!ContactPatchIsBent(p, e)) return;
+  for (PetscInt c = 0; c < 3; ++c) N[c] /= length;
+  for (PetscInt i = 0; i < 2; ++i)
+    p->slope[e][i] = PetscClipInterval(-2.0 * ContactDot(d, n[i]) / (1.0 + ContactDot(N, n[i])), -steepest, steepest);
+}
+
+/* The patch of the facet x with these unit normals of the smooth surface at its vertices; a zero normal is a missing
+   one */
+void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *p)
+{
+  p->triangle = ContactFacetIsTriangle(x);
+  for (PetscInt i = 0; i < 12; ++i) p->normal[i] = normal[i];
+  for (PetscInt e = 0; e < 4; ++e) BendEdge(x, e, p);
+}
+
+/* How far the patch stands off the facet at most */
+PetscReal ContactPatchBulge(const ContactPatch *p)
+{
+  PetscReal bulge = 0.0;
+
+  for (PetscInt e = 0; e < 4; ++e) bulge += 0.25 * PetscMax(PetscAbsReal(p->slope[e][0]), PetscAbsReal(p->slope[e][1]));
+  return bulge;
+}
+
+/* The patch's point less the facet's at the parameters xi, and the normal there */
+void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3])
+{
+  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},
+                  blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
+  PetscReal phi[4];
+
+  ContactShape(xi, phi);
+  for (PetscInt c = 0; c < 3; ++c) offset[c] = normal[c] = 0.0;
+  for (PetscInt e = 0; e < 4; ++e) {
+    const PetscReal eta    = along[e],
+                    height = blend[e] * eta * (1.0 - eta) * (p->slope[e][0] * (1.0 - eta) - p->slope[e][1] * eta);
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (height != 0.0) offset[c] += height * p->direction[e][c];
+      normal[c] += phi[e] * p->normal[3 * e + c];
+    }
+  }
+}

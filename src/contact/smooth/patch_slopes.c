@@ -1,0 +1,139 @@
+/* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by
+   vertices and normals */
+#include "src/contact/contactimpl.h"
+
+/* A patch that turns away from a direction by more than 60 degrees has no tangent plane to measure along it by */
+#define STEEPEST_SQUARED_COSINE 0.25
+
+/* Height of edge e at its parameter eta in [0, 1], where it counts blend, and its derivatives by eta, by blend and by
+   the two slopes */
+static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal by[4])
+{
+  const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta),
+                  tilt = a0 * (1.0 - eta) - a1 * eta;
+
+  by[0] = blend * ((1.0 - 2.0 * eta) * tilt - bump * (a0 + a1));
+  by[1] = bump * tilt;
+  by[2] = blend * bump * (1.0 - eta);
+  by[3] = -blend * bump * eta;
+  return blend * bump * tilt;
+}
+
+/* From the derivatives by the offset and the normal that ContactPatchEvaluate() has at xi: those by xi and by the
+   patch */
+void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
+  const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
+{
+  const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},
+                  blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
+  PetscReal phi[4], dphi[4][2];
+
+  ContactShape(xi, phi);
+  ContactShapeSlopes(xi, dphi);
+  by_xi[0] = by_xi[1] = 0.0;
+  for (PetscInt e = 0; e < 4; ++e) {
+    const PetscReal direction = ContactDot(p->direction[e], by_offset),
+                    normal = ContactDot(&p->normal[3 * e], by_normal), forward = e < 2 ? 0.5 : -0.5,
+                    outward = e == 1 || e == 2 ? 0.5 : -0.5;
+    PetscReal       slopes[4];
+    const PetscReal height = EdgeHeight(p, e, along[e], blend[e], slopes);
+
+    by_xi[e % 2] += forward * slopes[0] * direction;
+    by_xi[1 - e % 2] += (p->triangle && !e ? 2.0 * (1.0 - t) : 1.0) * outward * slopes[1] * direction;
+    for (PetscInt k = 0; k < 2; ++k) {
+      by_xi[k] += dphi[e][k] * normal;
+      by->slope[e][k] = slopes[2 + k] * direction;
+    }
+    for (PetscInt c = 0; c < 3; ++c) {
+      by->direction[e][c]   = height * by_offset[c];
+      by->normal[3 * e + c] = phi[e] * by_normal[c];
+    }
+  }
+}
+
+/* How far the patch is over its facet at xi along a unit direction, by the tangent plane at the patch's point; and
+   the derivatives of that */
+PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
+  PetscReal by_xi[2], ContactPatch *by)
+{
+  PetscReal offset[3], normal[3], by_offset[3], by_normal[3], height, cosine;
+
+  ContactPatchEvaluate(p, xi, offset, normal);
+  cosine = ContactDot(normal, direction);
+  if (PetscSqr(cosine) < STEEPEST_SQUARED_COSINE * ContactDot(normal, normal)) {
+    height = ContactDot(offset, direction);
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_offset[c] = direction[c];
+      by_normal[c] = 0.0;
+    }
+  } else {
+    height = cosine != 0.0 ? ContactDot(offset, normal) / cosine : 0.0; /* no normal at all: no offset either */
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_offset[c] = cosine != 0.0 ? normal[c] / cosine : 0.0;
+      by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
+    }
+  }
+  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
+  return height;
+}
+
+/* Of edge e: adds what its slopes and its direction change with its chord and with the normals at its ends */
+static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by,
+  PetscReal by_chord[3], PetscReal by_normal[2][3])
+{
+  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]}, *N = p->direction[e],
+                  length    = PetscSqrtReal(2.0 + 2.0 * ContactDot(n[0], n[1]));
+  PetscReal by_direction[3] = {by->direction[e][0], by->direction[e][1], by->direction[e][2]}, along;
+
+  for (PetscInt i = 0; i < 2; ++i) {
+    const PetscReal half = 1.0 + ContactDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
+
+    if (PetscAbsReal(-2.0 * ContactDot(d, n[i]) / half) >
+        PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the steepest there is: a part of the chord */
+      for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / ContactDot(d, d) * d[c];
+      continue;
+    }
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_chord[c] -= 2.0 * factor * n[i][c];
+      by_normal[i][c] -= factor * (2.0 * d[c] + slope * N[c]);
+      by_direction[c] -= factor * slope * n[i][c];
+    }
+  }
+  along = ContactDot(N, by_direction);
+  for (PetscInt i = 0; i < 2; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) by_normal[i][c] += (by_direction[c] - along * N[c]) / length;
+  }
+}
+
+/* Adds to the derivatives by the facet's vertices x and by the unit normals there what those by the patch made of
+   them amount to */
+void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
+  PetscReal by_normal[12])
+{
+  for (PetscInt e = 0; e < 4; ++e) {
+    const PetscInt  next     = (e + 1) % 4;
+    const PetscReal d[3]     = {x[3 * next] - x[3 * e], x[3 * next + 1] - x[3 * e + 1], x[3 * next + 2] - x[3 * e + 2]};
+    PetscReal       chord[3] = {0, 0, 0}, normal[2][3] = {{0}};
+
+    if (ContactPatchIsBent(p, e)) ChainEdge(d, p, e, by, chord, normal);
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_x[3 * next + c] += chord[c];
+      by_x[3 * e + c] -= chord[c];
+      by_normal[3 * e + c] += by->normal[3 * e + c] + normal[0][c];
+      by_normal[3 * next + c] += normal[1][c];
+    }
+  }
+}
+
+/* Of the derivatives by a patch: what the patch's turn about any axis amounts to */
+void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal moment[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) moment[c] = 0.0;
+  for (PetscInt e = 0; e < 4; ++e) {
+    PetscReal m[3], k[3];
+
+    ContactCross(p->direction[e], by->direction[e], m);
+    ContactCross(&p->normal[3 * e], &by->normal[3 * e], k);
+    for (PetscInt c = 0; c < 3; ++c) moment[c] += m[c] + k[c];
+  }
+}

@@ -1,0 +1,107 @@
+/*
+  The facets about those of this rank, two deep, on whatever ranks they are: what the normals of a smooth surface are
+  taken from.
+
+  A corner is 4 f + a, for vertex a of facet f, of which a triangle has three; it stands for the edge from that vertex
+  to the next as well. Neighbours across an edge that is sharper, undeformed, than the feature angle are none: each
+  side of it has normals of its own.
+*/
+#include "src/contact/contactimpl.h"
+
+/* Corners of the facet that a corner is of: a triangle has the node of its last one twice */
+static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)
+{
+  const PetscInt *node = &ring->node[4 * (corner / 4)];
+
+  return node[2] == node[3] ? 3 : 4;
+}
+
+PetscInt ContactCornerAfter(const ContactRing *ring, PetscInt corner)
+{
+  return 4 * (corner / 4) + (corner % 4 + 1) % RingCountCorners(ring, corner);
+}
+
+PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
+{
+  const PetscInt n = RingCountCorners(ring, corner);
+
+  return 4 * (corner / 4) + (corner % 4 + n - 1) % n;
+}
+
+/* Whether it is the fourth of a triangle, which is none */
+PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
+{
+  return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));
+}
+
+/* First corner about a corner's node, clockwise, and the last, as far as no edge is sharp or on the border; true
+   where all around is smooth */
+PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *first, PetscInt *last)
+{
+  *first = *last = corner;
+  while (ring->twin[ContactCornerBefore(ring, *last)] >= 0) {
+    *last = ring->twin[ContactCornerBefore(ring, *last)];
+    if (*last == corner) {
+      *last = ContactCornerAfter(ring, ring->twin[corner]);
+      return PETSC_TRUE;
+    }
+  }
+  while (ring->twin[*first] >= 0) *first = ContactCornerAfter(ring, ring->twin[*first]);
+  return PETSC_FALSE;
+}
+
+/* Puts the image v of a real node where the planes that it is seen in have it */
+void ContactRingReflect(ContactRing *ring, PetscInt v)
+{
+  const ContactImage *image = &ring->image[v - ring->nreal];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    const PetscReal x = ring->x[3 * image->of + c];
+
+    ring->x[3 * v + c] = image->plane[c] < 0 ? x : 2.0 * ring->x[3 * image->plane[c] + c] - x;
+  }
+}
+
+/* Collective. Moves the nodes by a global displacement vector */
+PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
+{
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecScatterBegin(ring->scatter, u, ring->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(ring->scatter, u, ring->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGetArrayRead(ring->u, &a));
+  for (PetscInt i = 0; i < 3 * ring->nreal; ++i) ring->x[i] = ring->reference[i] + PetscRealPart(a[i]);
+  for (PetscInt v = ring->nreal; v < ring->nnodes; ++v) ContactRingReflect(ring, v);
+  PetscCall(VecRestoreArrayRead(ring->u, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Coordinates of the ends of the two edges of a facet that meet at a corner, from the corner's own */
+void ContactRingEdges(const ContactRing *ring, PetscInt corner, PetscReal after[3], PetscReal before[3])
+{
+  const PetscReal *x = &ring->x[3 * ring->node[corner]],
+                  *y = &ring->x[3 * ring->node[ContactCornerAfter(ring, corner)]],
+                  *z = &ring->x[3 * ring->node[ContactCornerBefore(ring, corner)]];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    after[c]  = y[c] - x[c];
+    before[c] = z[c] - x[c];
+  }
+}
+
+PetscErrorCode ContactRingDestroy(ContactRing *ring)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(ring->node));
+  PetscCall(PetscFree(ring->twin));
+  PetscCall(PetscFree2(ring->normal, ring->at));
+  PetscCall(PetscFree(ring->global));
+  PetscCall(PetscFree(ring->held));
+  PetscCall(PetscFree(ring->image));
+  PetscCall(PetscFree(ring->reference));
+  PetscCall(PetscFree(ring->x));
+  PetscCall(VecDestroy(&ring->u));
+  PetscCall(VecScatterDestroy(&ring->scatter));
+  PetscFunctionReturn(0);
+}

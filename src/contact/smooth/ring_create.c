@@ -1,0 +1,184 @@
+/* Makes a ring: facets from their ranks, the numbers of their nodes, who is next to whom, and the normals there are */
+#include "src/contact/contactimpl.h"
+
+/* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
+   says how far that is */
+static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal box[6], PetscReal *length)
+{
+  PetscReal largest = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) {
+    box[c]     = PETSC_MAX_REAL;
+    box[3 + c] = PETSC_MIN_REAL;
+  }
+  for (PetscInt f = 0; f < s->nfacets; ++f) {
+    PetscReal facet[6];
+
+    ContactFacetBox(&s->reference[12 * f], facet);
+    for (PetscInt c = 0; c < 3; ++c) {
+      box[c]     = PetscMin(box[c], facet[c]);
+      box[3 + c] = PetscMax(box[3 + c], facet[3 + c]);
+      largest    = PetscMax(largest, facet[3 + c] - facet[c]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  *length = largest;
+  for (PetscInt c = 0; s->nfacets && c < 3; ++c) {
+    box[c] -= 1.01 * largest;
+    box[3 + c] += 1.01 * largest;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Where this rank's own facets are among the candidates: together, in their order */
+static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *facets, PetscInt *own)
+{
+  PetscBool same = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *own = 0;
+  if (!s->nfacets) PetscFunctionReturn(0);
+  for (PetscInt f = 0; !same && f < facets->n; ++f) {
+    PetscCall(PetscArraycmp(&facets->node[4 * f], s->node, 4, &same));
+    *own = f;
+  }
+  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A rank's own facets of face \"%s\" are not about themselves",
+    s->name);
+  PetscFunctionReturn(0);
+}
+
+/* Numbers the nodes from 0, and gathers them from a displacement */
+static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, ContactRing *ring)
+{
+  IS rows;
+
+  PetscFunctionBegin;
+  ring->nnodes = 4 * ring->nfacets;
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->global));
+  PetscCall(PetscArraycpy(ring->global, facets->node, 4 * ring->nfacets));
+  PetscCall(PetscSortRemoveDupsInt(&ring->nnodes, ring->global));
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
+    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->node[i]));
+  ring->nreal = ring->nnodes;
+  PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->reference));
+  PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->x));
+  PetscCall(PetscCalloc1(ring->nnodes, &ring->held));
+  for (PetscInt i = 0; i < 12 * ring->nfacets; ++i) ring->reference[3 * ring->node[i / 3] + i % 3] = facets->x[i];
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
+    ring->held[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
+  PetscCall(PetscArraycpy(ring->x, ring->reference, 3 * ring->nnodes));
+  PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, ring->global, PETSC_COPY_VALUES, &rows));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, 3 * ring->nnodes, &ring->u));
+  PetscCall(VecScatterCreate(u, rows, ring->u, NULL, &ring->scatter));
+  PetscCall(ISDestroy(&rows));
+  PetscFunctionReturn(0);
+}
+
+/* The one corner whose edge runs the other way along the same nodes; negative where there is none, or several */
+static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
+{
+  const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
+  PetscInt       twin = -1;
+
+  for (PetscInt i = first[from]; i < first[from + 1]; ++i) {
+    if (ring->node[ContactCornerAfter(ring, corner[i])] != to) continue;
+    if (twin >= 0) return -1;
+    twin = corner[i];
+  }
+  return twin;
+}
+
+static PetscBool FacetNormal(const ContactRing *ring, PetscInt f, PetscReal n[3])
+{
+  PetscReal x[12];
+
+  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->x[3 * ring->node[4 * f + i / 3] + i % 3];
+  return ContactFacetNormal(x, n);
+}
+
+/* Neighbours across edges that are not sharp, of the undeformed facets */
+static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
+{
+  PetscInt *first, *corner; /* corners at a node */
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(ring->twin));
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->twin));
+  PetscCall(PetscCalloc1(ring->nnodes + 2, &first));
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &corner));
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) first[ring->node[i] + 2] += !ContactCornerIsNone(ring, i);
+  for (PetscInt v = 0; v < ring->nnodes; ++v) first[v + 2] += first[v + 1];
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
+    if (!ContactCornerIsNone(ring, i)) corner[first[ring->node[i] + 1]++] = i;
+  }
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
+    const PetscInt twin = ContactCornerIsNone(ring, i) ? -1 : FindTwin(ring, first, corner, i);
+    PetscReal      n[3], m[3];
+    PetscBool      smooth = (PetscBool)(twin >= 0 && FindTwin(ring, first, corner, twin) == i);
+
+    smooth        = (PetscBool)(smooth && FacetNormal(ring, i / 4, n) && FacetNormal(ring, twin / 4, m));
+    ring->twin[i] = smooth && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] >= cosine ? twin : -1;
+  }
+  PetscCall(PetscFree(first));
+  PetscCall(PetscFree(corner));
+  PetscFunctionReturn(0);
+}
+
+/* Numbers the normals at the surface's own corners from 0, each at the first of its corners */
+static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
+{
+  PetscInt *number; /* of the normal at the first corner of a fan, or at the lowest one if it has no end */
+
+  PetscFunctionBegin;
+  ring->nnormals = 0;
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &number));
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) number[i] = -1;
+  PetscCall(PetscMalloc2(4 * nown, &ring->normal, 4 * nown, &ring->at));
+  for (PetscInt i = 0; i < 4 * nown; ++i) {
+    const PetscInt corner = 4 * ring->own + i;
+    PetscInt       first, last;
+
+    if (ContactCornerIsNone(ring, corner)) {
+      ring->normal[i] = ring->normal[i - 1];
+      continue;
+    }
+    if (ContactRingFan(ring, corner, &first, &last)) {
+      for (PetscInt k = ring->twin[ContactCornerBefore(ring, corner)]; k != corner;
+           k          = ring->twin[ContactCornerBefore(ring, k)])
+        first = PetscMin(first, k);
+    }
+    if (number[first] < 0) {
+      ring->at[ring->nnormals] = corner;
+      number[first]            = ring->nnormals++;
+    }
+    ring->normal[i] = number[first];
+  }
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. cosine: of the feature angle; u: any displacement */
+PetscErrorCode ContactRingCreate(MPI_Comm comm, Vec u, PetscReal cosine, const ContactSurface *s, ContactRing *ring)
+{
+  ContactSurface    undeformed = *s;
+  ContactCandidates facets;
+  PetscReal         box[6], length = 0.0;
+
+  PetscFunctionBegin;
+  undeformed.x        = s->reference;
+  undeformed.border   = s->held;
+  undeformed.bordered = PETSC_TRUE;
+  PetscCall(RingBox(comm, s, box, &length));
+  PetscCall(ContactExchange(comm, box, &undeformed, &facets));
+  ring->nfacets = facets.n;
+  PetscCall(FindOwn(s, &facets, &ring->own));
+  PetscCall(PetscMalloc1(4 * facets.n, &ring->node));
+  PetscCall(NumberNodes(u, &facets, ring));
+  PetscCall(FindTwins(cosine, ring));
+  PetscCall(ContactRingAddImages(comm, length, s->nfacets, ring));
+  PetscCall(FindTwins(cosine, ring));
+  PetscCall(NumberNormals(ring, s->nfacets));
+  PetscCall(ContactCandidatesDestroy(&facets));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,181 @@
+/* The border of a face: edges that only one of its facets has, on whatever rank */
+#include <petscsf.h>
+#include <mesh.h>
+#include "src/contact/contactimpl.h"
+
+static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
+{
+  PetscInt nroots;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
+  if (nroots < 0) PetscFunctionReturn(0);
+  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, value, value, op));
+  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, value, value, op));
+  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, value, value, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, value, value, MPI_REPLACE));
+  PetscFunctionReturn(0);
+}
+
+/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which
+   another one lies on it; negative: inside a triangle, or no edge at all */
+static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
+{
+  const PetscInt  vertices[2] = {v, w};
+  const PetscInt *edges;
+  PetscInt        n, depth[2];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMPlexGetPointDepth(dm, vertices[i], &depth[i]));
+  *edge = v == w || (depth[0] == 1 && depth[1] == 1) ? -1 : depth[0] > depth[1] ? v : w;
+  if (*edge < 0 || depth[0] || depth[1]) PetscFunctionReturn(0);
+  PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
+  PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
+  *edge = edges[0];
+  PetscCall(DMPlexRestoreJoin(dm, 2, vertices, &n, &edges));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The border of s, kept there */
+PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
+{
+  PetscSF  sf;
+  PetscInt npoints, *count, *ends,
+    *edge; /* facets at an edge, twice where it is cut in halves; 1 for a vertex on the border */
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc2(npoints, &count, npoints, &ends));
+  PetscCall(PetscMalloc1(4 * s->nfacets, &edge));
+  PetscCall(PetscCalloc1(s->nfacets, &s->border));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    PetscCall(BorderFindEdge(dm, s->vertex[i], s->vertex[4 * (i / 4) + (i + 1) % 4], &edge[i]));
+    if (edge[i] >= 0)
+      count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    if (edge[i] >= 0 && count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, ends));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    const PetscBool point = (PetscBool)(i % 4 == 2 && s->vertex[i] == s->vertex[i + 1]);
+
+    if (point ? ends[s->vertex[i]] : edge[i] >= 0 && count[edge[i]] == 2) s->border[i / 4] |= 1 << (i % 4);
+    if (ends[s->vertex[i]]) s->border[i / 4] |= 16 << (i % 4);
+  }
+  s->bordered = PETSC_TRUE;
+  PetscCall(PetscFree(edge));
+  PetscCall(PetscFree2(count, ends));
+  PetscFunctionReturn(0);
+}
+
+/* marks of the nodes of a face, of all its facets on this rank: joined with a value by MPI_BOR or MPI_MAX */
+static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscInt value, PetscInt marks[])
+{
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        nfacets;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &nfacets));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < nfacets; ++i) {
+    PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
+
+    PetscCall(MeshGetFacetNodes(dm, f[i], &nnodes, nodes));
+    for (PetscInt a = 0; a < nnodes; ++a)
+      marks[nodes[a]] = op == MPI_BOR ? marks[nodes[a]] | value : PetscMax(marks[nodes[a]], value);
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Where faces with these prescribed displacements hold the vertices of s; kept there */
+PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
+{
+  PetscSF  sf;
+  PetscInt npoints, *bits;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &bits));
+  for (PetscInt k = 0; k < n; ++k) {
+    const SceneDisplacement *d    = &displacements[k];
+    const PetscInt           axes = (d->fixed[0] ? 1 : 0) | (d->fixed[1] ? 2 : 0) | (d->fixed[2] ? 4 : 0);
+
+    if (!d->moves) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
+  PetscCall(PetscFree(s->held));
+  PetscCall(PetscCalloc1(s->nfacets, &s->held));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->held[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
+  PetscCall(PetscFree(bits));
+  PetscFunctionReturn(0);
+}
+
+/* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all
+ */
+static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
+{
+  const SceneDisplacement *d     = &displacements[k];
+  PetscInt                 first = 0;
+
+  if (d->value[axis] == 0.0) return CONTACT_AT_REST;
+  while (first < k && !(displacements[first].fixed[axis] && displacements[first].value[axis] == d->value[axis] &&
+                        displacements[first].ramp == d->ramp))
+    ++first;
+  return first;
+}
+
+/*
+   Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a
+   displacement, CONTACT_AT_REST or CONTACT_FREE
+*/
+PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis,
+  const ContactSurface *s, PetscInt motion[])
+{
+  PetscSF  sf;
+  PetscInt npoints, *marks;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscMalloc1(npoints, &marks));
+  for (PetscInt v = 0; v < npoints; ++v) marks[v] = CONTACT_FREE;
+  for (PetscInt k = 0; k < n; ++k) {
+    if (displacements[k].moves || !displacements[k].fixed[axis]) continue;
+    PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, BorderFindMotion(displacements, k, axis), marks));
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) motion[i] = marks[s->vertex[i]];
+  PetscCall(PetscFree(marks));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which
+   vertex a of facet i is; 0: none */
+PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[],
+  const ContactSurface *s, PetscInt plane[])
+{
+  PetscSF  sf;
+  PetscInt npoints, *marks;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &marks));
+  for (PetscInt k = 0; k < n; ++k) {
+    if (displacements[k].inclined && !displacements[k].moves)
+      PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
+  }
+  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) plane[i] = marks[s->vertex[i]];
+  PetscCall(PetscFree(marks));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,149 @@
+/* The boundary of all bodies, undeformed: how large they are, and what is inside them */
+#include <mesh.h>
+#include "src/contact/contactimpl.h"
+
+/* Number of bodies, on all ranks */
+static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
+{
+  MPI_Comm comm = PetscObjectComm((PetscObject)dm);
+  DMLabel  label;
+  IS       values;
+  PetscInt last = -1;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &label));
+  PetscCheck(label, comm, PETSC_ERR_ARG_WRONG, "The mesh has no label \"%s\"", MESH_BODY_LABEL);
+  PetscCall(DMLabelGetValueIS(label, &values));
+  PetscCall(ISGetMinMax(values, NULL, &last));
+  PetscCall(ISDestroy(&values));
+  PetscCallMPI(MPI_Allreduce(&last, nbodies, 1, MPIU_INT, MPI_MAX, comm));
+  *nbodies = PetscMax(*nbodies, -1) + 1;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The facets on this rank */
+PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
+{
+  PetscInt   start, end;
+  PetscBool *boundary;
+
+  PetscFunctionBegin;
+  b->comm = PetscObjectComm((PetscObject)dm);
+  b->n    = 0;
+  PetscCall(BoundaryCountBodies(dm, &b->nbodies));
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
+  PetscCall(PetscMalloc1(end - start, &boundary));
+  PetscCall(MeshMarkBoundary(dm, boundary));
+  for (PetscInt f = start; f < end; ++f) b->n += boundary[f - start];
+  PetscCall(PetscMalloc2(b->n, &b->body, 12 * b->n, &b->x));
+  b->n = 0;
+  for (PetscInt f = start; f < end; ++f) {
+    const PetscInt *cell;
+    PetscInt        vertex[4], body;
+
+    if (!boundary[f - start]) continue;
+    PetscCall(DMPlexGetSupport(dm, f, &cell));
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cell[0], &body));
+    if (body < 0) continue;
+    PetscCall(MeshGetFacetVertices(dm, f, vertex));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, vertex, (PetscReal(*)[3]) & b->x[12 * b->n]));
+    b->body[b->n++] = body;
+  }
+  PetscCall(PetscFree(boundary));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactBoundaryDestroy(ContactBoundary *b)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(b->body, b->x));
+  PetscFunctionReturn(0);
+}
+
+/*
+  Collective. Mean thickness of every body: twice its volume (3 V = int x.n) by the area of its boundary, the
+  thickness of a thin plate or shell, and less than any width of a compact body.
+*/
+PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thickness[])
+{
+  PetscReal *volume = thickness, *area;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(b->nbodies, &area));
+  PetscCall(PetscArrayzero(volume, b->nbodies));
+  for (PetscInt f = 0; f < b->n; ++f) {
+    const PetscReal *x = &b->x[12 * f];
+    PetscReal        n[3], mass[4];
+
+    area[b->body[f]] += ContactFacetMass(x, mass);
+    ContactFacetAreaVector(x, n);
+    for (PetscInt c = 0; c < 3; ++c) volume[b->body[f]] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]) / 12.0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)b->nbodies, MPIU_REAL, MPIU_SUM, b->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, (PetscMPIInt)b->nbodies, MPIU_REAL, MPIU_SUM, b->comm));
+  for (PetscInt k = 0; k < b->nbodies; ++k) thickness[k] = area[k] > 0.0 ? 2.0 * volume[k] / area[k] : 0.0;
+  PetscCall(PetscFree(area));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Boxes about the bodies */
+PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
+{
+  PetscReal *low; /* and minus the upper corner */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(6 * b->nbodies, &low));
+  for (PetscInt i = 0; i < 6 * b->nbodies; ++i) low[i] = PETSC_MAX_REAL;
+  for (PetscInt f = 0; f < b->n; ++f) {
+    PetscReal facet[6], *of = &low[6 * b->body[f]];
+
+    ContactFacetBox(&b->x[12 * f], facet);
+    for (PetscInt c = 0; c < 3; ++c) {
+      of[c]     = PetscMin(of[c], facet[c]);
+      of[3 + c] = PetscMin(of[3 + c], -facet[3 + c]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(low, box, (PetscMPIInt)(6 * b->nbodies), MPIU_REAL, MPIU_MIN, b->comm));
+  for (PetscInt k = 0; k < b->nbodies; ++k) {
+    for (PetscInt c = 3; c < 6; ++c) box[6 * k + c] = -box[6 * k + c];
+  }
+  PetscCall(PetscFree(low));
+  PetscFunctionReturn(0);
+}
+
+/* Solid angle that the triangle p, q, r is seen under from the origin, positive from behind (Van Oosterom and
+   Strackee 1983) */
+static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
+{
+  const PetscReal triple =
+    p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+  PetscReal pp = 0.0, qq = 0.0, rr = 0.0, pq = 0.0, qr = 0.0, rp = 0.0;
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    pp += p[c] * p[c];
+    qq += q[c] * q[c];
+    rr += r[c] * r[c];
+    pq += p[c] * q[c];
+    qr += q[c] * r[c];
+    rp += r[c] * p[c];
+  }
+  pp = PetscSqrtReal(pp);
+  qq = PetscSqrtReal(qq);
+  rr = PetscSqrtReal(rr);
+  return 2.0 * PetscAtan2Real(triple, pp * qq * rr + pq * rr + qr * pp + rp * qq);
+}
+
+/* This rank's part of the solid angle that a body's boundary is seen under: in sum 4 pi from inside, 0 from outside */
+PetscReal ContactBoundarySolidAngle(const ContactBoundary *b, PetscInt body, const PetscReal from[3])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt f = 0; f < b->n; ++f) {
+    PetscReal x[4][3];
+
+    if (b->body[f] != body) continue;
+    for (PetscInt i = 0; i < 12; ++i) x[i / 3][i % 3] = b->x[12 * f + i] - from[i % 3];
+    sum += BoundaryTriangleAngle(x[0], x[1], x[2]) + BoundaryTriangleAngle(x[0], x[2], x[3]);
+  }
+  return sum;
+}

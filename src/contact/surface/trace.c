@@ -1,0 +1,189 @@
+/*
+   Faces of order 2 are cut into four facets each at their nodes, and forces act on the vertices of these. Bilinear
+   between the nodes is not the displacement of the face, though, and a pressure spread that way is not the load that
+   it is on quadratic cells: a uniform one would bend them. With T, where along each edge
+
+     (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6
+
+   and likewise in the middle of a facet, edge by edge in both directions, T u interpolated on the halves has the
+   integral of the quadratic u, and is u where that is linear. So T^T takes the loads of bilinear facets to those of
+   the quadratic face, exactly where the facets are plane and covered as a whole, and keeps their sum everywhere.
+*/
+#include <petscsf.h>
+#include <mesh.h>
+#include "src/contact/contactimpl.h"
+
+#define TRACE_MAX_NODES MESH_MAX_FACET_NODES
+
+/* Marks the edges and facets of the surfaces that carry nodes: those of this rank's facets, and those it owns */
+static PetscErrorCode TraceMark(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[], PetscInt marked[])
+{
+  PetscSF  sf;
+  PetscInt nroots, vstart, vend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  for (PetscInt k = 0; k < nsurfaces; ++k) {
+    for (PetscInt i = 0; i < 4 * surface[k]->nfacets; ++i) {
+      const PetscInt p = surface[k]->vertex[i];
+
+      if (p < vstart || p >= vend) marked[p] = 1;
+    }
+  }
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
+  if (nroots < 0) PetscFunctionReturn(0);
+  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, marked, marked, MPI_MAX));
+  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, marked, marked, MPI_MAX));
+  PetscFunctionReturn(0);
+}
+
+/* A point's part of T - 1 or of its inverse: the global rows of the nodes, and how much its own moves with each. It
+   is that along an edge, edge by edge */
+typedef struct {
+  PetscInt row, n,
+    column[TRACE_MAX_NODES]; /* the first of the node's; the row is negative where another rank owns the point */
+  PetscReal weight[TRACE_MAX_NODES];
+} TracePoint;
+
+static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type, TracePoint *trace)
+{
+  static const PetscReal of_edge[2][2] = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}}; /* by type, and by depth */
+  static const PetscReal of_facet[2][3] = {{1.0 / 36.0, -2.0 / 9.0, 7.0 / 9.0}, {1.0 / 64.0, 3.0 / 32.0, -7.0 / 16.0}};
+  PetscSection           global;
+  PetscInt               depth, own, npoints, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(dm, &global));
+  PetscCall(PetscSectionGetOffset(global, point, &trace->row));
+  PetscCall(DMPlexGetPointDepth(dm, point, &own));
+  PetscCall(DMPlexGetTransitiveClosure(dm, point, PETSC_TRUE, &npoints, &closure));
+  trace->n = npoints;
+  for (PetscInt p = 0; p < npoints; ++p) {
+    PetscInt column;
+
+    PetscCall(PetscSectionGetOffset(global, closure[2 * p], &column));
+    PetscCall(DMPlexGetPointDepth(dm, closure[2 * p], &depth));
+    trace->column[p] = column < 0 ? -(column + 1) : column;
+    trace->weight[p] = own == 1 ? of_edge[type][depth] : of_facet[type][depth];
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, point, PETSC_TRUE, &npoints, &closure));
+  PetscFunctionReturn(0);
+}
+
+/* Which correction, of how many components a node */
+typedef struct {
+  DM               dm;
+  ContactTraceType type;
+  PetscInt         components;
+} TraceLayout;
+
+/* The rows of the marked points that this rank owns: counts what they have in diagonal and offdiagonal, or puts it in
+   where they are NULL */
+static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], PetscInt rstart,
+  PetscInt rend, PetscInt diagonal[], PetscInt offdiagonal[], Mat correction)
+{
+  const PetscInt n = layout->components;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < npoints; ++p) {
+    TracePoint point;
+
+    if (!marked[p]) continue;
+    PetscCall(TraceGetPoint(layout->dm, p, layout->type, &point));
+    if (point.row < 0) continue;
+    for (PetscInt a = 0; a < point.n; ++a) {
+      for (PetscInt c = 0; c < n; ++c) {
+        const PetscInt row = point.row / 3 * n + c, column = point.column[a] / 3 * n + c;
+
+        if (!diagonal) PetscCall(MatSetValue(correction, row, column, point.weight[a], INSERT_VALUES));
+        else ++(column >= rstart && column < rend ? diagonal : offdiagonal)[row - rstart];
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[],
+  Mat *correction)
+{
+  PetscInt rstart, rend, *diagonal, *offdiagonal;
+  Vec      u;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(layout->dm, &u));
+  PetscCall(VecGetOwnershipRange(u, &rstart, &rend));
+  PetscCall(DMRestoreGlobalVector(layout->dm, &u));
+  rstart = rstart / 3 * layout->components;
+  rend   = rend / 3 * layout->components;
+  PetscCall(MatCreate(PetscObjectComm((PetscObject)layout->dm), correction));
+  PetscCall(MatSetSizes(*correction, rend - rstart, rend - rstart, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*correction, MATAIJ));
+  PetscCall(PetscCalloc2(rend - rstart, &diagonal, rend - rstart, &offdiagonal));
+  PetscCall(TraceFill(layout, npoints, marked, rstart, rend, diagonal, offdiagonal, *correction));
+  PetscCall(MatXAIJSetPreallocation(*correction, 1, diagonal, offdiagonal, NULL, NULL));
+  PetscCall(PetscFree2(diagonal, offdiagonal));
+  PetscCall(TraceFill(layout, npoints, marked, rstart, rend, NULL, NULL, *correction));
+  PetscCall(MatAssemblyBegin(*correction, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*correction, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. correction: T - 1, or T^-1 - 1, of so many components a node; NULL where no surface has order 2 */
+PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[],
+  ContactTraceType type, PetscInt components, Mat *correction)
+{
+  const TraceLayout layout = {dm, type, components};
+  PetscInt          npoints, *marked;
+  PetscBool         any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < nsurfaces; ++k) any = (PetscBool)(any || surface[k]->cut);
+  *correction = NULL;
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &marked));
+  PetscCall(TraceMark(dm, nsurfaces, surface, marked));
+  PetscCall(TraceCreateMatrix(&layout, npoints, marked, correction));
+  PetscCall(PetscFree(marked));
+  PetscFunctionReturn(0);
+}
+
+/* The displacement of the surfaces' vertices, local, from that of the mesh, global */
+PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
+{
+  Vec trace;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(dm, &trace));
+  PetscCall(MatMultAdd(correction, u, u, trace));
+  PetscCall(DMGlobalToLocal(dm, trace, INSERT_VALUES, local));
+  PetscCall(DMRestoreGlobalVector(dm, &trace));
+  PetscFunctionReturn(0);
+}
+
+/* Derivatives by the displacement of the surfaces' vertices become those by the mesh's; of the rows where `which` is
+   1, or all */
+PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian)
+{
+  Mat product;
+
+  PetscFunctionBegin;
+  PetscCall(MatMatMult(jacobian, correction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  if (which) PetscCall(MatDiagonalScale(product, which, NULL));
+  PetscCall(MatAXPY(jacobian, 1.0, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
+/* The rows of the displacement of a surface's vertices become those of the mesh's; correction: of the inverse */
+PetscErrorCode ContactTraceRecover(Mat correction, Mat rows)
+{
+  Mat product;
+
+  PetscFunctionBegin;
+  PetscCall(MatMatMult(correction, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatAXPY(rows, 1.0, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&product));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,211 @@
+/*
+   Mean dilatation: E = int W_iso(H) + kappa/2 int Theta^2, where Theta is the projection of the dilatation theta(H)
+   to polynomials of a cell: the constant one in cells of order 1, its mean; linear ones of the place in those of
+   order 2. Theta = sum_k Theta_k p_k with p_k orthogonal over the cell, Theta_k = int p_k theta / int p_k^2, and g_k
+   = int p_k dtheta/du. For small strain that is B-bar; for laws with theta = J - 1 it is F-bar: W at F (1 +
+   Theta)^(1/3)/J^(1/3). Force and stiffness are the derivatives of E, so the stiffness is symmetric.
+
+   References: Nagtegaal, Parks and Rice, On numerically accurate finite element solutions in the fully plastic range,
+   1974. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980. Simo,
+   Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation
+   elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002:
+   polynomials of the place, not of the cell's parameters.
+*/
+#include "src/elasticity/elasticityimpl.h"
+
+#define POLYNOMIALS 4 /* at most */
+
+typedef struct {
+  int       npolynomials;
+  PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], H[CELL_MAX_POINTS][9];
+  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell, the first is 1 */
+  PetscReal g[POLYNOMIALS][3][CELL_MAX_NODES];
+  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum mean_k p_k */
+} Dilatation;
+
+static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+{
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    d->w[q] = CellGradients(n, basis, q, X, d->G[q]);
+    CellDisplacementGradient(n, U, d->G[q], d->H[q]);
+  }
+}
+
+/* 1, x, y and z, each less its part along those before it */
+static void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
+{
+  d->npolynomials = basis->nnodes == 27 ? POLYNOMIALS : 1;
+  for (int k = 0; k < d->npolynomials; ++k) {
+    for (PetscInt q = 0; q < basis->npoints; ++q) {
+      d->p[q][k] = k ? 0 : 1;
+      for (PetscInt a = 0; k && a < basis->nnodes; ++a) d->p[q][k] += basis->N[q][a] * (X[k - 1][a] - X[k - 1][13]);
+    }
+    for (int l = 0; l < k; ++l) {
+      PetscReal along = 0;
+
+      for (PetscInt q = 0; q < basis->npoints; ++q) along += d->w[q] * d->p[q][k] * d->p[q][l];
+      for (PetscInt q = 0; q < basis->npoints; ++q) d->p[q][k] -= along / d->square[l] * d->p[q][l];
+    }
+    d->square[k] = 0;
+    for (PetscInt q = 0; q < basis->npoints; ++q) d->square[k] += d->w[q] * PetscSqr(d->p[q][k]);
+  }
+}
+
+static inline void DilatationProject(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d)
+{
+  for (int k = 0; k < d->npolynomials; ++k) {
+    d->mean[k] = 0;
+    for (int i = 0; i < 3; ++i) {
+      for (int a = 0; a < n; ++a) d->g[k][i][a] = 0;
+    }
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    PetscReal       C[9];
+    const PetscReal theta = m->law->dilatation(d->H[q], C);
+
+    for (int k = 0; k < d->npolynomials; ++k) {
+      d->mean[k] += d->w[q] * d->p[q][k] * theta;
+      CellForceAdd(n, d->w[q] * d->p[q][k], d->G[q], C, d->g[k]);
+    }
+  }
+  for (int k = 0; k < d->npolynomials; ++k) d->mean[k] /= d->square[k];
+}
+
+static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+{
+  CELL_CALL(DilatationSetPoints, basis, X, U, d);
+  DilatationSetPolynomials(basis, X, d);
+  CELL_CALL(DilatationProject, basis, m, d);
+}
+
+/* Theta at a point */
+static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
+{
+  PetscReal theta = 0;
+
+  for (int k = 0; k < d->npolynomials; ++k) theta += d->mean[k] * d->p[q][k];
+  return theta;
+}
+
+static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES])
+{
+  Dilatation d;
+  PetscReal  sum = 0;
+
+  ElementDilatation(basis, m, X, U, &d);
+  for (int k = 0; k < d.npolynomials; ++k) sum += 0.5 * m->moduli.bulk * d.square[k] * d.mean[k] * d.mean[k];
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal density = m->law->energy(&m->isochoric, d.H[q]);
+
+    if (density >= PETSC_INFINITY) return PETSC_INFINITY;
+    sum += d.w[q] * density;
+  }
+  return sum;
+}
+
+static inline PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
+  PetscReal F[3][CELL_MAX_NODES])
+{
+  PetscReal P[9];
+
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < n; ++a) F[i][a] = 0;
+    for (int k = 0; k < d->npolynomials; ++k) {
+      for (int a = 0; a < n; ++a) F[i][a] += m->moduli.bulk * d->mean[k] * d->g[k][i][a];
+    }
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    if (!m->law->stress(&m->isochoric, d->H[q], P)) return PETSC_FALSE;
+    CellForceAdd(n, d->w[q], d->G[q], P, F);
+  }
+  return PETSC_TRUE;
+}
+
+/* F = int dW_iso/du + kappa sum_k Theta_k g_k */
+static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+{
+  Dilatation d;
+
+  ElementDilatation(basis, m, X, U, &d);
+  return CELL_CALL(BbarForce, basis, m, &d, F);
+}
+
+/* The isochoric part, and kappa Theta times the dilatation's second derivative */
+static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
+  PetscScalar K[])
+{
+  PetscReal A[81];
+  CellSums  S;
+
+  CellSumsClear(basis->nnodes, &S);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    if (!m->law->tangent(&m->isochoric, d->H[q], A)) return PETSC_FALSE;
+    m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
+    CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
+  }
+  CellStiffnessFinish(basis, &S, K);
+  return PETSC_TRUE;
+}
+
+/* K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
+static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+{
+  const PetscInt width = 3 * basis->nnodes;
+  Dilatation     d;
+  PetscReal      rank1[3 * CELL_MAX_NODES];
+
+  if (m->law->constant) {
+    PetscReal rest[3][CELL_MAX_NODES] = {{0}};
+
+    ElementDilatation(basis, m, X, rest, &d);
+    CellStiffnessConstant(basis, m->law, &m->isochoric, X, K);
+  } else {
+    ElementDilatation(basis, m, X, U, &d);
+    if (!ElementStiffnessPoints_Bbar(basis, m, &d, K)) return PETSC_FALSE;
+  }
+  for (int k = 0; k < d.npolynomials; ++k) {
+    for (PetscInt r = 0; r < width; ++r) rank1[r] = PetscSqrtReal(m->moduli.bulk / d.square[k]) * d.g[k][r % 3][r / 3];
+    for (PetscInt r = 0; r < width; ++r) {
+      for (PetscInt s = 0; s < width; ++s) K[width * r + s] += rank1[r] * rank1[s];
+    }
+  }
+  return PETSC_TRUE;
+}
+
+/* sigma = sigma_iso + kappa Theta I, as theta's derivative cof F gives the Cauchy stress cof F F^T / J = I */
+static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
+{
+  Dilatation d;
+  PetscReal  s[6];
+
+  ElementDilatation(basis, m, X, U, &d);
+  for (int k = 0; k < 6; ++k) sigma[k] = k < 3 ? m->moduli.bulk * d.mean[0] : 0;
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    if (!m->law->cauchy(&m->isochoric, d.H[q], s)) return PETSC_FALSE;
+    for (int k = 0; k < 6; ++k) sigma[k] += d.w[q] / d.square[0] * s[k];
+  }
+  return PETSC_TRUE;
+}
+
+/* The dilatation enters by its projection */
+static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
+{
+  Dilatation d;
+
+  ElementDilatation(basis, m, X, U, &d);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    w[q] = d.w[q];
+    for (int k = 0; k < 9; ++k) H[q][k] = d.H[q][k];
+    H[q][9] = DilatationAt(&d, q);
+  }
+}
+
+const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar,
+  ElementStrains_Bbar};

@@ -1,0 +1,29 @@
+/* Displacements and coordinates as the cells of this rank see them */
+#include "src/elasticity/elasticityimpl.h"
+#include <mesh.h>
+
+PetscErrorCode ElasticityGetLocals(Elasticity e, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x)
+{
+  Vec coordinates;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, x));
+  PetscCall(DMGetLocalVector(e->dm, local));
+  if (u) PetscCall(DMGlobalToLocal(e->dm, u, INSERT_VALUES, *local));
+  else PetscCall(VecZeroEntries(*local));
+  PetscCall(VecGetArrayRead(*local, ul));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ElasticityRestoreLocals(Elasticity e, Vec *local, const PetscScalar **ul, const PetscScalar **x)
+{
+  Vec coordinates;
+
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(*local, ul));
+  PetscCall(DMRestoreLocalVector(e->dm, local));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(VecRestoreArrayRead(coordinates, x));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,171 @@
+/*
+   Thermal strain of bodies of small strain: the law sees the displacement gradient less A T, with the expansion A and
+   the temperature T above that of the body without stress.
+
+   In a cell T is taken as linear, T_c + g.y with y the place from the centre, by least squares over the nodes. A
+   strain linear in the place is compatible: a free cell would move by
+
+     u = A y (T_c + g.y) - (y.A y)/2 g,
+
+   whose symmetric gradient is A (T_c + g.y). So each cell is evaluated at its displacement less that one, whatever
+   its element, and a free body in a temperature that is linear in the place is without stress, in bending too. The
+   tangent does not know of it.
+*/
+#include "src/elasticity/elasticityimpl.h"
+#include <mesh.h>
+
+/* Solves the 3 x 3 system of a symmetric positive definite matrix by Cramer's rule */
+static void ThermalSolve(PetscReal M[3][3], const PetscReal b[3], PetscReal x[3])
+{
+  PetscReal C[3][3], det;
+
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+
+    for (int j = 0; j < 3; ++j)
+      C[i][j] = M[i1][(j + 1) % 3] * M[i2][(j + 2) % 3] - M[i1][(j + 2) % 3] * M[i2][(j + 1) % 3];
+  }
+  det = M[0][0] * C[0][0] + M[0][1] * C[0][1] + M[0][2] * C[0][2];
+  for (int j = 0; j < 3; ++j) x[j] = (C[0][j] * b[0] + C[1][j] * b[1] + C[2][j] * b[2]) / det;
+}
+
+static void ThermalCentre(PetscInt n, PetscReal X[3][CELL_MAX_NODES], PetscReal centre[3])
+{
+  for (int d = 0; d < 3; ++d) {
+    centre[d] = 0;
+    for (PetscInt a = 0; a < n; ++a) centre[d] += X[d][a] / (PetscReal)n;
+  }
+}
+
+/* T_c and g from the temperatures of the nodes */
+static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscReal T[], PetscReal fit[4])
+{
+  PetscReal centre[3], M[3][3] = {{0}}, b[3] = {0};
+
+  ThermalCentre(n, X, centre);
+  fit[0] = 0;
+  for (PetscInt a = 0; a < n; ++a) {
+    const PetscReal y[3] = {X[0][a] - centre[0], X[1][a] - centre[1], X[2][a] - centre[2]};
+
+    fit[0] += T[a] / (PetscReal)n;
+    for (int i = 0; i < 3; ++i) {
+      b[i] += y[i] * T[a];
+      for (int j = 0; j < 3; ++j) M[i][j] += y[i] * y[j];
+    }
+  }
+  ThermalSolve(M, b, fit + 1);
+}
+
+/* Takes the free displacement off that of a cell */
+void ThermalSubtract(const PetscReal fit[4], CellState *cell)
+{
+  const PetscReal *A = cell->body->expansion;
+  PetscReal        centre[3];
+
+  ThermalCentre(cell->n, cell->X, centre);
+  for (PetscInt a = 0; a < cell->n; ++a) {
+    const PetscReal y[3] = {cell->X[0][a] - centre[0], cell->X[1][a] - centre[1], cell->X[2][a] - centre[2]};
+    PetscReal       Ay[3], T = fit[0], yAy = 0;
+
+    for (int i = 0; i < 3; ++i) {
+      Ay[i] = A[3 * i] * y[0] + A[3 * i + 1] * y[1] + A[3 * i + 2] * y[2];
+      T += fit[1 + i] * y[i];
+      yAy += y[i] * Ay[i];
+    }
+    for (int i = 0; i < 3; ++i) cell->U[i][a] -= Ay[i] * T - 0.5 * yAy * fit[1 + i];
+  }
+}
+
+/*@C
+  ElasticityFitTemperature - Fits a temperature of one body by linear functions of the place, cell by cell
+
+  Not Collective
+
+  Input Parameters:
++ elasticity  - the context
+. body        - the body, from 0; `PETSC_DECIDE` for every body that expands
+. temperature - gives the temperature at a place of the undeformed body
+- ctx         - its context
+
+  Output Parameter:
+. fits - 4 values a local cell, added to: at the cell's centre, and the gradient [temperature, temperature/length]
+
+  Level: intermediate
+
+.seealso: `ElasticitySetTemperature()`
+@*/
+PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                            body,
+  PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[])
+{
+  Vec                coordinates;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt b = e->cellbody[c], n = e->cellstart[c + 1] - e->cellstart[c];
+    PetscReal      X[3][CELL_MAX_NODES], T[CELL_MAX_NODES], fit[4];
+
+    if (!e->bodies[b].expands || (body != PETSC_DECIDE && body != b)) continue;
+    CellGather(n, e->cellnodes + e->cellstart[c], x, X);
+    for (PetscInt a = 0; a < n; ++a) PetscCall(temperature(ctx, (PetscReal[3]){X[0][a], X[1][a], X[2][a]}, &T[a]));
+    ThermalFit(n, X, T, fit);
+    for (int k = 0; k < 4; ++k) fits[4 * c + k] += fit[k];
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticitySetTemperature - Sets the temperature above that of the bodies without stress
+
+  Not Collective
+
+  Input Parameters:
++ elasticity - the context
+- fits       - 4 values a local cell, from `ElasticityFitTemperature()`, copied; `NULL`: none. Cells of bodies without
+               expansion must have zeros
+
+  Level: intermediate
+
+  Notes:
+  Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
+  small strain, which alone
+  expand, does not depend on it.
+
+.seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
+@*/
+PetscErrorCode ElasticitySetTemperature(Elasticity e, const PetscReal fits[])
+{
+  PetscFunctionBegin;
+  if (!fits) {
+    PetscCall(PetscFree(e->temperature));
+    PetscFunctionReturn(0);
+  }
+  if (!e->temperature) PetscCall(PetscMalloc1(4 * e->ncells, &e->temperature));
+  PetscCall(PetscArraycpy(e->temperature, fits, 4 * e->ncells));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityGetCellCount - Gets the number of cells of this rank
+
+  Not Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameter:
+. ncells - the number
+
+  Level: developer
+
+.seealso: `ElasticityFitTemperature()`
+@*/
+PetscErrorCode ElasticityGetCellCount(Elasticity e, PetscInt *ncells)
+{
+  PetscFunctionBegin;
+  *ncells = e->ncells;
+  PetscFunctionReturn(0);
+}

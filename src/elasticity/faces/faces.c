@@ -1,0 +1,238 @@
+/* Integrals over faces, all from one quadrature: tractions, what a face measures, springs */
+#include "src/elasticity/elasticityimpl.h"
+
+/* The facets of a face on this rank */
+typedef struct {
+  PetscInt n;
+  Facet   *facets;
+} Face;
+
+typedef struct {
+  PetscReal N[FACET_MAX_NODES], x[3], area; /* shape functions, place, weight times area */
+} FacePoint;
+
+#define FACE_POINTS 9
+
+static PetscErrorCode FaceCreate(Elasticity e, const char name[], Face *face)
+{
+  IS                 facets;
+  Vec                coordinates;
+  const PetscInt    *f;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(e->dm, name, &facets));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(ISGetLocalSize(facets, &face->n));
+  PetscCall(ISGetIndices(facets, &f));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(PetscMalloc1(face->n, &face->facets));
+  for (PetscInt i = 0; i < face->n; ++i) PetscCall(FacetGet(e, f[i], x, &face->facets[i]));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FaceDestroy(Face *face)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(face->facets));
+  PetscFunctionReturn(0);
+}
+
+/* 3 x 3 points of a facet: exact where it is plane */
+static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
+{
+  for (int q = 0; q < FACE_POINTS; ++q) {
+    PetscReal       Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0, s, t;
+    const PetscReal weight = FacetQuadrature(facet->n, 3, q, &s, &t);
+
+    FacetShape(facet->n, s, t, points[q].N, Ns, Nt);
+    for (int d = 0; d < 3; ++d) {
+      points[q].x[d] = 0;
+      for (PetscInt a = 0; a < facet->n; ++a) {
+        points[q].x[d] += points[q].N[a] * facet->X[a][d];
+        xs[d] += Ns[a] * facet->X[a][d];
+        xt[d] += Nt[a] * facet->X[a][d];
+      }
+    }
+    for (int d = 0; d < 3; ++d)
+      square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+    points[q].area = weight * PetscSqrtReal(square);
+  }
+}
+
+/* A global vector gets int N_a f(x) dA */
+static PetscErrorCode FaceAddField(Elasticity e, const char                             name[],
+  void (*field)(const PetscReal x[3], const void *ctx, PetscReal value[3]), const void *ctx, Vec total)
+{
+  Face         face;
+  Vec          local;
+  PetscScalar *l;
+
+  PetscFunctionBegin;
+  PetscCall(FaceCreate(e, name, &face));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArray(local, &l));
+  for (PetscInt i = 0; i < face.n; ++i) {
+    FacePoint points[FACE_POINTS];
+
+    FaceGetPoints(&face.facets[i], points);
+    for (int q = 0; q < FACE_POINTS; ++q) {
+      PetscReal value[3];
+
+      field(points[q].x, ctx, value);
+      for (PetscInt a = 0; a < face.facets[i].n; ++a) {
+        for (int d = 0; d < 3; ++d) l[face.facets[i].offset[a] + d] += points[q].area * points[q].N[a] * value[d];
+      }
+    }
+  }
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscCall(FaceDestroy(&face));
+  PetscFunctionReturn(0);
+}
+
+static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3])
+{
+  (void)x;
+  for (int d = 0; d < 3; ++d) value[d] = ((const PetscReal *)ctx)[d];
+}
+
+/*@
+  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead
+  traction's load, or the stiffness of springs
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. face       - name of the face, "<body>.<face>"
+- value      - x, y, z per undeformed area
+
+  Output Parameter:
+. total - global vector; the integral is added to it, on all rows
+
+  Level: intermediate
+
+.seealso: `ElasticityAddForce()`, `ElasticityAddPressure()`, `ElasticitySetSprings()`
+@*/
+PetscErrorCode ElasticityAddFaceField(Elasticity e, const char face[], const PetscReal value[3], Vec total)
+{
+  PetscFunctionBegin;
+  PetscCall(FaceAddField(e, face, FaceUniform, value, total));
+  PetscFunctionReturn(0);
+}
+
+/* t(x) = a + b x (x - center) */
+typedef struct {
+  PetscReal a[3], b[3], center[3];
+} FaceTraction;
+
+static void FaceTwisted(const PetscReal x[3], const void *ctx, PetscReal value[3])
+{
+  const FaceTraction *t = (const FaceTraction *)ctx;
+
+  for (int d = 0; d < 3; ++d) {
+    const int m = (d + 1) % 3, n = (d + 2) % 3;
+
+    value[d] = t->a[d] + t->b[m] * (x[n] - t->center[n]) - t->b[n] * (x[m] - t->center[m]);
+  }
+}
+
+/* Area, centroid, and the second moments int r r^T dA about a point: xx yy zz xy yz zx */
+static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscReal about[3], PetscReal sums[10])
+{
+  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  Face             face;
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 10; ++k) sums[k] = 0;
+  PetscCall(FaceCreate(e, name, &face));
+  for (PetscInt i = 0; i < face.n; ++i) {
+    FacePoint points[FACE_POINTS];
+
+    FaceGetPoints(&face.facets[i], points);
+    for (int q = 0; q < FACE_POINTS; ++q) {
+      PetscReal r[3];
+
+      for (int d = 0; d < 3; ++d) r[d] = points[q].x[d] - about[d];
+      sums[0] += points[q].area;
+      for (int d = 0; d < 3; ++d) sums[1 + d] += points[q].area * r[d];
+      for (int k = 0; k < 6; ++k) sums[4 + k] += points[q].area * r[row[k]] * r[column[k]];
+    }
+  }
+  PetscCall(FaceDestroy(&face));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 10, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
+  PetscFunctionReturn(0);
+}
+
+/* b of int r x (b x r) dA = moment, by Cramer's rule on the face's tensor of inertia */
+static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3], PetscReal b[3])
+{
+  const PetscReal inertia[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[2] + s[0], -s[4]},
+    {-s[5], -s[4], s[0] + s[1]}};
+  const PetscReal size          = inertia[0][0] + inertia[1][1] + inertia[2][2];
+  PetscReal       det           = 0;
+
+  for (int k = 0; k < 3; ++k)
+    det += inertia[0][k] *
+           (inertia[1][(k + 1) % 3] * inertia[2][(k + 2) % 3] - inertia[1][(k + 2) % 3] * inertia[2][(k + 1) % 3]);
+  if (!(det > 1e-12 * size * size * size)) return PETSC_FALSE;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+
+    b[k] = 0;
+    for (int d = 0; d < 3; ++d)
+      b[k] += (inertia[(d + 1) % 3][l] * inertia[(d + 2) % 3][m] - inertia[(d + 1) % 3][m] * inertia[(d + 2) % 3][l]) *
+              moment[d] / det;
+  }
+  return PETSC_TRUE;
+}
+
+/*@
+  ElasticityAddForce - Adds the load of a dead traction on a face that has given resultants
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. face       - name of the face, "<body>.<face>"
+. resultant  - the force [force]
+. moment     - the moment about the point where the force acts [force length]
+- point      - that point; `NULL`: the face's centroid [length]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+  Notes:
+  The traction is a + b x (x - centroid) per undeformed area: uniform for a force, linear for a moment.
+
+.seealso: `ElasticityAddFaceField()`, `ElasticityAddPressure()`
+@*/
+PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3],
+  const PetscReal moment[3], const PetscReal point[3], Vec force)
+{
+  FaceTraction t = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  PetscReal    sums[10], arm[3] = {0, 0, 0}, about[3];
+  PetscBool    solved;
+
+  PetscFunctionBegin;
+  PetscCall(FaceMeasure(e, face, t.center, sums));
+  for (int d = 0; d < 3; ++d) t.center[d] = sums[1 + d] / sums[0];
+  PetscCall(FaceMeasure(e, face, t.center, sums));
+  for (int d = 0; d < 3; ++d) t.a[d] = resultant[d] / sums[0];
+  for (int d = 0; point && d < 3; ++d) arm[d] = point[d] - t.center[d];
+  for (int d = 0; d < 3; ++d)
+    about[d] = moment[d] + arm[(d + 1) % 3] * resultant[(d + 2) % 3] - arm[(d + 2) % 3] * resultant[(d + 1) % 3];
+  solved = FaceSolveMoment(sums + 4, about, t.b);
+  PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG,
+    "The face \"%s\" is too slender to carry a moment", face);
+  PetscCall(FaceAddField(e, face, FaceTwisted, &t, force));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,239 @@
+/* Dead loads and lumped mass: integrals of the shape functions over the reference geometry */
+#include "src/elasticity/elasticityimpl.h"
+#include <mesh.h>
+
+/* Integrals of the shape functions */
+static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal volume[CELL_MAX_NODES])
+{
+  PetscReal G[3][CELL_MAX_NODES];
+
+  for (PetscInt a = 0; a < basis->nnodes; ++a) volume[a] = 0;
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients((int)basis->nnodes, basis, q, X, G);
+
+    for (PetscInt a = 0; a < basis->nnodes; ++a) volume[a] += w * basis->N[q][a];
+  }
+}
+
+/* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals
+   of the squared shape functions */
+static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+{
+  PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
+
+  CellVolumes(basis, X, mass);
+  if (basis->nnodes != 10) return;
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients(10, basis, q, X, G);
+
+    for (PetscInt a = 0; a < 10; ++a) square[a] += w * PetscSqr(basis->N[q][a]);
+  }
+  for (PetscInt a = 0; a < 10; ++a) {
+    whole += mass[a];
+    sum += square[a];
+  }
+  for (PetscInt a = 0; a < 10; ++a) mass[a] = whole / sum * square[a];
+}
+
+/* Adds factor[d] times the integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
+static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
+  void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]),
+  const PetscReal factor[3], Vec total)
+{
+  Vec                coordinates, local;
+  const PetscScalar *x;
+  PetscScalar       *l;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(VecGetArray(local, &l));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt n = e->cellstart[c + 1] - e->cellstart[c], *nodes = e->cellnodes + e->cellstart[c];
+    PetscReal      X[3][CELL_MAX_NODES], values[CELL_MAX_NODES];
+
+    if (body != PETSC_DECIDE && body != e->cellbody[c]) continue;
+    CellGather(n, nodes, x, X);
+    integrals(e->bodies[e->cellbody[c]].basis, X, values);
+    for (PetscInt i = 0; i < 3 * n; ++i) l[3 * nodes[i / 3] + i % 3] += factor[i % 3] * values[i / 3];
+  }
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape
+  function
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameter:
+. mass - new global vector, the same positive value for the 3 components of a node [length^3]
+
+  Level: intermediate
+
+  Notes:
+  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
+  the mass matrix.
+
+  References:
+  Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
+
+.seealso: `ElasticityCreate()`, `ElasticityAddBodyForce()`
+@*/
+PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
+{
+  const PetscReal one[3] = {1, 1, 1};
+
+  PetscFunctionBegin;
+  PetscCall(DMCreateGlobalVector(e->dm, mass));
+  PetscCall(VecZeroEntries(*mass));
+  PetscCall(ElasticityAddVolume(e, PETSC_DECIDE, CellMasses, one, *mass));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityAddBodyForce - Adds a dead force per reference volume
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. body       - the body, from 0; `PETSC_DECIDE` for every body
+- density    - the force per reference volume [force/length^3]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+.seealso: `ElasticityAddPressure()`, `ElasticityForce()`
+@*/
+PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscReal density[3], Vec force)
+{
+  PetscFunctionBegin;
+  PetscCheck(body == PETSC_DECIDE || (body >= 0 && body < e->nbodies), PetscObjectComm((PetscObject)e->dm),
+    PETSC_ERR_ARG_OUTOFRANGE, "There is no body %" PetscInt_FMT " among %" PetscInt_FMT, body, e->nbodies);
+  PetscCall(ElasticityAddVolume(e, body, CellVolumes, density, force));
+  PetscFunctionReturn(0);
+}
+
+/* The vectors of a facet's nodes are those of the bilinear facets, or triangles, that they cut it into */
+static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
+{
+  for (PetscInt a = 0; a < facet->n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
+  for (PetscInt k = 0; k < 4; ++k) {
+    const PetscInt quarter[4] = {k, 4 + k, 8, 4 + (k + 3) % 4}, triangle[4] = {k, k < 3 ? 3 + k : 4, 3 + (k + 2) % 3};
+    const PetscInt n = facet->n == 9 ? 4 : 3, *node = facet->n == 9 ? quarter : triangle;
+    PetscReal      X[4][3], f[4][3];
+
+    for (PetscInt i = 0; i < 3 * n; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
+    FacetNormals(n, X, f);
+    for (PetscInt i = 0; i < 3 * n; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
+  }
+}
+
+/* Adds factor times int N_a n dA over a face, of its facets or cut at their nodes */
+static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], PetscReal factor, PetscBool cut, Vec total)
+{
+  IS                 facets;
+  Vec                coordinates, local;
+  const PetscInt    *f;
+  const PetscScalar *x;
+  PetscScalar       *l;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(e->dm, face, &facets));
+  PetscCall(MeshGetNodeCoordinates(e->dm, &coordinates));
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(VecGetArray(local, &l));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    Facet     facet;
+    PetscReal F[FACET_MAX_NODES][3];
+
+    PetscCall(FacetGet(e, f[i], x, &facet));
+    if (cut && facet.n > 4) ElasticityPieceNormals(&facet, F);
+    else FacetNormals(facet.n, facet.X, F);
+    for (PetscInt a = 0; a < facet.n; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += factor * F[a][d];
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, total));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityAddPressure - Adds the load of a dead pressure on a face, -pressure times the reference normal
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. face       - name of the face, "<body>.<face>"
+- pressure   - positive pushes on the body [force/length^2]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+  Notes:
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is
+  not a face of the mesh is an
+  error.
+
+.seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
+@*/
+PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
+{
+  PetscFunctionBegin;
+  PetscCall(ElasticityAddNormals(e, face, -pressure, PETSC_FALSE, force));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityAddFacetAreas - Adds the normals times the areas of a face that are about its nodes
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- face       - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added
+          to it [length^2]
+
+  Level: developer
+
+  Notes:
+  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
+  quadratic shape functions
+  are loads.
+
+.seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
+@*/
+PetscErrorCode ElasticityAddFacetAreas(Elasticity e, const char face[], Vec areas)
+{
+  PetscFunctionBegin;
+  PetscCall(ElasticityAddNormals(e, face, 1, PETSC_TRUE, areas));
+  PetscFunctionReturn(0);
+}

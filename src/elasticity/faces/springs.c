@@ -1,0 +1,109 @@
+/* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E =
+   u^T S u/2 */
+#include "src/elasticity/elasticityimpl.h"
+
+/*@
+  ElasticitySetSprings - Sets the stiffness of springs that hold the unknowns to the ground and to one another
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. stiffness  - one a row, not negative, referenced; `NULL`: no springs to the ground [force/length]
+- between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none
+               [force/length]
+
+  Level: intermediate
+
+  Notes:
+  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the
+  others. The next tangent is assembled completely.
+
+.seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
+@*/
+PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness, Mat between)
+{
+  PetscFunctionBegin;
+  if (between) PetscCall(PetscObjectReference((PetscObject)between));
+  PetscCall(MatDestroy(&e->between));
+  e->between = between;
+  if (stiffness) PetscCall(PetscObjectReference((PetscObject)stiffness));
+  PetscCall(VecDestroy(&e->springs));
+  e->springs      = stiffness;
+  e->assembled.id = 0;
+  PetscFunctionReturn(0);
+}
+
+/* k u + S u */
+static PetscErrorCode SpringsMultiply(Elasticity e, Vec u, Vec product)
+{
+  PetscFunctionBegin;
+  if (e->springs) PetscCall(VecPointwiseMult(product, e->springs, u));
+  else PetscCall(VecZeroEntries(product));
+  if (e->between) PetscCall(MatMultAdd(e->between, u, product, product));
+  PetscFunctionReturn(0);
+}
+
+/* Part of this rank, added to a sum over the ranks to come */
+PetscErrorCode SpringsAddEnergy(Elasticity e, Vec u, PetscReal *energy)
+{
+  const PetscScalar *f, *v;
+  PetscInt           n;
+  Vec                product;
+
+  PetscFunctionBegin;
+  if (!(e->springs || e->between) || !u) PetscFunctionReturn(0);
+  PetscCall(DMGetGlobalVector(e->dm, &product));
+  PetscCall(SpringsMultiply(e, u, product));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(product, &f));
+  PetscCall(VecGetArrayRead(u, &v));
+  for (PetscInt i = 0; i < n; ++i) *energy += 0.5 * PetscRealPart(f[i] * v[i]);
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCall(VecRestoreArrayRead(product, &f));
+  PetscCall(DMRestoreGlobalVector(e->dm, &product));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SpringsAddForce(Elasticity e, Vec u, Vec force)
+{
+  Vec product;
+
+  PetscFunctionBegin;
+  if (!(e->springs || e->between) || !u) PetscFunctionReturn(0);
+  PetscCall(DMGetGlobalVector(e->dm, &product));
+  PetscCall(SpringsMultiply(e, u, product));
+  PetscCall(VecAXPY(force, 1.0, product));
+  PetscCall(DMRestoreGlobalVector(e->dm, &product));
+  PetscFunctionReturn(0);
+}
+
+/* To the diagonal blocks of nodes that this rank owns, of all bodies or of those that are not kept. Where an unknown
+   is prescribed its diagonal is arbitrary */
+PetscErrorCode SpringsAddTangent(Elasticity e, PetscBool all, const PetscInt global[], Mat tangent)
+{
+  const PetscScalar *k;
+  PetscBool         *seen;
+  PetscInt           first, last;
+
+  PetscFunctionBegin;
+  if (!e->springs) PetscFunctionReturn(0);
+  PetscCall(VecGetOwnershipRange(e->springs, &first, &last));
+  PetscCall(PetscCalloc1(e->nnodes, &seen));
+  PetscCall(VecGetArrayRead(e->springs, &k));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    if (!all && e->bodies[e->cellbody[c]].kept) continue;
+    for (PetscInt i = e->cellstart[c]; i < e->cellstart[c + 1]; ++i) {
+      const PetscInt node = e->cellnodes[i], row = 3 * global[node];
+      PetscScalar    block[9] = {0};
+
+      if (seen[node] || row < first || row >= last) continue;
+      seen[node] = PETSC_TRUE;
+      for (PetscInt d = 0; d < 3; ++d) block[4 * d] = k[row - first + d];
+      PetscCall(MatSetValuesBlocked(tangent, 1, &global[node], 1, &global[node], block, ADD_VALUES));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(e->springs, &k));
+  PetscCall(PetscFree(seen));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,183 @@
+/* Fields for people to look at: stress at the nodes and at the quadrature points, strain energy of the cells */
+#include "src/elasticity/elasticityimpl.h"
+
+/* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2
+   makes */
+static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
+{
+  const PetscBool valid = m->law->cauchy(&m->isochoric, strain, stress);
+
+  for (int k = 0; k < 6; ++k) stress[k] = valid ? stress[k] + (k < 3 ? m->moduli.bulk * strain[9] : 0) : PETSC_INFINITY;
+  return valid;
+}
+
+/* Adds the stresses of the selected bodies' nodes; n: how many were added to each */
+static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[],
+  PetscReal n[], PetscReal stress[])
+{
+  PetscInt *body;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->nnodes, &body));
+  for (PetscInt v = 0; v < e->nnodes; ++v) body[v] = PETSC_DECIDE;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    for (PetscInt i = e->cellstart[c]; selected[e->cellbody[c]] && i < e->cellstart[c + 1]; ++i)
+      body[e->cellnodes[i]] = e->cellbody[c];
+  }
+  for (PetscInt v = 0; v < e->nnodes; ++v) {
+    PetscReal s[6];
+
+    if (body[v] < 0) continue;
+    (void)FieldsStress(&e->bodies[body[v]].material, recovered[v].value, s);
+    for (int k = 0; k < 6; ++k) stress[6 * v + k] += s[k];
+    n[v] += 1;
+  }
+  PetscCall(PetscFree(body));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityNodalStress - Computes the Cauchy stress at the nodes, recovered from the cells about each
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameter:
+. stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
+           `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
+  body, and the law gives the stress of
+  them: second order up to the surface, where the cells' own stress is first order. Where bodies share a node it has
+  the mean of theirs. A node
+  at which the material is turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
+@*/
+PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+  PetscSF            sf;
+  PetscBool         *remaining, *selected, more = PETSC_TRUE;
+  RecoveredNode     *recovered;
+  PetscReal         *n;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(ElasticityCreateNodeSF(e, &sf));
+  PetscCall(PetscMalloc3(e->nbodies, &remaining, e->nbodies, &selected, e->nnodes, &recovered));
+  PetscCall(PetscCalloc1(6 * e->nnodes, stress));
+  PetscCall(PetscCalloc1(e->nnodes, &n));
+  for (PetscInt b = 0; b < e->nbodies; ++b) remaining[b] = PETSC_TRUE;
+  while (more) {
+    PetscCall(ElasticityRecoverNext(e, sf, x, ul, remaining, selected, recovered, &more));
+    PetscCall(FieldsAddNodes(e, selected, recovered, n, *stress));
+  }
+  for (PetscInt i = 0; i < 6 * e->nnodes; ++i) (*stress)[i] /= PetscMax(1, n[i / 6]);
+  PetscCall(PetscFree(n));
+  PetscCall(PetscFree3(remaining, selected, recovered));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityPointStress - Computes the Cauchy stress at the quadrature points of the cells
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameters:
++ npoints - quadrature points of all local cells
+. places  - 3 coordinates a point, undeformed, cell by cell [length]; free with `PetscFree()`
+- stress  - 6 values a point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point
+  turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
+@*/
+PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, PetscReal *places[], PetscReal *stress[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  *npoints = 0;
+  for (PetscInt c = 0; c < e->ncells; ++c) *npoints += e->bodies[e->cellbody[c]].basis->npoints;
+  PetscCall(PetscCalloc1(3 * *npoints, places));
+  PetscCall(PetscMalloc1(6 * *npoints, stress));
+  for (PetscInt c = 0, k = 0; c < e->ncells; ++c) {
+    CellState        cell;
+    const CellBasis *basis;
+    PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS];
+
+    ElasticityGetCell(e, c, x, ul, &cell);
+    basis = cell.body->basis;
+    cell.body->element->strains(basis, &cell.body->material, cell.X, cell.U, w, H);
+    for (PetscInt q = 0; q < basis->npoints; ++q, ++k) {
+      (void)FieldsStress(&cell.body->material, H[q], *stress + 6 * k);
+      for (int a = 0; a < basis->nnodes; ++a) {
+        for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += basis->N[q][a] * cell.X[d][a];
+      }
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityCellEnergy - Computes the strain energy of each cell per undeformed volume
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a vertex [length]
+
+  Output Parameter:
+. density - mean over each local cell, in the order of the mesh's cells [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  Density times volume sums to `ElasticityEnergy()`. A cell turned inside out has `PETSC_INFINITY`.
+
+.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
+@*/
+PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(PetscMalloc1(e->ncells, density));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState        cell;
+    const CellBasis *basis;
+    PetscReal        G[3][CELL_MAX_NODES], volume = 0, energy;
+
+    ElasticityGetCell(e, c, x, ul, &cell);
+    basis = cell.body->basis;
+    for (PetscInt q = 0; q < basis->npoints; ++q) volume += CELL_CALL(CellGradients, basis, q, cell.X, G);
+    energy        = cell.body->element->energy(basis, &cell.body->material, cell.X, cell.U);
+    (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,332 @@
+/*
+   Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8
+   samples a cell, at the 2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, or 4 a
+   tetrahedron, at the points of its rule of degree 2, fitted by quadratic polynomials over the cells around a vertex:
+   second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of
+   their cells' vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that
+   the samples do not determine are left out, as the square across one layer of cells.
+*/
+#include "src/elasticity/elasticityimpl.h"
+
+#define TERMS   10 /* 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
+#define SAMPLES 8
+
+/* Least squares about a vertex: sums over the samples around it */
+typedef struct {
+  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* then the polynomial's coefficients */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal ncells;
+} QuadraticPatch;
+
+typedef struct {
+  PetscInt  n;                                                         /* samples, as many as vertices */
+  PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3]; /* places, values; int grad N of the vertices */
+} QuadraticCell;
+
+static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
+{
+  t[0] = 1;
+  for (int i = 0; i < 3; ++i) {
+    t[1 + i] = d[i];
+    t[4 + i] = d[i] * d[i];
+    t[7 + i] = d[i] * d[(i + 1) % 3];
+  }
+}
+
+/* Weights that take values at 3 Gauss points of a line to its two superconvergent ones */
+static void QuadraticLine(PetscReal weight[2][3])
+{
+  const PetscReal gauss = PetscSqrtReal(0.6), at[2] = {-PetscSqrtReal(1. / 3), PetscSqrtReal(1. / 3)};
+
+  for (int s = 0; s < 2; ++s) {
+    const PetscReal t = at[s] / gauss;
+
+    weight[s][0] = 0.5 * t * (t - 1);
+    weight[s][1] = (1 - t) * (1 + t);
+    weight[s][2] = 0.5 * t * (t + 1);
+  }
+}
+
+/* Weights that take values at the points of a tetrahedron to its 4 samples, in each of which one barycentric
+   coordinate is the largest: those of the linear polynomial that is nearest in the mean */
+static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
+{
+  const PetscReal place = 0.1381966011250105;
+
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal *xi = basis->xi[q], l[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
+
+    for (int s = 0; s < 4; ++s) {
+      weight[s][q] = -4;
+      for (int i = 0; i < 4; ++i) weight[s][q] += 20 * l[i] * (i == s ? 1 - 3 * place : place);
+      weight[s][q] *= 6 * basis->weight[q];
+    }
+  }
+}
+
+/* Weights that take values at the points of a cell to its samples, of which there are n */
+static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
+{
+  PetscReal line[2][3];
+
+  *n = MeshCorners(basis->nnodes);
+  if (*n == 4) {
+    QuadraticTetrahedron(basis, weight);
+    return;
+  }
+  QuadraticLine(line);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    for (int s = 0; s < SAMPLES; ++s)
+      weight[s][q] = line[s & 1][q % 3] * line[s >> 1 & 1][q / 3 % 3] * line[s >> 2][q / 9];
+  }
+}
+
+static void QuadraticSample(CellState *state, QuadraticCell *cell)
+{
+  const CellBasis *basis = state->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], G[3][CELL_MAX_NODES],
+    weight[SAMPLES][CELL_MAX_POINTS];
+
+  *cell = (QuadraticCell){0};
+  QuadraticWeights(basis, &cell->n, weight);
+  state->body->element->strains(basis, &state->body->material, state->X, state->U, w, H);
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    PetscReal x[3] = {0, 0, 0};
+
+    (void)CellGradients((int)state->n, basis, q, state->X, G);
+    for (int d = 0; d < 3; ++d) {
+      for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
+      for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
+    }
+    for (int s = 0; s < cell->n; ++s) {
+      for (int d = 0; d < 3; ++d) cell->x[s][d] += weight[s][q] * x[d];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight[s][q] * H[q][k];
+    }
+  }
+}
+
+static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const PetscReal at[3], QuadraticPatch *patch)
+{
+  PetscReal length = 0;
+
+  for (int s = 0; s < cell->n; ++s) {
+    const PetscReal d[3] = {cell->x[s][0] - at[0], cell->x[s][1] - at[1], cell->x[s][2] - at[2]};
+    PetscReal       t[TERMS];
+
+    QuadraticTerms(d, t);
+    for (int i = 0; i < TERMS; ++i) {
+      for (int j = 0; j < TERMS; ++j) patch->A[i][j] += t[i] * t[j];
+      for (int k = 0; k < ELEMENT_STRAINS; ++k) patch->b[i][k] += t[i] * cell->s[s][k];
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    patch->normal[d] += cell->B[corner][d];
+    length += PetscSqr(cell->B[corner][d]);
+  }
+  patch->area += PetscSqrtReal(length);
+  patch->ncells += 1;
+}
+
+/* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before,
+   which are left out */
+static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], PetscReal L[TERMS][TERMS])
+{
+  for (int i = 0; i < TERMS; ++i) {
+    scale[i] = A[i][i] > 0 ? 1 / PetscSqrtReal(A[i][i]) : 0;
+    for (int j = 0; j <= i; ++j) {
+      L[i][j] = scale[i] * A[i][j] * scale[j];
+      for (int k = 0; k < j; ++k) L[i][j] -= L[i][k] * L[j][k];
+      if (j < i) L[i][j] /= L[j][j];
+    }
+    if (L[i][i] > PETSC_SQRT_MACHINE_EPSILON) {
+      L[i][i] = PetscSqrtReal(L[i][i]);
+    } else {
+      for (int j = 0; j < i; ++j) L[i][j] = 0;
+      L[i][i]  = 1;
+      scale[i] = 0;
+    }
+  }
+}
+
+/* The coefficients, in the place of b: of a quadratic polynomial as far as the samples determine it */
+static void QuadraticPatchFit(QuadraticPatch *patch)
+{
+  PetscReal L[TERMS][TERMS], scale[TERMS];
+
+  QuadraticFactor(patch->A, scale, L);
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+    for (int i = 0; i < TERMS; ++i) {
+      patch->b[i][k] *= scale[i];
+      for (int j = 0; j < i; ++j) patch->b[i][k] -= L[i][j] * patch->b[j][k];
+      patch->b[i][k] /= L[i][i];
+    }
+    for (int i = TERMS - 1; i >= 0; --i) {
+      for (int j = i + 1; j < TERMS; ++j) patch->b[i][k] -= L[j][i] * patch->b[j][k];
+      patch->b[i][k] /= L[i][i];
+    }
+    for (int i = 0; i < TERMS; ++i) patch->b[i][k] *= scale[i];
+  }
+}
+
+static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
+{
+  const PetscReal open =
+    PetscSqrtReal(PetscSqr(patch->normal[0]) + PetscSqr(patch->normal[1]) + PetscSqr(patch->normal[2]));
+
+  return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
+}
+
+/* How far a vertex's polynomial is to be trusted at a node of a cell: most inside the body, else the more cells it is
+   of; more at the vertex itself */
+static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscBool itself)
+{
+  return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (itself ? 1 : 0);
+}
+
+static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], RecoveredNode *node)
+{
+  PetscReal t[TERMS];
+
+  QuadraticTerms(d, t);
+  node->n += 1;
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+    for (int i = 0; i < TERMS; ++i) node->value[k] += t[i] * patch->b[i][k];
+  }
+}
+
+/* At the nodes of a cell: the highest rank that a polynomial of its vertices has; or with `sums` adds the polynomials
+   of the rank that is known by now */
+static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[],
+  PetscInt rank[], RecoveredNode sums[])
+{
+  for (PetscInt a = 0; a < state->n; ++a) {
+    const PetscInt node = state->nodes[a];
+
+    for (int c = 0; c < MeshCorners(state->n); ++c) {
+      const PetscInt        b     = RecoveryCorner(state->n, c);
+      const QuadraticPatch *patch = &patches[number[state->nodes[b]]];
+      const PetscReal       d[3]  = {state->X[0][a] - state->X[0][b], state->X[1][a] - state->X[1][b],
+               state->X[2][a] - state->X[2][b]};
+
+      if (!sums) rank[node] = PetscMax(rank[node], QuadraticRank(patch, (PetscBool)(a == b)));
+      else if (rank[node] == QuadraticRank(patch, (PetscBool)(a == b))) QuadraticNodeAdd(patch, d, &sums[node]);
+    }
+  }
+}
+
+/* Numbers the vertices of the cells of order 2; -1: another node. And shares them as the nodes are shared */
+static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt number[], PetscInt *n, PetscSF *vertices)
+{
+  PetscInt           nleaves, nshared = 0, *theirs, *leaf;
+  const PetscInt    *local;
+  const PetscSFNode *remote;
+  PetscSFNode       *root;
+
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt v = 0; v < e->nnodes; ++v) number[v] = -1;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const PetscInt nnodes = e->cellstart[c + 1] - e->cellstart[c];
+
+    for (int k = 0; MeshOrder(nnodes) == 2 && k < MeshCorners(nnodes); ++k) {
+      PetscInt *v = &number[e->cellnodes[e->cellstart[c] + RecoveryCorner(nnodes, k)]];
+
+      if (*v < 0) *v = (*n)++;
+    }
+  }
+  PetscCall(PetscMalloc1(e->nnodes, &theirs));
+  PetscCall(PetscArraycpy(theirs, number, e->nnodes));
+  PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, number, theirs, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, number, theirs, MPI_REPLACE));
+  PetscCall(PetscSFGetGraph(nodes, NULL, &nleaves, &local, &remote));
+  PetscCall(PetscMalloc1(nleaves, &leaf));
+  PetscCall(PetscMalloc1(nleaves, &root));
+  for (PetscInt i = 0; i < nleaves; ++i) {
+    const PetscInt v = local ? local[i] : i;
+
+    if (number[v] < 0) continue;
+    leaf[nshared]   = number[v];
+    root[nshared++] = (PetscSFNode){.rank = remote[i].rank, .index = theirs[v]};
+  }
+  PetscCall(PetscSFCreate(PetscObjectComm((PetscObject)e->dm), vertices));
+  PetscCall(PetscSFSetGraph(*vertices, *n, nshared, leaf, PETSC_OWN_POINTER, root, PETSC_OWN_POINTER));
+  PetscCall(PetscFree(theirs));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const PetscInt number[], PetscInt n, QuadraticPatch patches[])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState     state;
+    QuadraticCell cell;
+
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 2) continue;
+    ElasticityGetCell(e, c, x, u, &state);
+    QuadraticSample(&state, &cell);
+    for (int k = 0; k < cell.n; ++k) {
+      const PetscInt  a     = RecoveryCorner(state.n, k);
+      const PetscReal at[3] = {state.X[0][a], state.X[1][a], state.X[2][a]};
+
+      QuadraticPatchAdd(&cell, k, at, &patches[number[state.nodes[a]]]);
+    }
+  }
+  PetscCall(ElasticitySumRecords(sf, sizeof(QuadraticPatch) / sizeof(PetscReal), (PetscReal *)patches));
+  for (PetscInt v = 0; v < n; ++v) QuadraticPatchFit(&patches[v]);
+  PetscFunctionReturn(0);
+}
+
+/* The mean of the polynomials of the highest rank at every node of the selected bodies' cells of order 2: their sums,
+   and how many */
+static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const PetscInt number[], const QuadraticPatch patches[], RecoveredNode sums[])
+{
+  PetscInt *rank;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(e->nnodes, &rank));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt c = 0; c < e->ncells; ++c) {
+      CellState state;
+
+      if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 2) continue;
+      ElasticityGetCell(e, c, x, u, &state);
+      QuadraticContinue(&state, number, patches, rank, pass ? sums : NULL);
+    }
+    if (pass) break;
+    PetscCall(PetscSFReduceBegin(nodes, MPIU_INT, rank, rank, MPI_MAX));
+    PetscCall(PetscSFReduceEnd(nodes, MPIU_INT, rank, rank, MPI_MAX));
+    PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
+  }
+  PetscCall(PetscFree(rank));
+  PetscCall(ElasticitySumRecords(nodes, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)sums));
+  PetscFunctionReturn(0);
+}
+
+/* Values at the nodes of the selected bodies' cells of order 2; those of other nodes stay */
+PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[])
+{
+  QuadraticPatch *patches;
+  RecoveredNode  *sums;
+  PetscInt       *number, n;
+  PetscSF         vertices;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->nnodes, &number));
+  PetscCall(QuadraticNumber(e, nodes, number, &n, &vertices));
+  PetscCall(PetscCalloc1(n, &patches));
+  PetscCall(PetscCalloc1(e->nnodes, &sums));
+  PetscCall(QuadraticFitPatches(e, vertices, selected, x, u, number, n, patches));
+  PetscCall(QuadraticSum(e, nodes, selected, x, u, number, patches, sums));
+  for (PetscInt v = 0; v < e->nnodes; ++v) {
+    for (int k = 0; sums[v].n > 0 && k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = sums[v].value[k] / sums[v].n;
+  }
+  PetscCall(PetscFree(sums));
+  PetscCall(PetscFree(patches));
+  PetscCall(PetscFree(number));
+  PetscCall(PetscSFDestroy(&vertices));
+  PetscFunctionReturn(0);
+}

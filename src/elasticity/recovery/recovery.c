@@ -1,0 +1,244 @@
+/*
+   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, placed
+   at the cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a
+   vertex on a body's surface lie on one side of it; the polynomials of the interior vertices of these cells are
+   continued to it, and averaged: second order up to the surface. A body of one layer of cells has no interior vertex;
+   its vertices take the mean of their cells.
+
+   References:
+   Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
+*/
+#include "src/elasticity/elasticityimpl.h"
+
+/* Of the cells around a node, their places relative to it */
+typedef struct {
+  PetscReal n, d[3], dd[6]; /* number, sum of places and of their products xx yy zz xy yz zx */
+  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sum of values, and of places times values */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+} NodeSums;
+
+typedef struct {
+  PetscBool inside;
+  PetscReal value[ELEMENT_STRAINS], slope[3][ELEMENT_STRAINS]; /* at the node */
+} NodePolynomial;
+
+typedef union {
+  NodeSums       sums;
+  NodePolynomial polynomial;
+} NodePatch;
+
+typedef struct {
+  PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid, averages, int grad N */
+} CellSample;
+
+static void CellSampleAverages(CellState *state, CellSample *cell)
+{
+  const CellBasis   *basis = state->body->basis;
+  const MaterialLaw *law   = state->body->material.law;
+  PetscReal          G[3][CELL_MAX_NODES], C[9], volume = 0;
+
+  *cell = (CellSample){0};
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CellGradients((int)state->n, basis, q, state->X, G);
+    PetscReal       s[ELEMENT_STRAINS];
+
+    CellDisplacementGradient((int)state->n, state->U, G, s);
+    s[9] = law->dilatation(s, C);
+    volume += w;
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
+    for (int d = 0; d < 3; ++d) {
+      for (PetscInt a = 0; a < state->n; ++a) {
+        cell->x[d] += w * basis->N[q][a] * state->X[d][a];
+        cell->B[d][a] += w * G[d][a];
+      }
+    }
+  }
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] /= volume;
+  for (int d = 0; d < 3; ++d) cell->x[d] /= volume;
+}
+
+static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, const CellSample *cell)
+{
+  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  const PetscReal  d[3] = {cell->x[0] - X[0][a], cell->x[1] - X[1][a], cell->x[2] - X[2][a]};
+
+  sums->n += 1;
+  for (int k = 0; k < 6; ++k) sums->dd[k] += d[row[k]] * d[column[k]];
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->s[k] += cell->s[k];
+  for (int i = 0; i < 3; ++i) {
+    sums->d[i] += d[i];
+    sums->normal[i] += cell->B[i][a];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->ds[i][k] += d[i] * cell->s[k];
+  }
+  sums->area += PetscSqrtReal(PetscSqr(cell->B[0][a]) + PetscSqr(cell->B[1][a]) + PetscSqr(cell->B[2][a]));
+}
+
+/* Inverse of the scatter of the cells' centroids about their mean; false where they lie in a plane, or nearly */
+static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
+{
+  const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1],
+                  zz = sums->dd[2] - sums->n * mean[2] * mean[2];
+  const PetscReal xy = sums->dd[3] - sums->n * mean[0] * mean[1], yz = sums->dd[4] - sums->n * mean[1] * mean[2],
+                  zx      = sums->dd[5] - sums->n * mean[2] * mean[0];
+  const PetscReal C[3][3] = {
+    {yy * zz - yz * yz, yz * zx - xy * zz, xy * yz - yy * zx},
+    {yz * zx - xy * zz, xx * zz - zx * zx, xy * zx - xx * yz},
+    {xy * yz - yy * zx, xy * zx - xx * yz, xx * yy - xy * xy},
+  };
+  const PetscReal det = xx * C[0][0] + xy * C[0][1] + zx * C[0][2];
+
+  if (!(det > PETSC_SQRT_MACHINE_EPSILON * xx * yy * zz)) return PETSC_FALSE;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) inverse[i][j] = C[i][j] / det;
+  }
+  return PETSC_TRUE;
+}
+
+/* The linear polynomial of least squares about a node inside a body */
+static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
+{
+  const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
+  const PetscReal open =
+    PetscSqrtReal(PetscSqr(sums->normal[0]) + PetscSqr(sums->normal[1]) + PetscSqr(sums->normal[2]));
+  PetscReal inverse[3][3];
+
+  p->inside =
+    (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * sums->area && NodeSumsInvertScatter(sums, mean, inverse));
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) p->value[k] = sums->s[k] / sums->n;
+  if (!p->inside) return;
+  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+    const PetscReal average = sums->s[k] / sums->n;
+    PetscReal       c[3];
+
+    for (int j = 0; j < 3; ++j) c[j] = sums->ds[j][k] - mean[j] * sums->s[k];
+    for (int i = 0; i < 3; ++i) p->slope[i][k] = inverse[i][0] * c[0] + inverse[i][1] * c[1] + inverse[i][2] * c[2];
+    p->value[k] = average - p->slope[0][k] * mean[0] - p->slope[1][k] * mean[1] - p->slope[2][k] * mean[2];
+  }
+}
+
+static void NodePatchFit(NodePatch *patch)
+{
+  const NodeSums sums = patch->sums;
+
+  if (sums.n > 0) NodePolynomialFit(&sums, &patch->polynomial);
+  else patch->polynomial.inside = PETSC_FALSE;
+}
+
+/* Leaves are the local nodes that another rank owns, roots the local nodes */
+PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
+{
+  MPI_Comm           comm = PetscObjectComm((PetscObject)e->dm);
+  PetscMPIInt        size;
+  PetscSection       section;
+  PetscSF            points, dofs;
+  PetscInt          *offsets, nleaves = 0, n = 0, *leaf = NULL;
+  const PetscInt    *local;
+  const PetscSFNode *remote;
+  PetscSFNode       *root = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSFCreate(comm, nodes));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  if (size > 1) {
+    PetscCall(DMGetLocalSection(e->dm, &section));
+    PetscCall(DMGetPointSF(e->dm, &points));
+    PetscCall(PetscSFCreateRemoteOffsets(points, section, section, &offsets));
+    PetscCall(PetscSFCreateSectionSF(points, section, offsets, section, &dofs));
+    PetscCall(PetscFree(offsets));
+    PetscCall(PetscSFGetGraph(dofs, NULL, &nleaves, &local, &remote));
+    PetscCall(PetscMalloc1(nleaves / 3, &leaf));
+    PetscCall(PetscMalloc1(nleaves / 3, &root));
+    for (PetscInt i = 0; i < nleaves; ++i) {
+      const PetscInt dof = local ? local[i] : i;
+
+      if (dof % 3) continue;
+      leaf[n]   = dof / 3;
+      root[n++] = (PetscSFNode){.rank = remote[i].rank, .index = remote[i].index / 3};
+    }
+    PetscCall(PetscSFDestroy(&dofs));
+  }
+  PetscCall(PetscSFSetGraph(*nodes, e->nnodes, n, leaf, PETSC_OWN_POINTER, root, PETSC_OWN_POINTER));
+  PetscFunctionReturn(0);
+}
+
+/* Sums records of n reals over the ranks, and gives every rank the sums */
+PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
+{
+  MPI_Datatype record;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)n, MPIU_REAL, &record));
+  PetscCallMPI(MPI_Type_commit(&record));
+  PetscCall(PetscSFReduceBegin(sf, record, values, values, MPIU_SUM));
+  PetscCall(PetscSFReduceEnd(sf, record, values, values, MPIU_SUM));
+  PetscCall(PetscSFBcastBegin(sf, record, values, values, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, record, values, values, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&record));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], NodePatch patches[])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState  state;
+    CellSample cell;
+
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 1) continue;
+    ElasticityGetCell(e, c, x, u, &state);
+    CellSampleAverages(&state, &cell);
+    for (int a = 0; a < state.n; ++a) NodeSumsAdd(&patches[state.nodes[a]].sums, state.X, a, &cell);
+  }
+  PetscCall(ElasticitySumRecords(sf, sizeof(NodePatch) / sizeof(PetscReal), (PetscReal *)patches));
+  for (PetscInt v = 0; v < e->nnodes; ++v) NodePatchFit(&patches[v]);
+  PetscFunctionReturn(0);
+}
+
+/* Continues the polynomials of a cell's interior vertices to the others */
+static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES],
+  RecoveredNode recovered[])
+{
+  for (int a = 0; a < n; ++a) {
+    RecoveredNode *r = &recovered[nodes[a]];
+
+    if (patches[nodes[a]].polynomial.inside) continue;
+    for (int b = 0; b < n; ++b) {
+      const NodePolynomial *p    = &patches[nodes[b]].polynomial;
+      const PetscReal       d[3] = {X[0][a] - X[0][b], X[1][a] - X[1][b], X[2][a] - X[2][b]};
+
+      if (!p->inside) continue;
+      r->n += 1;
+      for (int k = 0; k < ELEMENT_STRAINS; ++k)
+        r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
+    }
+  }
+}
+
+/* Values at the nodes of the selected bodies' cells of order 1, of which no two share a node. recovered is zero on
+   entry */
+PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[])
+{
+  NodePatch *patches;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(e->nnodes, &patches));
+  PetscCall(ElasticityFitPatches(e, sf, selected, x, u, patches));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    CellState state;
+
+    if (!selected[e->cellbody[c]] || MeshOrder(e->cellstart[c + 1] - e->cellstart[c]) != 1) continue;
+    ElasticityGetCell(e, c, x, u, &state);
+    CellContinue(patches, state.n, state.nodes, state.X, recovered);
+  }
+  PetscCall(ElasticitySumRecords(sf, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)recovered));
+  for (PetscInt v = 0; v < e->nnodes; ++v) {
+    const PetscReal n = recovered[v].n;
+
+    for (int k = 0; k < ELEMENT_STRAINS; ++k)
+      recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
+  }
+  PetscCall(PetscFree(patches));
+  PetscFunctionReturn(0);
+}

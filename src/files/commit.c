@@ -1,0 +1,98 @@
+/*
+   A file that was written under another name takes its own: at once, or, where it must be on the disk before, by a
+   thread of the first rank. A disk takes longer for that than a small load step does; the thread knows neither MPI
+   nor PETSc.
+*/
+#define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
+#include "src/output/outputimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <string.h>
+#include <unistd.h>
+
+struct _n_FileCommit {
+  MPI_Comm  comm;
+  char      part[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN], folder[PETSC_MAX_PATH_LEN];
+  pthread_t thread;
+  PetscBool begun; /* the thread, on the first rank */
+  int       error; /* errno of what went wrong */
+};
+
+/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then
+   PETSC_ERR_FILE_WRITE */
+PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
+  PetscCheck(!error, comm, code, "cannot write \"%s\": %s", file, strerror(error));
+  PetscFunctionReturn(0);
+}
+
+/* What was written of a file, or the names in its folder, is on the disk */
+static int CommitSync(const char file[])
+{
+  const int descriptor = open(file, O_RDONLY);
+  int       error      = 0;
+
+  if (descriptor < 0) return errno;
+  if (fsync(descriptor)) error = errno;
+  (void)close(descriptor);
+  return error;
+}
+
+static void *CommitSafely(void *ctx)
+{
+  FileCommit commit = (FileCommit)ctx;
+
+  commit->error = CommitSync(commit->part);
+  if (!commit->error && rename(commit->part, commit->file)) commit->error = errno;
+  if (!commit->error) commit->error = CommitSync(commit->folder);
+  return NULL;
+}
+
+/* Signals are the program's; without a thread the caller waits */
+static void CommitBeginThread(FileCommit commit)
+{
+  sigset_t all, kept;
+
+  (void)sigfillset(&all);
+  (void)pthread_sigmask(SIG_SETMASK, &all, &kept);
+  commit->begun = pthread_create(&commit->thread, NULL, CommitSafely, commit) ? PETSC_FALSE : PETSC_TRUE;
+  (void)pthread_sigmask(SIG_SETMASK, &kept, NULL);
+  if (!commit->begun) (void)CommitSafely(commit);
+}
+
+PetscErrorCode FileCommitBegin(MPI_Comm comm, const char part[], const char file[], FileCommit *commit)
+{
+  PetscMPIInt rank;
+  char       *slash;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(commit));
+  (*commit)->comm = comm;
+  PetscCall(PetscStrncpy((*commit)->part, part, sizeof((*commit)->part)));
+  PetscCall(PetscStrncpy((*commit)->file, file, sizeof((*commit)->file)));
+  PetscCall(PetscStrncpy((*commit)->folder, file, sizeof((*commit)->folder)));
+  slash = strrchr((*commit)->folder, '/');
+  if (slash) slash[slash == (*commit)->folder] = 0;
+  else PetscCall(PetscStrncpy((*commit)->folder, ".", sizeof((*commit)->folder)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) CommitBeginThread(*commit);
+  PetscFunctionReturn(0);
+}
+
+/* What is NULL has ended */
+PetscErrorCode FileCommitEnd(FileCommit *commit)
+{
+  FileCommit ended = *commit;
+
+  PetscFunctionBegin;
+  if (!ended) PetscFunctionReturn(0);
+  if (ended->begun) (void)pthread_join(ended->thread, NULL);
+  ended->begun = PETSC_FALSE;
+  PetscCall(FileRaise(ended->comm, ended->file, PETSC_ERR_FILE_WRITE, ended->error));
+  PetscCall(PetscFree(*commit));
+  PetscFunctionReturn(0);
+}

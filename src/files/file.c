@@ -1,0 +1,177 @@
+/* Files that appear whole or not at all */
+#define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), getpid() */
+#include "src/output/outputimpl.h"
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What the first rank finds out; the same on all ranks */
+typedef struct {
+  char      name[PETSC_MAX_PATH_LEN];
+  PetscBool renamed; /* it takes the file's name once it is whole */
+} FilePart;
+
+/* What is written and then renamed: a file of this process, as another one may write the same file. Links and devices
+   are written themselves, whose place no file may take */
+static PetscErrorCode FileGetPart(MPI_Comm comm, const char file[], FilePart *part)
+{
+  struct stat status;
+
+  PetscFunctionBegin;
+  *part = (FilePart){.renamed = lstat(file, &status) || S_ISREG(status.st_mode) ? PETSC_TRUE : PETSC_FALSE};
+  if (part->renamed) PetscCall(PetscSNPrintf(part->name, sizeof(part->name), "%s.%ld.part", file, (long)getpid()));
+  else PetscCall(PetscStrncpy(part->name, file, sizeof(part->name)));
+  PetscCallMPI(MPI_Bcast(part, sizeof(*part), MPI_BYTE, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FileTry(MPI_Comm comm, const char file[], const FilePart *part, PetscErrorCode code)
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE *stream = fopen(part->name, part->renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
+
+    if (!stream) error = errno;
+    else if (fclose(stream) || (part->renamed && remove(part->name))) error = errno;
+  }
+  PetscCall(FileRaise(comm, file, code, error));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputCheckWritable - Finds out before long work whether a file will be writable, and says so in one sentence if not
+
+   Collective
+
+   Input Parameters:
++  comm - the communicator; its first rank writes
+-  file - the file; it is not touched, a neighbour FILE.PID.part is made and removed, unless it is a link or a
+         device
+
+   Level: intermediate
+
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks.
+
+.seealso: `OutputCreate()`, `ReportWriteJSON()`
+@*/
+PetscErrorCode OutputCheckWritable(MPI_Comm comm, const char file[])
+{
+  FilePart part;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPart(comm, file, &part));
+  PetscCall(FileTry(comm, file, &part, PETSC_ERR_FILE_OPEN));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FileRename(MPI_Comm comm, const FilePart *part, const char file[])
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0 && part->renamed && rename(part->name, file)) error = errno;
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
+  PetscFunctionReturn(0);
+}
+
+#define FILE_COMPLAINT_LENGTH 256
+
+static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *function, const char *file,
+  PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+{
+  (void)comm, (void)line, (void)function, (void)file;
+  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy((char *)ctx, message, FILE_COMPLAINT_LENGTH);
+  return n;
+}
+
+PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx,
+  FileCommit *commit)
+{
+  char           complaint[FILE_COMPLAINT_LENGTH] = "";
+  FilePart       part;
+  PetscViewer    viewer;
+  PetscErrorCode ierr;
+  SilencedOutput mute;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPart(comm, file, &part));
+  PetscCall(FileTry(comm, file, &part, PETSC_ERR_FILE_WRITE));
+  PetscCall(PetscPushErrorHandler(FileKeepComplaint, complaint));
+  SilenceOutputBegin(&mute);
+  ierr = PetscViewerHDF5Open(comm, part.name, FILE_MODE_WRITE, &viewer);
+  if (!ierr) ierr = write(viewer, ctx);
+  if (!ierr) ierr = PetscViewerDestroy(&viewer);
+  SilenceOutputEnd(&mute);
+  PetscCall(PetscPopErrorHandler());
+  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
+  if (ierr && part.renamed) (void)remove(part.name);
+  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file,
+    complaint);
+  if (commit && part.renamed) PetscCall(FileCommitBegin(comm, part.name, file, commit));
+  else PetscCall(FileRename(comm, &part, file));
+  PetscFunctionReturn(0);
+}
+
+/* The stream's text, and errno of what went wrong with it */
+static PetscErrorCode FileFill(FILE *stream, PetscErrorCode (*fill)(FILE *, const void *), const void *ctx, int *error)
+{
+  PetscFunctionBegin;
+  errno = 0;
+  PetscCall(fill(stream, ctx));
+  if (fflush(stream) || ferror(stream)) *error = errno ? errno : EIO;
+  if (fclose(stream) && !*error) *error = errno;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FileAppendText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx)
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE      *stream = fopen(file, "a");
+    const long length = stream ? ftell(stream) : 0;
+
+    if (!stream) error = errno;
+    else {
+      PetscCall(FileFill(stream, fill, ctx, &error));
+      if (error && truncate(file, length)) error = errno;
+    }
+  }
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
+  const void *ctx)
+{
+  FilePart    part;
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FileGetPart(comm, file, &part));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    FILE *stream = fopen(part.name, "w");
+
+    if (!stream) error = errno;
+    else {
+      PetscCall(FileFill(stream, fill, ctx, &error));
+      if (error && part.renamed) (void)remove(part.name);
+    }
+  }
+  PetscCall(FileRaise(comm, file, PETSC_ERR_FILE_WRITE, error));
+  PetscCall(FileRename(comm, &part, file));
+  PetscFunctionReturn(0);
+}

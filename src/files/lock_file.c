@@ -1,0 +1,41 @@
+/*
+   One run at a time writes the files of a name: its first rank holds a lock of the mesh's file while it lives. It is
+   a record lock, of which HDF5 and those who read know nothing; where the file system has none, nobody is kept out.
+*/
+#define _POSIX_C_SOURCE 200809L /* fcntl() */
+#include "src/output/outputimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+/* Locks a file that is there; descriptor negative: it is not. 1 where another process has it */
+static int LockFileOpen(const char file[], int *descriptor)
+{
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+
+  *descriptor = open(file, O_RDWR | O_CLOEXEC);
+  return *descriptor >= 0 && fcntl(*descriptor, F_SETLK, &lock) && (errno == EACCES || errno == EAGAIN);
+}
+
+void LockFileEnd(int *descriptor)
+{
+  if (*descriptor >= 0) (void)close(*descriptor);
+  *descriptor = -1;
+}
+
+/* Negative on other ranks */
+PetscErrorCode LockFileBegin(MPI_Comm comm, const char file[], int *descriptor)
+{
+  PetscMPIInt rank;
+  int         taken = 0;
+
+  PetscFunctionBegin;
+  *descriptor = -1;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) taken = LockFileOpen(file, descriptor);
+  if (taken) LockFileEnd(descriptor);
+  PetscCallMPI(MPI_Bcast(&taken, 1, MPI_INT, 0, comm));
+  PetscCheck(!taken, comm, PETSC_ERR_FILE_OPEN,
+    "another run is writing \"%s\": let it end, or give -output another name", file);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,98 @@
+/*
+   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 of the nodes A of one face and the means
+   that a tie has of the other, a_A being the integral of A's shape function. Their stiffness joins nodes that share
+   no cell, and is a matrix of its own.
+*/
+#include "src/step/stepimpl.h"
+
+/* 1 - M, each entry for the three components, in the rows of one face; others are empty */
+static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch)
+{
+  PetscInt nlocal, start, end, longest = 1;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    longest = PetscMax(longest, n + 1);
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCall(
+    MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, stretch));
+  for (PetscInt i = start; i < end; ++i) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(means, i, &n, &columns, &values));
+    for (PetscInt d = 0; n && d < 3; ++d) {
+      PetscCall(MatSetValue(*stretch, 3 * i + d, 3 * i + d, 1.0, ADD_VALUES));
+      for (PetscInt k = 0; k < n; ++k)
+        PetscCall(MatSetValue(*stretch, 3 * i + d, 3 * columns[k] + d, -values[k], ADD_VALUES));
+    }
+    PetscCall(MatRestoreRow(means, i, &n, &columns, &values));
+  }
+  PetscCall(MatAssemblyBegin(*stretch, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*stretch, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* stretch^T (k a) stretch of one entry of the scene */
+static PetscErrorCode CouplingAssemble(Simulation sim, const SceneSpring *spring, Mat *stiffness)
+{
+  const SceneTie tie = {.name = spring->name,
+    .mortar                   = spring->to,
+    .nonmortar                = spring->face,
+    .distance                 = spring->distance};
+  Mat            means, stretch, stretched;
+  Vec            k;
+
+  PetscFunctionBegin;
+  PetscCall(ContactTieCreate(sim->dm, "springs", &tie, &means));
+  PetscCall(CouplingGetStretch(sim, means, &stretch));
+  PetscCall(VecDuplicate(sim->mass, &k));
+  PetscCall(VecZeroEntries(k));
+  PetscCall(ElasticityAddFaceField(sim->elasticity, spring->face, spring->value, k));
+  PetscCall(MatDuplicate(stretch, MAT_COPY_VALUES, &stretched));
+  PetscCall(MatDiagonalScale(stretched, k, NULL));
+  PetscCall(MatTransposeMatMult(stretch, stretched, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness));
+  PetscCall(VecDestroy(&k));
+  PetscCall(MatDestroy(&stretched));
+  PetscCall(MatDestroy(&stretch));
+  PetscCall(MatDestroy(&means));
+  PetscFunctionReturn(0);
+}
+
+/* NULL where no springs join two faces */
+PetscErrorCode CouplingsCreate(Simulation sim, Mat *stiffness)
+{
+  PetscFunctionBegin;
+  *stiffness = NULL;
+  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) {
+    Mat one;
+
+    if (!sim->scene->springs[s].to) continue;
+    PetscCall(CouplingAssemble(sim, &sim->scene->springs[s], &one));
+    if (*stiffness) {
+      PetscCall(MatAXPY(*stiffness, 1.0, one, DIFFERENT_NONZERO_PATTERN));
+      PetscCall(MatDestroy(&one));
+    } else *stiffness = one;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Of displacements C x, added to their stiffness */
+PetscErrorCode CouplingsAddStiffness(Simulation sim, Mat C, Mat stiffness)
+{
+  Mat product;
+
+  PetscFunctionBegin;
+  if (!sim->springs.between) PetscFunctionReturn(0);
+  PetscCall(MatPtAP(sim->springs.between, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatAXPY(stiffness, 1.0, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&product));
+  PetscFunctionReturn(0);
+}

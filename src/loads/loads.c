@@ -1,0 +1,78 @@
+/* Dead loads: pressures and body forces of the scene, gathered by ramp. */
+#include "src/step/stepimpl.h"
+
+static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, Vec *force)
+{
+  PetscFunctionBegin;
+  if (!loads->force[ramp]) {
+    PetscCall(DMCreateGlobalVector(dm, &loads->force[ramp]));
+    PetscCall(VecZeroEntries(loads->force[ramp]));
+  }
+  *force = loads->force[ramp];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLoads *loads)
+{
+  Vec force;
+
+  PetscFunctionBegin;
+  loads->scene = scene;
+  loads->force = NULL;
+  if (!scene->npressures && !scene->nforces && !scene->ntractions) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(scene->nramps, &loads->force));
+  for (PetscInt i = 0; i < scene->npressures; ++i) {
+    const ScenePressure *pressure = &scene->pressures[i];
+
+    if (pressure->follows) continue;
+    PetscCall(DeadLoadsGetRamp(dm, loads, pressure->ramp, &force));
+    PetscCall(ElasticityAddPressure(elasticity, pressure->face, pressure->value, force));
+  }
+  for (PetscInt i = 0; i < scene->ntractions; ++i) {
+    const SceneTraction *traction = &scene->tractions[i];
+
+    PetscCall(DeadLoadsGetRamp(dm, loads, traction->ramp, &force));
+    if (traction->resultant)
+      PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment,
+        traction->placed ? traction->point : NULL, force));
+    else PetscCall(ElasticityAddFaceField(elasticity, traction->face, traction->value, force));
+  }
+  for (PetscInt i = 0; i < scene->nforces; ++i) {
+    const SceneBodyForce *density = &scene->forces[i];
+    const PetscInt        first   = density->body < 0 ? 0 : density->body;
+    const PetscInt        end     = density->body < 0 ? scene->nbodies : first + 1;
+
+    PetscCall(DeadLoadsGetRamp(dm, loads, density->ramp, &force));
+    for (PetscInt b = first; b < end; ++b) PetscCall(ElasticityAddBodyForce(elasticity, b, density->value, force));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The load at a time, a new vector; NULL where the scene has none */
+PetscErrorCode DeadLoadsGet(const DeadLoads *loads, PetscReal time, Vec *force)
+{
+  PetscFunctionBegin;
+  *force = NULL;
+  if (!loads->force) PetscFunctionReturn(0);
+  for (PetscInt r = 0; r < loads->scene->nramps; ++r) {
+    PetscReal factor;
+
+    if (!loads->force[r]) continue;
+    if (!*force) {
+      PetscCall(VecDuplicate(loads->force[r], force));
+      PetscCall(VecZeroEntries(*force));
+    }
+    PetscCall(SceneGetFactor(loads->scene, r, time, &factor));
+    PetscCall(VecAXPY(*force, factor, loads->force[r]));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode DeadLoadsDestroy(DeadLoads *loads)
+{
+  PetscFunctionBegin;
+  if (!loads->force) PetscFunctionReturn(0);
+  for (PetscInt r = 0; r < loads->scene->nramps; ++r) PetscCall(VecDestroy(&loads->force[r]));
+  PetscCall(PetscFree(loads->force));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,366 @@
+/* Forces and moments by pair, by face and by body. */
+#include "src/step/stepimpl.h"
+#include <string.h>
+
+/* A force and its moment about the origin [force], [force length] */
+typedef struct {
+  PetscReal force[3], moment[3];
+} ForceSum;
+
+/* Deformed places of the vertices that this rank owns, and the forces at them */
+typedef struct {
+  PetscInt           rstart, n;
+  const PetscScalar *x, *u, *force;
+} ForceField;
+
+static PetscErrorCode ForceFieldGet(Simulation sim, Vec u, Vec force, ForceField *field)
+{
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(force, &field->rstart, NULL));
+  PetscCall(VecGetLocalSize(force, &field->n));
+  PetscCall(VecGetArrayRead(sim->places.x, &field->x));
+  PetscCall(VecGetArrayRead(u, &field->u));
+  PetscCall(VecGetArrayRead(force, &field->force));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ForceFieldRestore(Simulation sim, Vec u, Vec force, ForceField *field)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(force, &field->force));
+  PetscCall(VecRestoreArrayRead(u, &field->u));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &field->x));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the force of one row, shared by so many */
+static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt sharers, ForceSum *sum)
+{
+  const PetscInt  i = row - field->rstart, c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
+  const PetscReal f = PetscRealPart(field->force[i]) / (PetscReal)sharers;
+
+  sum->force[c] += f;
+  sum->moment[d] += PetscRealPart(field->x[v + e] + field->u[v + e]) * f;
+  sum->moment[e] -= PetscRealPart(field->x[v + d] + field->u[v + d]) * f;
+}
+
+/* Component by component of a face; sharers: of each row of this rank, NULL: one */
+static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
+  const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) {
+    IS              is;
+    const PetscInt *rows;
+    PetscInt        n;
+
+    if (!component[c]) continue;
+    PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &rows));
+    for (PetscInt k = 0; k < n; ++k)
+      ForceSumAddRow(field, rows[k], sharers ? sharers[rows[k] - field->rstart] : 1, sum);
+    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ForceSumReduce(MPI_Comm comm, PetscInt n, ForceSum sums[])
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(6 * n), MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal ForceSize(const PetscReal f[3])
+{
+  return PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+}
+
+/* Place of a face among those with prescribed displacements; a new one is appended */
+static PetscInt ForcesFindFace(StepReport *report, const char name[])
+{
+  PetscInt f = 0;
+
+  while (f < report->nfaces && strcmp(report->faces[f].name, name)) ++f;
+  if (f == report->nfaces) report->faces[report->nfaces++].name = name;
+  return f;
+}
+
+/* Lists of pairs, faces and bodies, zero, in place of those that are there */
+PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  PetscCall(ForcesFree(report));
+  PetscCall(PetscCalloc1(scene->npairs, &report->pairs));
+  PetscCall(PetscCalloc1(scene->ndisplacements, &report->faces));
+  PetscCall(PetscCalloc1(scene->nbodies, &report->bodies));
+  report->npairs  = scene->npairs;
+  report->nbodies = scene->nbodies;
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    report->pairs[p].name = scene->pairs[p].name;
+    report->pairs[p].rubs = SceneContactPairRubs(&scene->pairs[p]);
+  }
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) (void)ForcesFindFace(report, scene->displacements[d].face);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b].name = scene->bodies[b].name;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ForcesFree(StepReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(report->pairs));
+  PetscCall(PetscFree(report->faces));
+  PetscCall(PetscFree(report->bodies));
+  report->npairs = report->nfaces = report->nbodies = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows, and of their friction; sides:
+   nonmortar, mortar */
+static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
+  ForceSum sides[2])
+{
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  Vec                    own, force;
+  PetscScalar           *w;
+  ForceField             field;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(weighted, &own));
+  PetscCall(VecCopy(weighted, own));
+  PetscCall(VecGetArray(own, &w));
+  for (PetscInt r = 0; r < sim->linearization->nlocal; ++r) {
+    if (sim->linearization->pair[r] != pair) w[r] = 0.0;
+  }
+  PetscCall(VecRestoreArray(own, &w));
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(MatMultTranspose(sim->linearization->J, own, force));
+  PetscCall(FrictionAddForces(sim->linearization, shear, pair, force));
+  PetscCall(ForceFieldGet(sim, u, force, &field));
+  PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].nonmortar, all, NULL, &sides[0]));
+  PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].mortar, all, NULL, &sides[1]));
+  PetscCall(ForceFieldRestore(sim, u, force, &field));
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(0);
+}
+
+/* weighted: mass x pressure, one a row of sim->linearization; shear: forces of friction, or NULL */
+PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
+{
+  ForceSum *sides;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(PetscCalloc1(2 * report->npairs, &sides));
+  for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(sim, p, u, weighted, shear, &sides[2 * p]));
+  PetscCall(ForceSumReduce(sim->comm, 2 * report->npairs, sides));
+  PetscCall(PetscArrayzero(report->contact_force, 3));
+  for (PetscInt p = 0; p < report->npairs; ++p) {
+    PairReport *pair = &report->pairs[p];
+
+    PetscCall(PetscArraycpy(pair->force, sides[2 * p].force, 3));
+    PetscCall(PetscArraycpy(pair->moment, sides[2 * p].moment, 3));
+    PetscCall(PetscArraycpy(pair->mortar_force, sides[2 * p + 1].force, 3));
+    PetscCall(PetscArraycpy(pair->mortar_moment, sides[2 * p + 1].moment, 3));
+    for (PetscInt c = 0; c < 3; ++c) report->contact_force[c] += pair->force[c];
+  }
+  PetscCall(PetscFree(sides));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* How many faces prescribe each row */
+static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscInt sharers[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &sim->scene->displacements[i];
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      IS              is;
+      const PetscInt *rows;
+      PetscInt        n;
+
+      if (!d->fixed[c]) continue;
+      PetscCall(MeshGetFaceDofs(sim->dm, d->face, c, &is));
+      PetscCall(ISGetLocalSize(is, &n));
+      PetscCall(ISGetIndices(is, &rows));
+      for (PetscInt k = 0; k < n; ++k) ++sharers[rows[k] - rstart];
+      PetscCall(ISRestoreIndices(is, &rows));
+      PetscCall(ISDestroy(&is));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Of a symmetry plane along no axis, or of a rigid body that forces drive: the forces at its nodes, which are there
+   no more then */
+static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
+{
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  ForceField             field;
+
+  PetscFunctionBegin;
+  PetscCall(ForceFieldGet(sim, u, ties, &field));
+  PetscCall(ForceSumAddFace(sim, &field, face, all, NULL, sum));
+  PetscCall(ForceFieldRestore(sim, u, ties, &field));
+  for (PetscInt c = 0; c < 3; ++c) {
+    IS              is;
+    const PetscInt *rows;
+    PetscInt        n;
+
+    PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &rows));
+    for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(ties, rows[k], 0.0, INSERT_VALUES));
+    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCall(VecAssemblyBegin(ties));
+  PetscCall(VecAssemblyEnd(ties));
+  PetscFunctionReturn(0);
+}
+
+/* reaction: its prescribed rows are; ties: on the bodies, rigid: on rigid bodies, NULL: none. What is left of the
+   ties are the joints' */
+PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
+{
+  ForceSum  *sums;
+  ForceField field;
+  PetscInt  *sharers;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(ForceFieldGet(sim, u, reaction, &field));
+  PetscCall(PetscCalloc2(report->nfaces, &sums, field.n, &sharers));
+  PetscCall(ForcesCountSharers(sim, field.rstart, sharers));
+  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &sim->scene->displacements[i];
+
+    PetscCall(ForceSumAddFace(sim, &field, d->face, d->fixed, sharers, &sums[ForcesFindFace(report, d->face)]));
+  }
+  PetscCall(ForceFieldRestore(sim, u, reaction, &field));
+  for (PetscInt i = 0; ties && i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &sim->scene->displacements[i];
+
+    if (d->inclined) PetscCall(ForcesTakeAll(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
+    else if (rigid && d->moves)
+      PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
+  }
+  PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
+  for (PetscInt f = 0; f < report->nfaces; ++f) {
+    PetscCall(PetscArraycpy(report->faces[f].reaction, sums[f].force, 3));
+    PetscCall(PetscArraycpy(report->faces[f].moment, sums[f].moment, 3));
+  }
+  PetscCall(PetscFree2(sums, sharers));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* The body of a face, <body>.<face> */
+static BodyReport *ForcesFindBody(StepReport *report, const char face[])
+{
+  for (PetscInt b = 0; b < report->nbodies; ++b) {
+    const size_t length = strlen(report->bodies[b].name);
+
+    if (!strncmp(face, report->bodies[b].name, length) && face[length] == '.') return &report->bodies[b];
+  }
+  return NULL;
+}
+
+/* Adds to one of the body's sums, and its size to balance, which is divided at the end */
+static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) {
+    sum[c] += force[c];
+    body->residual[c] += force[c];
+  }
+  body->balance += ForceSize(force);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *report)
+{
+  const PetscScalar *a;
+  PetscReal         *sums;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(VecGetLocalSize(load, &n));
+  PetscCall(VecGetArrayRead(load, &a));
+  for (PetscInt i = 0; i < n; ++i) sums[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(load, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(3 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].load, &sums[3 * b]));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
+{
+  PetscReal *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(SpringsMeasure(sim, u, sums, &report->weak_spring_force));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report)
+{
+  PetscReal *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(TiesMeasure(sim, ties, sums));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none. Forces
+   below rounding are in balance */
+PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
+{
+  PetscReal largest = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < report->npairs; ++p) {
+    BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar),
+               *mortar    = ForcesFindBody(report, sim->scene->pairs[p].mortar);
+
+    PetscCall(ForcesAddToBody(nonmortar, nonmortar->contact, report->pairs[p].force));
+    PetscCall(ForcesAddToBody(mortar, mortar->contact, report->pairs[p].mortar_force));
+  }
+  for (PetscInt f = 0; f < report->nfaces; ++f) {
+    BodyReport *body = ForcesFindBody(report, report->faces[f].name);
+
+    PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction));
+  }
+  if (load) PetscCall(ForcesSumLoads(sim, load, report));
+  if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
+  if (ties) PetscCall(ForcesSumTies(sim, ties, report));
+  report->balance = 0.0;
+  for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
+  for (PetscInt b = 0; b < report->nbodies; ++b) {
+    BodyReport *body = &report->bodies[b];
+
+    body->balance   = body->balance > rounding
+                        ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest)
+                        : 0.0;
+    report->balance = PetscMax(report->balance, body->balance);
+  }
+  PetscFunctionReturn(0);
+}

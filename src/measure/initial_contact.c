@@ -1,0 +1,198 @@
+/* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have
+   said. */
+#include "src/step/stepimpl.h"
+#include <math.h>
+
+#define START_ROUNDING \
+  1e-6 /* overlap of faces that touch, relative to the square root of the area that faces the other side */
+
+/* The nonmortar side of a pair, undeformed */
+typedef struct {
+  PetscInt  n;              /* vertices that have the mortar face within reach */
+  PetscReal least, largest; /* gap; negative: overlap [length] */
+  PetscReal area, overlap;  /* of these vertices; of those that overlap [length^2] */
+} PairStart;
+
+static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart starts[])
+{
+  const PetscScalar *g, *m;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(lin->g, &g));
+  PetscCall(VecGetArrayRead(lin->mass, &m));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    PairStart      *start = &starts[lin->pair[i]];
+    const PetscReal gap   = PetscRealPart(g[i]);
+
+    ++start->n;
+    start->least   = PetscMin(start->least, gap);
+    start->largest = PetscMax(start->largest, gap);
+    start->area += PetscRealPart(m[i]);
+    if (gap < 0.0) start->overlap += PetscRealPart(m[i]);
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &m));
+  PetscCall(VecRestoreArrayRead(lin->g, &g));
+  PetscFunctionReturn(0);
+}
+
+/* Overlaps that are rounding are none */
+static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, PetscInt npairs, PairStart starts[])
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < npairs; ++p) starts[p] = (PairStart){.least = PETSC_MAX_REAL, .largest = PETSC_MIN_REAL};
+  PetscCall(StartMeasureArea(lin, starts));
+  for (PetscInt p = 0; p < npairs; ++p) {
+    PetscReal sums[2] = {starts[p].area, starts[p].overlap};
+
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].n, 1, MPIU_INT, MPI_SUM, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].least, 1, MPIU_REAL, MPIU_MIN, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].largest, 1, MPIU_REAL, MPIU_MAX, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
+    starts[p].area    = sums[0];
+    starts[p].overlap = starts[p].least < -START_ROUNDING * PetscSqrtReal(sums[0]) ? sums[1] : 0.0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The scene's word for an overlap, and what it says of this one; NULL: it stands */
+static const char *StartJudge(const SceneContactPair *pair, const PairStart *start)
+{
+  if (start->overlap == 0.0) return pair->interference > 0.0 ? "which the scene says they do" : NULL;
+  if (pair->interference == 0.0)
+    return "which the scene does not say: interference: true, or the largest overlap that is meant";
+  return -start->least > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * pair->interference
+           ? "more than the interference that the scene allows"
+           : NULL;
+}
+
+/* Of nodes that are to stick while both faces are driven there, unlike one another */
+static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
+{
+  const SceneContactPair *pair = &sim->scene->pairs[p];
+  PetscInt                nfrictionless, nnodes;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
+  if (nfrictionless)
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT
+      " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to "
+      "stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction",
+      pair->name, nfrictionless, nnodes, pair->nonmortar));
+  PetscFunctionReturn(0);
+}
+
+/* Of overlaps at the start that the scene has not declared, or otherwise, and of friction that cannot act; lin: at
+   zero displacement */
+PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
+{
+  Scene      scene = sim->scene;
+  PairStart *starts;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->npairs, &starts));
+  PetscCall(StartMeasure(sim->comm, lin, scene->npairs, starts));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *pair   = &scene->pairs[p];
+    const char             *wanted = StartJudge(pair, &starts[p]);
+
+    PetscCall(StartWarnOfFrictionless(sim, p));
+    if (!wanted) continue;
+    if (starts[p].overlap > 0.0)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name,
+        -(double)starts[p].least, (double)starts[p].overlap, wanted));
+    else
+      PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s",
+        pair->name, wanted));
+  }
+  PetscCall(PetscFree(starts));
+  PetscFunctionReturn(0);
+}
+
+/* After the last load step: of pairs that were not closed at the end of any */
+PetscErrorCode StartWarnOfUnmet(Simulation sim)
+{
+  const RunReport *run = &sim->report;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    PetscReal area = 0.0;
+
+    for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
+    if (area == 0.0)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
+        "faces and clearance",
+        sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const PairStart *start, PetscViewer viewer)
+{
+  const char *wanted = StartJudge(pair, start);
+
+  PetscFunctionBegin;
+  if (!start->n) {
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  %s: no vertex of %s has %s within reach; WARNING: unless they come nearer the pair does nothing\n", pair->name,
+      pair->nonmortar, pair->mortar));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  %s: %" PetscInt_FMT " vertices of %s, over an area of %.5g, have %s within reach; gap %.5g to %.5g", pair->name,
+    start->n, pair->nonmortar, (double)start->area, pair->mortar, (double)start->least, (double)start->largest));
+  if (start->overlap > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", overlap over an area of %.5g", (double)start->overlap));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  if (wanted)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    WARNING: they %soverlap, %s\n", start->overlap > 0.0 ? "" : "do not ",
+      wanted));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   StepDescribeContact - Prints how the faces of a scene's contact pairs stand to each other at the start
+
+   Collective on the viewer
+
+   Input Parameters:
++  scene  - the scene
+.  dm     - its mesh, by `MeshCreate()`
+-  viewer - an ASCII viewer
+
+   Level: beginner
+
+   Note:
+   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound
+   before it is solved.
+
+.seealso: `SceneDescribe()`, `ContactCheckDepth()`
+@*/
+PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
+{
+  Contact              contact;
+  ContactLinearization lin;
+  PairStart           *starts;
+  Vec                  zero;
+
+  PetscFunctionBegin;
+  if (!scene->npairs) PetscFunctionReturn(0);
+  PetscCall(ContactCreate(dm, scene->npairs, scene->pairs, &contact));
+  PetscCall(ContactSetFromOptions(contact));
+  PetscCall(ContactSetDisplacements(contact, scene->ndisplacements, scene->displacements));
+  PetscCall(DMCreateGlobalVector(dm, &zero));
+  PetscCall(VecZeroEntries(zero));
+  PetscCall(ContactLinearize(contact, zero, &lin));
+  PetscCall(ContactCheckDepth(contact, lin));
+  PetscCall(PetscMalloc1(scene->npairs, &starts));
+  PetscCall(StartMeasure(PetscObjectComm((PetscObject)dm), lin, scene->npairs, starts));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact at the start\n"));
+  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(StartDescribePair(&scene->pairs[p], &starts[p], viewer));
+  PetscCall(PetscFree(starts));
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscCall(VecDestroy(&zero));
+  PetscCall(ContactDestroy(&contact));
+  PetscFunctionReturn(0);
+}

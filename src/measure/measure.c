@@ -1,0 +1,144 @@
+/* How good a state is, measured on the elements and the contact rows: forces, gaps, equilibrium, errors. */
+#include "src/step/stepimpl.h"
+#include <math.h>
+
+/* q = J_full^T M z: the forces on the two sides cancel */
+static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
+{
+  const PetscScalar *a;
+  PetscReal          sums[4] = {0, 0, 0, 0}; /* the force, and the sum of the vertices' sizes */
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(q, &n));
+  PetscCall(VecGetArrayRead(q, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal f[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
+
+    for (PetscInt c = 0; c < 3; ++c) sums[c] += f[c];
+    sums[3] += PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+  }
+  PetscCall(VecRestoreArrayRead(q, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  report->action_reaction =
+    sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
+{
+  Vec       product;
+  PetscReal largest;
+
+  PetscFunctionBegin;
+  report->gap_min = NAN;
+  PetscCall(VecGetSize(sol->gap, &report->constraints));
+  if (!report->constraints) PetscFunctionReturn(0);
+  PetscCall(VecMin(sol->gap, NULL, &report->gap_min));
+  PetscCall(VecDuplicate(sol->gap, &product));
+  PetscCall(VecPointwiseMult(product, sol->gap, sol->pressure));
+  PetscCall(VecNorm(product, NORM_INFINITY, &largest));
+  report->complementarity = largest;
+  PetscCall(VecDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
+/* In the energy norm, relative to that of the displacement; report->energy is set */
+static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
+{
+  const PetscReal size = PetscSqrtReal(2.0 * report->energy);
+  PetscReal       sum = 0.0, *cells = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(report->body_errors));
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
+  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->marks ? &cells : NULL));
+  if (sim->marks) PetscCall(AdaptAddErrors(sim, cells));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    sum += report->body_errors[b];
+    report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
+  }
+  report->error_estimate = size > 0.0 ? PetscSqrtReal(sum) / size : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/*
+   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
+   and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
+   the energy
+*/
+static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
+  StepReport *report)
+{
+  PetscScalar work, duality = 0.0;
+  PetscReal   press = 0.0;
+  Vec         products;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(u, residual, &work));
+  if (weighted) {
+    PetscCall(VecDuplicate(weighted, &products));
+    PetscCall(VecPointwiseMult(products, weighted, sol->gap));
+    PetscCall(VecAbs(products));
+    PetscCall(VecSum(products, &duality));
+    PetscCall(VecDestroy(&products));
+    PetscCall(VecNorm(weighted, NORM_1, &press));
+  }
+  report->gap_error       = press * report->gap_change;
+  report->algebraic_error = PetscAbsScalar(duality) + PetscAbsScalar(work) + report->gap_error;
+  if (report->energy > 0.0) {
+    report->gap_error /= 2.0 * report->energy;
+    report->algebraic_error /= 2.0 * report->energy;
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the
+   reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
+   error
+*/
+PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
+{
+  Simulation sim = p->sim;
+  Vec        force, ties, rigid, contact = NULL, weighted = NULL;
+  PetscReal  size, residual, rounding;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
+  rounding *= 1e-11 * sim->stiffness; /* what may be left of the forces of a body that moves as a whole */
+  PetscCall(ForcesReserve(sim, report));
+  PetscCall(VecDuplicate(p->base, &force));
+  PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
+  PetscCall(ElasticityForce(sim->elasticity, u, force));
+  PetscCall(VecNorm(force, NORM_2, &size));
+  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
+  if (sol->pressure) {
+    PetscCall(MeasureGap(sol, report));
+    PetscCall(VecDuplicate(sol->pressure, &weighted));
+    PetscCall(VecDuplicate(p->base, &contact));
+    PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
+    PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
+    PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
+    PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
+    PetscCall(FrictionMeasure(sim, sol, report));
+    PetscCall(MeasureActionReaction(sim, contact, report));
+    PetscCall(VecAXPY(force, -1.0, contact));
+    if (!sim->history.shear) PetscCall(VecDestroy(&contact));
+  }
+  PetscCall(TiesGetForces(sim, force, &ties, &rigid));
+  PetscCall(WorkAdd(p, u, force, rigid, &contact, report));
+  PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
+  PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
+  PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, rounding, report));
+  PetscCall(VecDestroy(&ties));
+  PetscCall(VecDestroy(&rigid));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
+  PetscCall(VecNorm(force, NORM_2, &residual));
+  report->equilibrium = size > rounding ? residual / size : 0.0;
+  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, report));
+  PetscCall(VecDestroy(&weighted));
+  PetscCall(VecDestroy(&force));
+  if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
+  PetscFunctionReturn(0);
+}

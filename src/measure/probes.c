@@ -1,0 +1,234 @@
+/* Displacement, stress and contact at the scene's points and along its lines. */
+#include "src/step/stepimpl.h"
+#include <math.h>
+
+/* Contact at the vertices: [pressure, gap, 1 closed]; [1 in a pair, -, -] */
+typedef struct {
+  Vec values, paired;
+} ProbeContact;
+
+PetscErrorCode ProbesCreate(DM dm, Scene scene, Probes *probes)
+{
+  PetscFunctionBegin;
+  if (!scene->nprobes) PetscFunctionReturn(0);
+  PetscCall(MeshLocateProbes(dm, scene, &probes->n, &probes->points, &probes->places));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProbesDestroy(Probes *probes)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(probes->points));
+  PetscCall(PetscFree(probes->places));
+  probes->n = 0;
+  PetscFunctionReturn(0);
+}
+
+/* At a vertex of several pairs: the mean pressure, the smallest gap, closed where any is */
+static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], PetscScalar paired[])
+{
+  PetscSection global;
+  PetscReal   *area;
+  PetscInt     n, rstart;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscCalloc1(n, &area));
+  for (PetscInt k = 0; k < sim->npoints; ++k) {
+    const ContactPoint *point = &sim->points[k];
+    PetscInt            i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    if (area[i] + point->area > 0.0)
+      values[i] = (values[i] * area[i] + point->pressure * point->area) / (area[i] + point->area);
+    area[i] += point->area;
+    if (PetscRealPart(paired[i]) == 0.0 || PetscRealPart(values[i + 1]) > point->gap) values[i + 1] = point->gap;
+    if (point->closed) values[i + 2] = 1.0;
+    paired[i] = 1.0;
+  }
+  PetscCall(PetscFree(area));
+  PetscFunctionReturn(0);
+}
+
+/* Local vectors, for cells to be read from */
+static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
+{
+  Vec          global[2];
+  PetscScalar *a[2];
+
+  PetscFunctionBegin;
+  for (int i = 0; i < 2; ++i) {
+    PetscCall(DMGetGlobalVector(sim->dm, &global[i]));
+    PetscCall(VecZeroEntries(global[i]));
+    PetscCall(VecGetArray(global[i], &a[i]));
+  }
+  PetscCall(ProbeContactFill(sim, a[0], a[1]));
+  for (int i = 0; i < 2; ++i) {
+    Vec *local = i ? &contact->paired : &contact->values;
+
+    PetscCall(VecRestoreArray(global[i], &a[i]));
+    PetscCall(DMGetLocalVector(sim->dm, local));
+    PetscCall(DMGlobalToLocal(sim->dm, global[i], INSERT_VALUES, *local));
+    PetscCall(DMRestoreGlobalVector(sim->dm, &global[i]));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
+{
+  PetscFunctionBegin;
+  PetscCall(DMRestoreLocalVector(sim->dm, &contact->values));
+  PetscCall(DMRestoreLocalVector(sim->dm, &contact->paired));
+  PetscFunctionReturn(0);
+}
+
+/* Sum over the nodes of a cell; n values a node, which stand at n times its number */
+static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[],
+  PetscReal result[])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    result[i] = 0.0;
+    for (PetscInt a = 0; a < place->n; ++a) result[i] += place->N[a] * PetscRealPart(values[n * node[a] + i]);
+  }
+}
+
+/* Fields of contact are those of faces: of a point all of whose nodes are in a pair */
+static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[],
+  ProbeReport *report)
+{
+  const PetscScalar *values, *paired;
+  PetscReal          v[3], on[3];
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(contact->values, &values));
+  PetscCall(VecGetArrayRead(contact->paired, &paired));
+  ProbeInterpolate(place, node, 3, values, v);
+  ProbeInterpolate(place, node, 3, paired, on);
+  PetscCall(VecRestoreArrayRead(contact->paired, &paired));
+  PetscCall(VecRestoreArrayRead(contact->values, &values));
+  if (on[0] < 1.0 - PETSC_SQRT_MACHINE_EPSILON) PetscFunctionReturn(0);
+  report->contact_pressure = v[0];
+  report->contact_gap      = v[1];
+  report->contact_status   = v[2] > 0.5 ? 1.0 : 0.0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const ProbeContact *contact,
+  const MeshPlace *place, ProbeReport *report)
+{
+  PetscSection section;
+  PetscInt     n, points[MESH_MAX_NODES], node[MESH_MAX_NODES];
+  PetscReal    stress[6], values[STRESS_VALUES];
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(MeshGetCellNodes(sim->dm, place->cell, &n, points));
+  for (PetscInt a = 0; a < n; ++a) {
+    PetscCall(PetscSectionGetOffset(section, points[a], &node[a]));
+    node[a] /= 3;
+  }
+  ProbeInterpolate(place, node, 3, u, report->displacement);
+  ProbeInterpolate(place, node, 6, sim->results.recovered, stress);
+  PetscCall(ResultsComplete(stress, values));
+  PetscCall(PetscArraycpy(&report->stress_xx, values, STRESS_VALUES));
+  if (contact) PetscCall(ProbeReadContact(contact, place, node, report));
+  PetscFunctionReturn(0);
+}
+
+/* Where a point is known from the scene; the rank that has it knows the rest */
+static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
+{
+  PetscInt k = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->nprobes; ++p) {
+    const SceneProbe *probe  = &sim->scene->probes[p];
+    PetscReal         length = 0.0;
+
+    for (PetscInt d = 0; d < 3 && probe->line; ++d) length += PetscSqr(probe->to[d] - probe->from[d]);
+    for (PetscInt i = 0; i < probe->n; ++i, ++k) {
+      reports[k]                  = (ProbeReport){.name = probe->name};
+      reports[k].arc              = PetscSqrtReal(length) * (PetscReal)i / (PetscReal)PetscMax(1, probe->n - 1);
+      reports[k].contact_pressure = reports[k].contact_gap = reports[k].contact_status = NAN;
+      PetscCall(PetscArraycpy(reports[k].place, sim->probes.points[k], 3));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* From the rank that has a point to all */
+static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
+{
+  enum {
+    values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal)
+  };
+  PetscReal *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(values * sim->probes.n, &all));
+  for (PetscInt k = 0; k < sim->probes.n; ++k) {
+    if (sim->probes.places[k].cell >= 0) PetscCall(PetscArraycpy(all + values * k, reports[k].displacement, values));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * sim->probes.n), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt k = 0; k < sim->probes.n; ++k)
+    PetscCall(PetscArraycpy(reports[k].displacement, all + values * k, values));
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(0);
+}
+
+/* Points and lines have lists of their own */
+static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepReport *report)
+{
+  PetscInt k = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(report->probes));
+  PetscCall(PetscFree(report->lines));
+  report->nprobes = report->nlines = 0;
+  for (PetscInt p = 0; p < sim->scene->nprobes; ++p)
+    *(sim->scene->probes[p].line ? &report->nlines : &report->nprobes) += sim->scene->probes[p].n;
+  PetscCall(PetscMalloc1(report->nprobes, &report->probes));
+  PetscCall(PetscMalloc1(report->nlines, &report->lines));
+  report->nprobes = report->nlines = 0;
+  for (PetscInt p = 0; p < sim->scene->nprobes; ++p) {
+    for (PetscInt i = 0; i < sim->scene->probes[p].n; ++i, ++k) {
+      if (sim->scene->probes[p].line) report->lines[report->nlines++] = all[k];
+      else report->probes[report->nprobes++] = all[k];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* At the last state, whose stress at the nodes and contact points are known. Collective */
+PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
+{
+  ProbeReport       *reports;
+  ProbeContact       contact;
+  Vec                local;
+  const PetscScalar *u;
+
+  PetscFunctionBegin;
+  if (!sim->probes.n) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
+  PetscCall(PetscMalloc1(sim->probes.n, &reports));
+  PetscCall(ProbesBegin(sim, reports));
+  if (sim->contact) PetscCall(ProbeContactCreate(sim, &contact));
+  PetscCall(DMGetLocalVector(sim->dm, &local));
+  PetscCall(DMGlobalToLocal(sim->dm, sim->path.u, INSERT_VALUES, local));
+  PetscCall(VecGetArrayRead(local, &u));
+  for (PetscInt k = 0; k < sim->probes.n; ++k) {
+    if (sim->probes.places[k].cell >= 0)
+      PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->probes.places[k], &reports[k]));
+  }
+  PetscCall(VecRestoreArrayRead(local, &u));
+  PetscCall(DMRestoreLocalVector(sim->dm, &local));
+  if (sim->contact) PetscCall(ProbeContactDestroy(sim, &contact));
+  PetscCall(ProbesShare(sim, reports));
+  PetscCall(ProbesSort(sim, reports, report));
+  PetscCall(PetscFree(reports));
+  PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}

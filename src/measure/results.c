@@ -1,0 +1,79 @@
+/* Fields that a scene's probes or its files call for: stress at the nodes and at the quadrature points, strain
+   energy. */
+#include "src/step/stepimpl.h"
+
+static PetscReal ResultsVonMises(const PetscReal s[6])
+{
+  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) +
+                       3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+/* Stress, von Mises stress and principal values */
+PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(values, stress, 6));
+  values[6] = ResultsVonMises(stress);
+  PetscCall(ElasticityPrincipal(stress, values + 7));
+  PetscFunctionReturn(0);
+}
+
+/* Those of the nodes that this rank owns, in the order of the global vectors */
+static PetscErrorCode ResultsPickOwned(Simulation sim)
+{
+  Results     *results = &sim->results;
+  PetscSection local, global;
+  PetscInt     pstart, pend, rstart, n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3), &results->nodal));
+  PetscCall(DMGetLocalSection(sim->dm, &local));
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(PetscSectionGetChart(local, &pstart, &pend));
+  for (PetscInt v = pstart; v < pend; ++v) {
+    PetscInt from, to, ndofs;
+
+    PetscCall(PetscSectionGetDof(local, v, &ndofs));
+    PetscCall(PetscSectionGetOffset(global, v, &to));
+    if (!ndofs || to < 0) continue;
+    PetscCall(PetscSectionGetOffset(local, v, &from));
+    PetscCall(
+      ResultsComplete(results->recovered + 6 * (from / 3), results->nodal + STRESS_VALUES * ((to - rstart) / 3)));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* At the last state. What nobody asked for is neither computed nor kept */
+PetscErrorCode ResultsMeasure(Simulation sim)
+{
+  Results *results = &sim->results;
+
+  PetscFunctionBegin;
+  PetscCall(ResultsFree(results));
+  if (!results->nodes && !results->points && !sim->probes.n) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
+  if (results->nodes || sim->probes.n)
+    PetscCall(ElasticityNodalStress(sim->elasticity, sim->path.u, &results->recovered));
+  if (results->nodes) {
+    PetscCall(ResultsPickOwned(sim));
+    PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path.u, &results->density));
+  }
+  if (results->points)
+    PetscCall(
+      ElasticityPointStress(sim->elasticity, sim->path.u, &results->npoints, &results->places, &results->point_stress));
+  PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ResultsFree(Results *results)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(results->recovered));
+  PetscCall(PetscFree(results->nodal));
+  PetscCall(PetscFree(results->density));
+  PetscCall(PetscFree(results->places));
+  PetscCall(PetscFree(results->point_stress));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,465 @@
+/*
+   Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
+   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
+   facets, with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
+   for it.
+*/
+#include "meshimpl.h"
+
+typedef struct {
+  DM       dm;
+  PetscInt nbodies, n; /* n: 6 modes a body */
+  PetscReal (*center)[3], *size;
+  PetscReal *gram, *row; /* n x n sum of the rows' outer products, on this rank's facets; one row */
+} Support;
+
+/* Middle and half the largest side of every body's bounding box */
+static PetscErrorCode SupportMeasureBodies(Support *support)
+{
+  MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
+  PetscInt   cstart, cend;
+  PetscReal *bounds; /* smallest of x, y, z, -x, -y, -z */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(support->n, &bounds));
+  for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
+  PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  b, n, vertices[8];
+    PetscReal x[8][3];
+
+    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
+    PetscCall(MeshGetCellCorners(support->dm, c, &n, vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, n, vertices, x));
+    for (PetscInt i = 0; i < 3 * n; ++i) {
+      bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
+      bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)support->n, MPIU_REAL, MPIU_MIN, comm));
+  for (PetscInt b = 0; b < support->nbodies; ++b) {
+    support->size[b] = 0;
+    for (PetscInt d = 0; d < 3; ++d) {
+      support->center[b][d] = (bounds[6 * b + d] - bounds[6 * b + 3 + d]) / 2;
+      support->size[b]      = PetscMax(support->size[b], -(bounds[6 * b + d] + bounds[6 * b + 3 + d]) / 2);
+    }
+  }
+  PetscCall(PetscFree(bounds));
+  PetscFunctionReturn(0);
+}
+
+/* Adds to the row the component along a direction of the body's rigid motion t + r x (x - center)/size at the point x
+ */
+static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign)
+{
+  PetscReal arm[3], *row = support->row + 6 * b;
+
+  for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+    row[d] += sign * direction[d];
+    row[3 + d] += sign * (arm[s] * direction[t] - arm[t] * direction[s]);
+  }
+}
+
+/* Takes the row into account with a weight, and clears it */
+static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < support->n; ++i) {
+    for (PetscInt j = 0; support->row[i] != 0 && j < support->n; ++j)
+      support->gram[i * support->n + j] += weight * support->row[i] * support->row[j];
+  }
+  PetscCall(PetscArrayzero(support->row, support->n));
+  PetscFunctionReturn(0);
+}
+
+/* Body of a face from its facets, and their number over all ranks; every face weighs the same */
+static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *facets, PetscInt *body, PetscInt *total)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)support->dm);
+  const PetscInt *f, *cells;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(support->dm, face, facets));
+  PetscCall(ISGetLocalSize(*facets, &n));
+  PetscCall(ISGetIndices(*facets, &f));
+  *body = PETSC_DECIDE;
+  if (n) {
+    PetscCall(DMPlexGetSupport(support->dm, f[0], &cells));
+    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, cells[0], body));
+  }
+  PetscCall(ISRestoreIndices(*facets, &f));
+  PetscCallMPI(MPI_Allreduce(&n, total, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, 1, MPIU_INT, MPI_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
+/* At the vertices of a point or an edge */
+static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *spot)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     vertices;
+  const PetscInt        *v;
+  PetscInt               n, total;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceVertices(support->dm, spot->face, &vertices));
+  PetscCall(ISGetLocalSize(vertices, &n));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
+  PetscCall(ISGetIndices(vertices, &v));
+  for (PetscInt k = 0; k < 3 * n; ++k) {
+    PetscReal x[1][3];
+
+    if (!spot->fixed[k % 3]) continue;
+    PetscCall(MeshGetVertexCoordinates(support->dm, 1, &v[k / 3], x));
+    SupportAddMotion(support, spot->body, axes[k % 3], x[0], 1);
+    PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+  }
+  PetscCall(ISRestoreIndices(vertices, &v));
+  PetscCall(ISDestroy(&vertices));
+  PetscFunctionReturn(0);
+}
+
+/* The motions of a rigid body that are not free, where others are; on the first rank */
+static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
+  PetscBool *released)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PetscMPIInt            rank;
+
+  PetscFunctionBegin;
+  *released = PETSC_FALSE;
+  for (PetscInt m = 0; m < 6; ++m) *released = (PetscBool)(*released || displacement->released[m]);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
+    if (displacement->released[m]) continue;
+    if (m < 3) SupportAddMotion(support, b, axes[m], displacement->center, 1);
+    else support->row[6 * b + m] = 1;
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     facets;
+  const PetscInt        *f;
+  PetscInt               n, b, total;
+  PetscReal              normal[3], length = 0;
+  PetscBool              released;
+
+  PetscFunctionBegin;
+  if (displacement->at != DISPLACEMENT_FACE) {
+    PetscCall(SupportAddPoint(support, displacement));
+    PetscFunctionReturn(0);
+  }
+  for (PetscInt d = 0; d < 3; ++d) length += PetscSqr(displacement->normal[d]);
+  for (PetscInt d = 0; d < 3; ++d)
+    normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
+  PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
+  PetscCall(SupportAddRigid(support, displacement, b, &released));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; !released && i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    for (PetscInt k = 0; k < 12; ++k) {
+      if (!displacement->fixed[k % 3] && (!displacement->inclined || k % 3)) continue;
+      SupportAddMotion(support, b, displacement->inclined ? normal : axes[k % 3], x[k / 3], 1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *pair)
+{
+  IS              facets;
+  const PetscInt *f;
+  PetscInt        n, mortar, nonmortar, total;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], normal[3], length = 0;
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    for (PetscInt d = 0; d < 3; ++d) {
+      const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+      normal[d] = (x[2][s] - x[0][s]) * (x[3][t] - x[1][t]) - (x[2][t] - x[0][t]) * (x[3][s] - x[1][s]);
+      length += PetscSqr(normal[d]);
+    }
+    for (PetscInt d = 0; d < 3; ++d) normal[d] /= PetscSqrtReal(length);
+    for (PetscInt a = 0; a < 4; ++a) {
+      SupportAddMotion(support, nonmortar, normal, x[a], 1);
+      SupportAddMotion(support, mortar, normal, x[a], -1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* The relative motion along these axes, at the vertices of the nonmortar face: all of a tie, and of a contact pair
+   with friction */
+static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
+  const PetscBool along[3])
+{
+  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  IS                     facets;
+  const PetscInt        *f;
+  PetscInt               n, mortar, nonmortar, total;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, mortar_face, &facets, &mortar, &total));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(SupportGetFace(support, nonmortar_face, &facets, &nonmortar, &total));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    for (PetscInt k = 0; k < 12; ++k) {
+      if (!along[k % 3]) continue;
+      SupportAddMotion(support, nonmortar, axes[k % 3], x[k / 3], 1);
+      SupportAddMotion(support, mortar, axes[k % 3], x[k / 3], -1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* Takes the component along a unit vector out of a row */
+static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
+{
+  PetscReal dot = 0;
+
+  for (PetscInt i = 0; i < n; ++i) dot += unit[i] * row[i];
+  for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
+}
+
+/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram
+   matrix. Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
+static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
+{
+  const PetscInt n    = support->n;
+  PetscReal     *gram = support->gram, first = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)support->dm)));
+  for (PetscInt k = 0; k < n; ++k) outside[k] = 1;
+  for (PetscInt rank = 0; rank < n; ++rank) {
+    PetscReal *pivot = gram + rank * n, largest = 0;
+
+    for (PetscInt r = rank; r < n; ++r) {
+      PetscReal norm = 0;
+
+      /* Twice, for orthogonality to rounding */
+      for (PetscInt q = 0; q < 2 * rank; ++q) SupportOrthogonalize(n, gram + (q % rank) * n, gram + r * n);
+      for (PetscInt i = 0; i < n; ++i) norm += PetscSqr(gram[r * n + i]);
+      if (norm > largest) {
+        for (PetscInt i = 0; r != rank && i < n; ++i) {
+          const PetscReal swap = pivot[i];
+
+          pivot[i]        = gram[r * n + i];
+          gram[r * n + i] = swap;
+        }
+        largest = norm;
+      }
+    }
+    if (!rank) first = PetscSqrtReal(largest);
+    if (PetscSqrtReal(largest) <= 1e-9 * first) break;
+    for (PetscInt i = 0; i < n; ++i) {
+      pivot[i] /= PetscSqrtReal(largest);
+      outside[i] -= PetscSqr(pivot[i]);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a
+   translation; none: PETSC_DECIDE */
+static PetscInt SupportFindFreest(const PetscReal outside[6])
+{
+  PetscReal freest = 0;
+  PetscInt  mode   = PETSC_DECIDE;
+
+  for (PetscInt k = 0; k < 6; ++k) {
+    const PetscReal rank = outside[k] > 1 - 1e-6 ? 2 : outside[k] + (k < 3 ? 0 : 1);
+
+    if (outside[k] <= 2e-6 || rank <= freest + 1e-6) continue;
+    freest = rank;
+    mode   = k;
+  }
+  return mode;
+}
+
+static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
+{
+  static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z",
+    "a rotation about x", "a rotation about y", "a rotation about z"};
+  MPI_Comm                 comm    = PetscObjectComm((PetscObject)support->dm);
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const PetscInt mode  = SupportFindFreest(outside + 6 * b);
+    PetscInt       nfree = 0;
+
+    for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
+    PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT,
+      "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name,
+      scene->bodies[b].name);
+    PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name,
+      scene->bodies[b].name, modes[mode]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A surface of a Gmsh file need not bound the body whose face it is said to be */
+static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
+{
+  IS       facets;
+  PetscInt n, total;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISDestroy(&facets));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+  PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
+    "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
+  PetscFunctionReturn(0);
+}
+
+/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to
+   false before */
+static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
+{
+  static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  Support                support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
+  PetscReal             *outside;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n,
+    &support.gram, support.n, &support.row, support.n, &outside));
+  PetscCall(SupportMeasureBodies(&support));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    const SceneSpring *spring = &scene->springs[s];
+
+    if (spring->to)
+      PetscCall(SupportAddJoint(&support, spring->to, spring->face,
+        (PetscBool[3]){spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}));
+    else
+      PetscCall(SupportAddDisplacement(&support,
+        &(SceneDisplacement){.face = spring->face,
+          .fixed                   = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}}));
+  }
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *pair = &scene->pairs[p];
+
+    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
+    else PetscCall(SupportAddPair(&support, pair));
+  }
+  for (PetscInt t = 0; t < scene->nties; ++t)
+    PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+  PetscCall(SupportGetFree(&support, outside));
+  for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
+  if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
+  PetscCall(PetscFree5(support.center, support.size, support.gram, support.row, outside));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetUnheld - Finds the bodies that move freely: weak springs may hold them
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, by `MeshCreate()`
+- scene - the scene
+
+  Output Parameter:
+. unheld - of each body whether any of its rigid motions is free
+
+  Level: intermediate
+
+.seealso: `MeshCheckScene()`
+@*/
+PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(unheld, scene->nbodies));
+  PetscCall(SupportFindUnheld(dm, scene, unheld));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is held
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, by `MeshCreate()`
+- scene - the scene
+
+  Level: intermediate
+
+  Notes:
+  A body is held if none of its rigid motions is free. Contact pairs count as if they were closed.
+
+.seealso: `MeshCreate()`, `SceneLoad()`
+@*/
+PetscErrorCode MeshCheckScene(DM dm, Scene scene)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshLabelPoints(dm, scene));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    if (scene->displacements[d].at == DISPLACEMENT_FACE)
+      PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+  }
+  for (PetscInt p = 0; p < scene->npressures; ++p)
+    PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t)
+    PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
+    if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].to));
+  }
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
+    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
+  }
+  for (PetscInt t = 0; t < scene->nties; ++t) {
+    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
+    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
+  }
+  PetscCall(SupportFindUnheld(dm, scene, NULL));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,317 @@
+/*
+   Quadratic cells for a grid that has straight ones alone: edges of its surface become arcs between the normals at
+   their ends, as contact has them between its facets, and what lies inside stays straight. Edges where facets make a
+   larger angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
+*/
+#include "src/mesh/meshimpl.h"
+#include <stdlib.h>
+
+#define ARC_FEATURE 35.0 /* degrees; contact's default */
+#define ARC_FLAT    1e-6 /* of an edge: less is rounding in the file */
+
+/* Facets that bound the grid, their vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet
+   f, and the edge from there to the next */
+typedef struct {
+  PetscInt         ncorners, *vertex;
+  PetscInt        *twin; /* the same edge, seen from the other facet; negative: sharp, or there is not one other */
+  const PetscReal *x;    /* 3 a vertex */
+} ArcSurface;
+
+/* Something found by up to four vertices, ascending */
+typedef struct {
+  PetscInt key[4], at;
+} ArcKey;
+
+static int ArcCompareKeys(const void *a, const void *b)
+{
+  const PetscInt *x = ((const ArcKey *)a)->key, *y = ((const ArcKey *)b)->key;
+
+  for (int i = 0; i < 4; ++i) {
+    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+static PetscInt ArcAfter(PetscInt corner)
+{
+  return corner % 4 == 3 ? corner - 3 : corner + 1;
+}
+
+static PetscInt ArcBefore(PetscInt corner)
+{
+  return corner % 4 ? corner - 1 : corner + 3;
+}
+
+static PetscReal ArcDot(const PetscReal a[3], const PetscReal b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void ArcCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+}
+
+/* Zero stays zero */
+static void ArcScale(PetscReal n[3])
+{
+  const PetscReal length = PetscSqrtReal(ArcDot(n, n));
+
+  for (PetscInt d = 0; d < 3; ++d) n[d] = length > 0 ? n[d] / length : 0;
+}
+
+static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) e[d] = s->x[3 * s->vertex[to] + d] - s->x[3 * s->vertex[from] + d];
+}
+
+/* The sides of the cells that no other cell has */
+static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
+{
+  static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
+    {4, 5, 7, 6}};
+  const PetscInt        n          = 6 * grid->ncells;
+  ArcKey               *keys;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &keys));
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt a = 0; a < 4; ++a) keys[i].key[a] = grid->cells[8 * (i / 6) + side[i % 6][a]];
+    PetscCall(PetscSortInt(4, keys[i].key));
+    keys[i].at = i;
+  }
+  qsort(keys, (size_t)n, sizeof(*keys), ArcCompareKeys);
+  PetscCall(PetscMalloc2(4 * n, &s->vertex, 4 * n, &s->twin));
+  s->ncorners = 0;
+  s->x        = grid->coordinates;
+  for (PetscInt i = 0; i < n; ++i) {
+    if ((i && !ArcCompareKeys(&keys[i], &keys[i - 1])) || (i + 1 < n && !ArcCompareKeys(&keys[i], &keys[i + 1])))
+      continue;
+    for (PetscInt a = 0; a < 4; ++a)
+      s->vertex[s->ncorners++] = grid->cells[8 * (keys[i].at / 6) + side[keys[i].at % 6][a]];
+  }
+  PetscCall(PetscFree(keys));
+  PetscFunctionReturn(0);
+}
+
+/* Along the diagonals: of a facet that need not be plane */
+static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
+{
+  const PetscInt first = corner - corner % 4;
+  PetscReal      d1[3], d2[3];
+
+  ArcEdge(s, first, first + 2, d1);
+  ArcEdge(s, first + 1, first + 3, d2);
+  ArcCross(d1, d2, n);
+  ArcScale(n);
+}
+
+/* edges: all corners by the ends of their edges, sorted */
+static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
+{
+  const PetscReal cosine = PetscCosReal(ARC_FEATURE * PETSC_PI / 180);
+
+  for (PetscInt i = 0; i < s->ncorners; ++i) s->twin[i] = PETSC_DECIDE;
+  for (PetscInt i = 0, end; i < s->ncorners; i = end) {
+    PetscReal n[3], m[3];
+
+    for (end = i + 1; end < s->ncorners && !ArcCompareKeys(&edges[i], &edges[end]);) ++end;
+    if (end - i != 2) continue;
+    ArcFacetNormal(s, edges[i].at, n);
+    ArcFacetNormal(s, edges[i + 1].at, m);
+    if (ArcDot(n, m) < cosine) continue;
+    s->twin[edges[i].at]     = edges[i + 1].at;
+    s->twin[edges[i + 1].at] = edges[i].at;
+  }
+}
+
+/* First corner about a corner's vertex, clockwise, and the last, as far as no edge is sharp; true where all around is
+   smooth */
+static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last)
+{
+  *first = *last = corner;
+  while (s->twin[ArcBefore(*last)] >= 0) {
+    *last = s->twin[ArcBefore(*last)];
+    if (*last == corner) {
+      *last = ArcAfter(s->twin[corner]);
+      return PETSC_TRUE;
+    }
+  }
+  while (s->twin[*first] >= 0) *first = ArcAfter(s->twin[*first]);
+  return PETSC_FALSE;
+}
+
+/* Sum of (e x f) / (e.e f.f) over the corners of a fan, e and f the edges that meet there: exact on spheres and
+   cylinders (N. Max, J. Graphics Tools 4 (1999)) */
+static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last, PetscReal n[3])
+{
+  const PetscBool closed = ArcFan(s, corner, first, last);
+
+  n[0] = n[1] = n[2] = 0;
+  for (PetscInt c = *first;; c = s->twin[ArcBefore(c)]) {
+    PetscReal e[3], f[3], product[3], weight;
+
+    ArcEdge(s, c, ArcAfter(c), e);
+    ArcEdge(s, c, ArcBefore(c), f);
+    ArcCross(e, f, product);
+    weight = ArcDot(e, e) * ArcDot(f, f);
+    for (PetscInt d = 0; weight > 0 && d < 3; ++d) n[d] += product[d] / weight;
+    if (c == *last) break;
+  }
+  ArcScale(n);
+  return closed;
+}
+
+/* How much of an edge's direction n lacks to be the mirror image of the normal at the other end, as at the ends of an
+   arc */
+static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
+{
+  PetscReal m[3];
+  PetscInt  first, last;
+
+  (void)ArcFanNormal(s, other, &first, &last, m);
+  return -ArcDot(n, e) - ArcDot(m, e);
+}
+
+/* The one facet at a corner of the surface: along both its edges the surface is an arc */
+static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
+{
+  PetscReal e[2][3], lack[2], a, b, c, det;
+
+  ArcEdge(s, corner, ArcAfter(corner), e[0]);
+  ArcEdge(s, corner, ArcBefore(corner), e[1]);
+  lack[0] = ArcLack(s, ArcAfter(corner), n, e[0]);
+  lack[1] = ArcLack(s, ArcBefore(corner), n, e[1]);
+  a       = ArcDot(e[0], e[0]);
+  b       = ArcDot(e[1], e[1]);
+  c       = ArcDot(e[0], e[1]);
+  det     = a * b - c * c;
+  if (!(det > 1e-4 * a * b)) return;
+  for (PetscInt d = 0; d < 3; ++d)
+    n[d] += ((b * lack[0] - c * lack[1]) * e[0][d] + (a * lack[1] - c * lack[0]) * e[1][d]) / det;
+}
+
+/* Where the surface ends: the mean is right along its border; across it the surface is an arc along the edges that
+   lead inward, by least squares */
+static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, PetscReal n[3])
+{
+  PetscReal e[3], f[3], along[3], across[3], sum = 0, squares = 0;
+
+  ArcEdge(s, first, ArcAfter(first), e);
+  ArcEdge(s, last, ArcBefore(last), f);
+  for (PetscInt d = 0; d < 3; ++d) along[d] = e[d] - f[d];
+  ArcCross(n, along, across);
+  ArcScale(across);
+  for (PetscInt c = first; c != last; c = s->twin[ArcBefore(c)]) {
+    ArcEdge(s, c, ArcBefore(c), f);
+    sum += ArcLack(s, ArcBefore(c), n, f) * ArcDot(across, f);
+    squares += PetscSqr(ArcDot(across, f));
+  }
+  for (PetscInt d = 0; squares > 0 && d < 3; ++d) n[d] += sum / squares * across[d];
+}
+
+static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
+{
+  PetscInt        first, last;
+  const PetscBool closed = ArcFanNormal(s, corner, &first, &last, n);
+
+  if (closed) return;
+  if (first == last) ArcMendCorner(s, corner, n);
+  else ArcMendBorder(s, first, last, n);
+  ArcScale(n);
+}
+
+/* How far the middle of an edge stands off along the mean N of the normals at its ends: the middle of the arc; 0
+   where rounding explains it */
+static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
+{
+  PetscReal n[2][3], e[3], slope[2], height;
+
+  ArcNormal(s, corner, n[0]);
+  ArcNormal(s, ArcAfter(corner), n[1]);
+  ArcEdge(s, corner, ArcAfter(corner), e);
+  for (PetscInt d = 0; d < 3; ++d) N[d] = n[0][d] + n[1][d];
+  if (!(ArcDot(N, N) > 1)) return 0;
+  ArcScale(N);
+  for (PetscInt i = 0; i < 2; ++i) slope[i] = -2 * ArcDot(e, n[i]) / (1 + ArcDot(N, n[i]));
+  height = (slope[0] - slope[1]) / 8;
+  return PetscAbsReal(height) > ARC_FLAT * PetscSqrtReal(ArcDot(e, e)) ? height : 0;
+}
+
+/* The shortest way off the middle of an edge that has both heights */
+static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const PetscReal n2[3], PetscReal off[3])
+{
+  const PetscReal c = ArcDot(n1, n2), det = 1 - c * c;
+
+  for (PetscInt d = 0; d < 3; ++d)
+    off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;
+}
+
+/* off: 3 an edge of the surface, in the order of `edges`, at the first of those that are the same. Is any bent? */
+static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscReal off[])
+{
+  PetscBool bent = PETSC_FALSE;
+
+  for (PetscInt i = 0, end; i < s->ncorners; i = end) {
+    PetscReal h[2], n[2][3];
+
+    for (end = i + 1; end < s->ncorners && !ArcCompareKeys(&edges[i], &edges[end]);) ++end;
+    off[3 * i] = off[3 * i + 1] = off[3 * i + 2] = 0;
+    if (end - i != 2) continue;
+    for (PetscInt k = 0; k < 2; ++k) h[k] = ArcHeight(s, edges[i + k].at, n[k]);
+    ArcMeet(h[0], n[0], h[1], n[1], &off[3 * i]);
+    if (h[0] != 0 || h[1] != 0) bent = PETSC_TRUE;
+  }
+  return bent;
+}
+
+static ArcKey ArcEdgeKey(PetscInt a, PetscInt b, PetscInt at)
+{
+  const ArcKey key = {{PetscMin(a, b), PetscMax(a, b), 0, 0}, at};
+
+  return key;
+}
+
+/* The cells with their edges on the surface bent */
+static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[],
+  PetscReal curve[])
+{
+  for (PetscInt c = 0; c < grid->ncells; ++c) {
+    PetscReal x[20][3];
+
+    for (PetscInt a = 0; a < 20; ++a) {
+      const PetscInt *ends = GmshHexahedronEnds[a], from = grid->cells[8 * c + ends[0]],
+                     to  = grid->cells[8 * c + ends[1]];
+      const ArcKey  key  = ArcEdgeKey(from, to, 0);
+      const ArcKey *edge = (const ArcKey *)bsearch(&key, edges, (size_t)nedges, sizeof(key), ArcCompareKeys);
+
+      while (edge && edge > edges && !ArcCompareKeys(edge - 1, edge)) --edge;
+      for (PetscInt d = 0; d < 3; ++d)
+        x[a][d] = (grid->coordinates[3 * from + d] + grid->coordinates[3 * to + d]) / 2 +
+                  (edge ? off[3 * (edge - edges) + d] : 0);
+    }
+    (void)GmshGetCurve(20, (const PetscReal(*)[3])x, curve + 81 * c);
+  }
+}
+
+/* Fills in the grid's curve, unless all its edges are straight */
+PetscErrorCode ShapeGridBend(ShapeGrid *grid)
+{
+  ArcSurface s;
+  ArcKey    *edges;
+  PetscReal *off;
+
+  PetscFunctionBegin;
+  PetscCall(ArcFindSurface(grid, &s));
+  PetscCall(PetscMalloc2(s.ncorners, &edges, 3 * s.ncorners, &off));
+  for (PetscInt i = 0; i < s.ncorners; ++i) edges[i] = ArcEdgeKey(s.vertex[i], s.vertex[ArcAfter(i)], i);
+  qsort(edges, (size_t)s.ncorners, sizeof(*edges), ArcCompareKeys);
+  ArcFindTwins(edges, &s);
+  if (ArcBendEdges(&s, edges, off)) {
+    PetscCall(PetscMalloc1(81 * grid->ncells, &grid->curve));
+    ArcFillCurve(grid, s.ncorners, edges, off, grid->curve);
+  }
+  PetscCall(PetscFree2(edges, off));
+  PetscCall(PetscFree2(s.vertex, s.twin));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,134 @@
+/* Physical names of a Gmsh file, read on rank 0 */
+#include "src/mesh/meshimpl.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* Is the first section, past comments, that of a Gmsh file? */
+static PetscBool GmshIsGmsh(FILE *stream)
+{
+  char      line[PETSC_MAX_PATH_LEN];
+  PetscBool comments = PETSC_FALSE;
+
+  while (fgets(line, sizeof(line), stream)) {
+    const char *word = line + strspn(line, " \t\r\n");
+
+    if (!comments && !strncmp(word, "$MeshFormat", 11)) return PETSC_TRUE;
+    if (!strncmp(word, "$Comments", 9)) comments = PETSC_TRUE;
+    else if (*word && !comments) return PETSC_FALSE;
+    if (!strncmp(word, "$EndComments", 12)) comments = PETSC_FALSE;
+  }
+  return PETSC_FALSE;
+}
+
+/* The entries of one dimension in the section $PhysicalNames, each as tag, blank, name, new line */
+static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
+{
+  char      line[PETSC_MAX_PATH_LEN], entry[PETSC_MAX_PATH_LEN];
+  PetscBool within = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *length = 1;
+  PetscCall(PetscCalloc1(*length, entries));
+  while (fgets(line, sizeof(line), stream) && strncmp(line, "$Nodes", 6) && strncmp(line, "$Entities", 9) &&
+         strncmp(line, "$EndPhysicalNames", 17)) {
+    char  *begin = strchr(line, '"'), *end = strrchr(line, '"');
+    int    here, tag;
+    size_t n;
+
+    if (!strncmp(line, "$PhysicalNames", 14)) within = PETSC_TRUE;
+    if (!within || end == begin || sscanf(line, "%d %d", &here, &tag) != 2 || here != dim) continue;
+    PetscCall(PetscSNPrintf(entry, sizeof(entry), "%d %.*s\n", tag, (int)(end - begin - 1), begin + 1));
+    n = strlen(entry);
+    PetscCall(PetscRealloc(*length + n, entries));
+    PetscCall(PetscArraycpy(*entries + *length - 1, entry, n + 1));
+    *length += n;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* On rank 0 */
+static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim, size_t *length, char **entries)
+{
+  FILE     *stream;
+  PetscBool exists, gmsh;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
+  stream = exists ? fopen(body->gmsh.file, "r") : NULL;
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "there is no readable mesh file \"%s\"", body->gmsh.file);
+  gmsh = GmshIsGmsh(stream);
+  if (gmsh) PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
+  (void)fclose(stream);
+  PetscCheck(gmsh, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s is not a Gmsh mesh (no $MeshFormat)", body->gmsh.file);
+  PetscFunctionReturn(0);
+}
+
+/* The entries of one dimension on all ranks, whoever the file belongs to */
+static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
+{
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
+  PetscInt64     length;
+  size_t         size = 0;
+
+  PetscFunctionBegin;
+  *entries = NULL;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no mesh file", body->name);
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = GmshReadPhysicalNames(body, dim, &size, entries);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
+  length = (PetscInt64)size;
+  PetscCallMPI(MPI_Bcast(&length, 1, MPIU_INT64, 0, comm));
+  if (rank) PetscCall(PetscMalloc1(length, entries));
+  PetscCallMPI(MPI_Bcast(*entries, (PetscMPIInt)length, MPI_CHAR, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscInt dim, PetscInt *n, char ***names,
+  PetscInt **tags)
+{
+  char *entries, **words;
+  int   nwords;
+
+  PetscFunctionBegin;
+  PetscCall(GmshGetPhysicalEntries(comm, body, dim, &entries));
+  PetscCall(PetscStrToArray(entries, '\n', &nwords, &words));
+  *n = nwords;
+  PetscCall(PetscMalloc1(*n, names));
+  if (tags) PetscCall(PetscMalloc1(*n, tags));
+  for (PetscInt i = 0; i < *n; ++i) {
+    char      *end;
+    const long tag = strtol(words[i], &end, 10);
+
+    if (tags) (*tags)[i] = (PetscInt)tag;
+    PetscCall(PetscStrallocpy(end + 1, &(*names)[i]));
+  }
+  PetscCall(PetscStrToArrayDestroy(nwords, words));
+  PetscCall(PetscFree(entries));
+  PetscFunctionReturn(0);
+}
+
+/* The tag of the body's volume */
+PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *tag)
+{
+  char      choices[512], **volumes;
+  PetscInt  n, *tags;
+  PetscBool known = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no volume of its mesh file", body->name);
+  PetscCall(GmshGetPhysicalNames(comm, body, 3, &n, &volumes, &tags));
+  PetscCall(NamesJoin(n, volumes, sizeof(choices), choices));
+  for (PetscInt v = 0; v < n && !known; ++v) {
+    PetscCall(PetscStrcmp(volumes[v], body->gmsh.volume, &known));
+    if (known) *tag = tags[v];
+  }
+  PetscCall(NamesDestroy(&n, &volumes));
+  PetscCall(PetscFree(tags));
+  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name,
+    body->gmsh.file, body->gmsh.volume, choices);
+  PetscFunctionReturn(0);
+}

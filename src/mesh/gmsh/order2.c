@@ -1,0 +1,100 @@
+/* Hexahedra of Gmsh with 8, 20 or 27 nodes as the 27 places of a quadratic cell; tetrahedra with 4 or 10 as its 10 */
+#include "src/mesh/meshimpl.h"
+
+/* Where each of Gmsh's nodes stands: i + 3 j + 9 k. The corners, the middles of the edges, of the facets, the middle */
+static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25,
+  4, 10, 12, 14, 16, 22, 13};
+
+/* The corners, i + 2 j + 4 k, that each of its first 20 nodes is between */
+const PetscInt GmshHexahedronEnds[20][2] = {{0, 0}, {1, 1}, {3, 3}, {2, 2}, {4, 4}, {5, 5}, {7, 7}, {6, 6}, {0, 1},
+  {0, 2}, {0, 4}, {1, 3}, {1, 5}, {3, 2}, {3, 7}, {2, 6}, {4, 5}, {4, 6}, {5, 7}, {7, 6}};
+
+/* Whether coordinate d of a place is in the middle of the cell */
+static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
+{
+  static const PetscInt step[3] = {1, 3, 9};
+
+  return place / step[d] % 3 == 1 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Sum over the places that are at an end in `ends` of the directions in which this one is in the middle, and like it
+   in the others */
+static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
+{
+  sum[0] = sum[1] = sum[2] = 0;
+  for (PetscInt other = 0; other < 27; ++other) {
+    PetscInt  n    = 0;
+    PetscBool same = PETSC_TRUE;
+
+    for (PetscInt d = 0, step = 1; d < 3; ++d, step *= 3) {
+      if (!OrderIsMiddle(place, d)) same = (PetscBool)(same && other / step % 3 == place / step % 3);
+      else if (!OrderIsMiddle(other, d)) ++n;
+    }
+    if (!same || n != ends) continue;
+    for (PetscInt d = 0; d < 3; ++d) sum[d] += curve[3 * other + d];
+  }
+}
+
+/* Of a straight cell: the mean of the corners about it */
+static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal straight[3])
+{
+  PetscInt n = 0;
+
+  for (PetscInt d = 0; d < 3; ++d) n += OrderIsMiddle(place, d);
+  OrderSum(curve, place, n, straight);
+  for (PetscInt d = 0; d < 3; ++d) straight[d] /= (PetscReal)(1 << n);
+}
+
+/* The middles that 20 nodes leave out, of facets and of the cell: their shape functions there are -1/4 at the
+   corners, and 1/2 and 1/4 at the middles of the edges */
+static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
+{
+  const PetscBool cell = (PetscBool)(place == 13);
+  PetscReal       corners[3], edges[3];
+
+  OrderSum(curve, place, cell ? 3 : 2, corners);
+  OrderSum(curve, place, cell ? 2 : 1, edges);
+  for (PetscInt d = 0; d < 3; ++d) curve[3 * place + d] = (cell ? 0.25 : 0.5) * edges[d] - 0.25 * corners[d];
+}
+
+/* The corners, then the middles of the edges, of which Gmsh has the last two the other way round */
+static PetscReal OrderGetTetrahedron(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
+{
+  static const PetscInt of_gmsh[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  PetscReal             straight[MESH_MAX_NODES][3], bulge = 0;
+
+  MeshPlacesSetStraight(4, x, straight);
+  for (PetscInt a = 0; a < 10; ++a) {
+    const PetscReal *place    = nnodes == 10 ? x[of_gmsh[a]] : straight[a];
+    PetscReal        distance = 0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      curve[3 * a + d] = place[d];
+      distance += PetscSqr(place[d] - straight[a][d]);
+    }
+    bulge = PetscMax(bulge, PetscSqrtReal(distance));
+  }
+  return bulge;
+}
+
+PetscReal GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
+{
+  PetscReal bulge = 0;
+
+  if (MeshIsTetrahedron(nnodes)) return OrderGetTetrahedron(nnodes, x, curve);
+  for (PetscInt a = 0; a < nnodes; ++a) {
+    for (PetscInt d = 0; d < 3; ++d) curve[3 * place_of[a] + d] = x[a][d];
+  }
+  for (PetscInt a = 8; a < GMSH_MAX_NODES; ++a) {
+    PetscReal straight[3], distance = 0;
+
+    OrderSetStraight(curve, place_of[a], straight);
+    if (a >= nnodes && nnodes > 8) OrderSetMiddle(curve, place_of[a]);
+    for (PetscInt d = 0; d < 3; ++d) {
+      if (nnodes == 8) curve[3 * place_of[a] + d] = straight[d];
+      distance += PetscSqr(curve[3 * place_of[a] + d] - straight[d]);
+    }
+    bulge = PetscMax(bulge, PetscSqrtReal(distance));
+  }
+  return bulge;
+}

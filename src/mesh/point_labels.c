@@ -1,0 +1,99 @@
+/* Points and edges of bodies as labels of their nodes, as faces have them: where displacements are prescribed. */
+#include "meshimpl.h"
+
+/* Nodes are at a place that is off by less than this part of the mesh's size */
+static const PetscReal point_tolerance = 1e-6;
+
+static PetscReal PointLabelDistance(const SceneDisplacement *spot, const PetscReal x[3])
+{
+  PetscReal along = 0.0, square = 0.0, distance = 0.0;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    along += (x[d] - spot->from[d]) * (spot->to[d] - spot->from[d]);
+    square += PetscSqr(spot->to[d] - spot->from[d]);
+  }
+  along = square > 0.0 ? PetscMin(PetscMax(along / square, 0.0), 1.0) : 0.0;
+  for (PetscInt d = 0; d < 3; ++d) distance += PetscSqr(x[d] - spot->from[d] - along * (spot->to[d] - spot->from[d]));
+  return PetscSqrtReal(distance);
+}
+
+/* Labels the nodes at the spot; nearest: distance and place of the nearest node of the body on this rank */
+static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, PetscReal tolerance, PetscReal nearest[4])
+{
+  DMLabel            body, label;
+  PetscSection       section;
+  Vec                coordinates;
+  const PetscScalar *x;
+  PetscInt           cstart, cend;
+
+  PetscFunctionBegin;
+  nearest[0] = PETSC_MAX_REAL;
+  PetscCall(DMCreateLabel(dm, spot->face));
+  PetscCall(DMGetLabel(dm, spot->face, &label));
+  PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &body));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt of, n, nodes[MESH_MAX_NODES];
+
+    PetscCall(DMLabelGetValue(body, c, &of));
+    if (of != spot->body) continue;
+    PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
+    for (PetscInt i = 0; i < n; ++i) {
+      PetscInt  offset;
+      PetscReal place[3], distance;
+
+      PetscCall(PetscSectionGetOffset(section, nodes[i], &offset));
+      for (PetscInt d = 0; d < 3; ++d) place[d] = PetscRealPart(x[offset + d]);
+      distance = PointLabelDistance(spot, place);
+      if (distance <= tolerance) PetscCall(DMLabelSetValue(label, nodes[i], 1));
+      if (distance >= nearest[0]) continue;
+      nearest[0] = distance;
+      PetscCall(PetscArraycpy(nearest + 1, place, 3));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Of the rank that has the nearest one, on all */
+static PetscErrorCode PointLabelFindNearest(MPI_Comm comm, PetscReal nearest[4])
+{
+  PetscReal   least = nearest[0];
+  PetscMPIInt rank, owner;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
+  owner = nearest[0] == least ? rank : PETSC_MPI_INT_MAX;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, comm));
+  PetscCallMPI(MPI_Bcast(nearest, 4, MPIU_REAL, owner, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Of the displacements at points and edges; once a mesh. An error where there is no node */
+PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
+{
+  MPI_Comm  comm = PetscObjectComm((PetscObject)dm);
+  PetscReal lower[3], upper[3], size = 0.0, nearest[4];
+
+  PetscFunctionBegin;
+  PetscCall(DMGetBoundingBox(dm, lower, upper));
+  for (PetscInt d = 0; d < 3; ++d) size = PetscMax(size, upper[d] - lower[d]);
+  for (PetscInt k = 0; k < scene->ndisplacements; ++k) {
+    const SceneDisplacement *spot = &scene->displacements[k];
+    PetscBool                has;
+
+    if (spot->at == DISPLACEMENT_FACE) continue;
+    PetscCall(DMHasLabel(dm, spot->face, &has));
+    if (has) continue;
+    PetscCall(PointLabelLabel(dm, spot, point_tolerance * size, nearest));
+    PetscCall(PointLabelFindNearest(comm, nearest));
+    PetscCheck(nearest[0] <= point_tolerance * size, comm, PETSC_ERR_USER_INPUT,
+      "displacement \"%s\": body \"%s\" has no vertex there; the nearest one is at (%g, %g, %g)", spot->name,
+      scene->bodies[spot->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
+  }
+  PetscFunctionReturn(0);
+}

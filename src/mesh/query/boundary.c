@@ -1,0 +1,52 @@
+/* Which facets bound the bodies */
+#include "src/mesh/meshimpl.h"
+#include <petscsf.h>
+
+/*@
+  MeshMarkBoundary - Marks the facets of this rank that bound a body
+
+  Collective
+
+  Input Parameter:
+. dm - the mesh
+
+  Output Parameter:
+. boundary - of each facet, in the order of its points: one cell here, no copy on another rank, and no finer or
+             coarser cell beyond it
+
+  Level: developer
+
+.seealso: `MeshGetFacets()`, `MeshGetHanging()`
+@*/
+PetscErrorCode MeshMarkBoundary(DM dm, PetscBool boundary[])
+{
+  PetscSF         sf;
+  PetscInt        nroots, nleaves, start, end;
+  PetscBool       has;
+  const PetscInt *leaves, *degree;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
+  PetscCall(DMHasLabel(dm, MESH_INNER_LABEL, &has));
+  for (PetscInt f = start; f < end; ++f) {
+    PetscInt ncells, inner = -1;
+
+    PetscCall(DMPlexGetSupportSize(dm, f, &ncells));
+    if (has && ncells == 1) PetscCall(DMGetLabelValue(dm, MESH_INNER_LABEL, f, &inner));
+    boundary[f - start] = (PetscBool)(ncells == 1 && inner < 0);
+  }
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(PetscSFGetGraph(sf, &nroots, &nleaves, &leaves, NULL));
+  if (nroots < 0) PetscFunctionReturn(0);
+  PetscCall(PetscSFComputeDegreeBegin(sf, &degree));
+  PetscCall(PetscSFComputeDegreeEnd(sf, &degree));
+  for (PetscInt f = start; f < end; ++f) {
+    if (degree[f]) boundary[f - start] = PETSC_FALSE;
+  }
+  for (PetscInt i = 0; i < nleaves; ++i) {
+    const PetscInt f = leaves ? leaves[i] : i;
+
+    if (f >= start && f < end) boundary[f - start] = PETSC_FALSE;
+  }
+  PetscFunctionReturn(0);
+}

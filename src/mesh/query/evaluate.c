@@ -1,0 +1,162 @@
+/* Fields of one mesh at points of any others: each rank asks for its own, and looks at the cells of all, a block at a
+   time. */
+#include "src/mesh/meshimpl.h"
+
+#define EVALUATE_CELLS 1024 /* of a block */
+
+/* Cells of one rank, on all: their places and fields, 3 numbers a node each */
+typedef struct {
+  PetscInt   nvecs; /* places, and the fields */
+  PetscInt   n, body[EVALUATE_CELLS], nnodes[EVALUATE_CELLS];
+  PetscReal *values; /* nvecs x MESH_MAX_NODES x 3 a cell */
+} EvaluateBlock;
+
+static PetscReal *EvaluateBlockValues(const EvaluateBlock *block, PetscInt cell, PetscInt vec)
+{
+  return &block->values[3 * MESH_MAX_NODES * (block->nvecs * cell + vec)];
+}
+
+/* This rank's cells from the first on; local: the places, and the fields */
+static PetscErrorCode EvaluateBlockFill(DM dm, PetscInt first, const Vec local[], EvaluateBlock *block)
+{
+  PetscSection section;
+  DMLabel      label;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &label));
+  for (PetscInt v = 0; v < block->nvecs; ++v) {
+    const PetscScalar *a;
+
+    PetscCall(VecGetArrayRead(local[v], &a));
+    for (PetscInt c = 0; c < block->n; ++c) {
+      PetscReal *values = EvaluateBlockValues(block, c, v);
+      PetscInt   nodes[MESH_MAX_NODES], offset;
+
+      if (!v) PetscCall(DMLabelGetValue(label, first + c, &block->body[c]));
+      PetscCall(MeshGetCellNodes(dm, first + c, &block->nnodes[c], nodes));
+      for (PetscInt i = 0; i < 3 * block->nnodes[c]; ++i) {
+        PetscCall(PetscSectionGetOffset(section, nodes[i / 3], &offset));
+        values[i] = PetscRealPart(a[offset + i % 3]);
+      }
+    }
+    PetscCall(VecRestoreArrayRead(local[v], &a));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, EvaluateBlock *block)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&block->n, 1, MPIU_INT, from, comm));
+  PetscCallMPI(MPI_Bcast(block->body, (PetscMPIInt)block->n, MPIU_INT, from, comm));
+  PetscCallMPI(MPI_Bcast(block->nnodes, (PetscMPIInt)block->n, MPIU_INT, from, comm));
+  PetscCallMPI(
+    MPI_Bcast(block->values, (PetscMPIInt)(3 * MESH_MAX_NODES * block->nvecs * block->n), MPIU_REAL, from, comm));
+  PetscFunctionReturn(0);
+}
+
+/* The fields at points that have their nearest place so far in a cell of the block, the first of which has this
+   number */
+static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints,
+  MeshLocator locator, PetscReal values[])
+{
+  const PetscInt   nfields = block->nvecs - 1;
+  const MeshPlace *places;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < block->n; ++c)
+    PetscCall(MeshLocatorAddCell(locator, number + c, block->body[c], block->nnodes[c],
+      (PetscReal(*)[3])EvaluateBlockValues(block, c, 0)));
+  PetscCall(MeshLocatorGetPlaces(locator, &places));
+  for (PetscInt i = 0; i < npoints; ++i) {
+    const MeshPlace *place = &places[i];
+
+    for (PetscInt k = 0; place->cell >= number && k < 3 * nfields; ++k) {
+      const PetscReal *field = EvaluateBlockValues(block, place->cell - number, 1 + k / 3);
+
+      values[3 * nfields * i + k] = 0;
+      for (PetscInt a = 0; a < place->n; ++a) values[3 * nfields * i + k] += place->N[a] * field[3 * a + k % 3];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Every rank's cells in turn */
+static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block, PetscInt npoints, MeshLocator locator,
+  PetscReal values[])
+{
+  MPI_Comm    comm = PetscObjectComm((PetscObject)dm);
+  PetscMPIInt rank, size;
+  PetscInt    cstart, cend, number = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  for (PetscMPIInt from = 0; from < size; ++from) {
+    PetscInt ncells = cend - cstart;
+
+    PetscCallMPI(MPI_Bcast(&ncells, 1, MPIU_INT, from, comm));
+    for (PetscInt first = 0; first < ncells; first += EVALUATE_CELLS) {
+      block->n = PetscMin(EVALUATE_CELLS, ncells - first);
+      if (rank == from) PetscCall(EvaluateBlockFill(dm, cstart + first, local, block));
+      PetscCall(EvaluateBlockSend(comm, from, block));
+      PetscCall(EvaluateBlockUse(block, number, npoints, locator, values));
+      number += block->n;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshEvaluate - Evaluates fields of a mesh at points of the undeformed bodies, of each rank its own
+
+  Collective
+
+  Input Parameters:
++ dm      - the mesh, from `MeshCreate()`
+. nfields - number of fields
+. fields  - global vectors of the mesh
+. npoints - points of this rank
+. points  - the points [length]
+- body    - the body in which each is looked for; `PETSC_DECIDE`: any
+
+  Output Parameters:
++ values  - nfields x 3 a point, zeros where no cell is near
+- missing - of how many points, on all ranks, no cell is near
+
+  Level: developer
+
+  Note:
+  A point on a curved surface may be outside of the facets: it has the values of the nearest place in a cell beside it.
+
+.seealso: `MeshLocate()`, `SimulationSetForecast()`
+@*/
+PetscErrorCode MeshEvaluate(DM dm, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3],
+  const PetscInt body[], PetscReal values[], PetscInt *missing)
+{
+  EvaluateBlock    block = {.nvecs = 1 + nfields};
+  MeshLocator      locator;
+  const MeshPlace *places;
+  Vec             *local;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(block.nvecs, &local, 3 * MESH_MAX_NODES * block.nvecs * EVALUATE_CELLS, &block.values));
+  PetscCall(MeshGetNodeCoordinates(dm, &local[0]));
+  for (PetscInt f = 0; f < nfields; ++f) {
+    PetscCall(DMGetLocalVector(dm, &local[1 + f]));
+    PetscCall(DMGlobalToLocal(dm, fields[f], INSERT_VALUES, local[1 + f]));
+  }
+  PetscCall(PetscArrayzero(values, 3 * nfields * npoints));
+  PetscCall(MeshLocatorCreate(npoints, points, body, &locator));
+  PetscCall(EvaluateAll(dm, local, &block, npoints, locator, values));
+  PetscCall(MeshLocatorGetPlaces(locator, &places));
+  *missing = 0;
+  for (PetscInt i = 0; i < npoints; ++i) *missing += places[i].cell < 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, missing, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+  PetscCall(MeshLocatorDestroy(&locator));
+  for (PetscInt f = 0; f < nfields; ++f) PetscCall(DMRestoreLocalVector(dm, &local[1 + f]));
+  PetscCall(PetscFree2(local, block.values));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,452 @@
+/*
+   Which cell is a point in? Points are sorted into the bins of a grid, as narrow as they are close; each cell looks
+   at those in the bins about it, and the point's place in the cell is where the cell's map takes it, linear or
+   quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+*/
+#include "src/mesh/meshimpl.h"
+
+/* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between
+   facets */
+static const PetscReal locate_margin = 0.25;
+
+/* Points in a cell and on its side differ by less than this part of its size */
+static const PetscReal locate_rounding = 1e-12;
+
+/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at
+   first[d][i] */
+typedef struct {
+  PetscInt   n[3], *start, *order;
+  PetscReal *first[3];
+} LocateBins;
+
+/* The last that begins at x or before; those outside go to the nearest */
+static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
+{
+  PetscInt low = 0, high = bins->n[d];
+
+  while (high - low > 1) {
+    const PetscInt middle = (low + high) / 2;
+
+    if (bins->first[d][middle] <= x) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
+{
+  return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
+}
+
+/* Bins along an axis with as many points each, so that meshes graded towards a place have narrow ones there */
+static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d,
+  LocateBins *bins)
+{
+  PetscReal *sorted;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(npoints, &sorted));
+  PetscCall(PetscCalloc1(nbins, &bins->first[d]));
+  for (PetscInt i = 0; i < npoints; ++i) sorted[i] = points[i][d];
+  PetscCall(PetscSortReal(npoints, sorted));
+  bins->n[d] = 1;
+  for (PetscInt b = 1; b < nbins; ++b) {
+    const PetscReal first = sorted[(PetscInt)((PetscInt64)b * npoints / nbins)];
+
+    if (first > sorted[0] && (bins->n[d] == 1 || first > bins->first[d][bins->n[d] - 1]))
+      bins->first[d][bins->n[d]++] = first;
+  }
+  PetscCall(PetscFree(sorted));
+  PetscFunctionReturn(0);
+}
+
+/* About one point a bin, where they fill their box */
+static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[][3], LocateBins *bins)
+{
+  const PetscInt side = 1 + (PetscInt)PetscCbrtReal((PetscReal)npoints);
+  PetscInt       nbins;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(LocateBinsPart(npoints, points, npoints ? side : 1, d, bins));
+  nbins = bins->n[0] * bins->n[1] * bins->n[2];
+  PetscCall(PetscCalloc1(nbins + 1, &bins->start));
+  PetscCall(PetscMalloc1(npoints, &bins->order));
+  for (PetscInt i = 0; i < npoints; ++i) ++bins->start[LocateBinOfPoint(bins, points[i])];
+  for (PetscInt b = 0, sum = 0; b <= nbins; ++b) {
+    sum += bins->start[b];
+    bins->start[b] = sum;
+  }
+  for (PetscInt i = npoints - 1; i >= 0; --i) bins->order[--bins->start[LocateBinOfPoint(bins, points[i])]] = i;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
+{
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(PetscFree(bins->first[d]));
+  PetscCall(PetscFree(bins->start));
+  PetscCall(PetscFree(bins->order));
+  PetscFunctionReturn(0);
+}
+
+/* Shape functions of a line on [-1, 1] with 2 or 3 nodes, and their slopes */
+static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s[3])
+{
+  L[0]         = width == 2 ? 0.5 - 0.5 * xi : 0.5 * xi * (xi - 1);
+  L[1]         = (1 - xi) * (1 + xi);
+  L[width - 1] = width == 2 ? 0.5 + 0.5 * xi : 0.5 * xi * (xi + 1);
+  s[0]         = width == 2 ? -0.5 : xi - 0.5;
+  s[1]         = -2 * xi;
+  s[width - 1] = width == 2 ? 0.5 : xi + 0.5;
+}
+
+/* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
+void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
+{
+  const PetscInt width = n == 8 ? 2 : 3;
+  PetscReal      L[3][3], s[3][3];
+
+  if (MeshIsTetrahedron(n)) {
+    MeshTetrahedronShape(n, xi, N, dN);
+    return;
+  }
+  for (PetscInt d = 0; d < 3; ++d) LocateLine(width, xi[d], L[d], s[d]);
+  for (PetscInt a = 0; a < n; ++a) {
+    const PetscInt i = a % width, j = a / width % width, k = a / (width * width);
+
+    N[a]     = L[0][i] * L[1][j] * L[2][k];
+    dN[0][a] = s[0][i] * L[1][j] * L[2][k];
+    dN[1][a] = L[0][i] * s[1][j] * L[2][k];
+    dN[2][a] = L[0][i] * L[1][j] * s[2][k];
+  }
+}
+
+/* Vector from X(xi) to the point, and dX_d/dxi_k */
+static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3],
+  PetscReal N[], PetscReal r[3], PetscReal J[3][3])
+{
+  PetscReal dN[3][MESH_MAX_NODES];
+
+  MeshCellShape(n, xi, N, dN);
+  for (PetscInt d = 0; d < 3; ++d) {
+    r[d] = point[d];
+    for (PetscInt k = 0; k < 3; ++k) J[d][k] = 0;
+    for (PetscInt a = 0; a < n; ++a) {
+      r[d] -= N[a] * X[a][d];
+      for (PetscInt k = 0; k < 3; ++k) J[d][k] += dN[k][a] * X[a][d];
+    }
+  }
+}
+
+/* J^(-1) r by Cramer's rule */
+static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[3])
+{
+  PetscReal det = 0;
+
+  for (PetscInt k = 0; k < 3; ++k)
+    det += J[0][k] * (J[1][(k + 1) % 3] * J[2][(k + 2) % 3] - J[1][(k + 2) % 3] * J[2][(k + 1) % 3]);
+  for (PetscInt k = 0; k < 3; ++k) {
+    const PetscInt l = (k + 1) % 3, m = (k + 2) % 3;
+
+    step[k] = 0;
+    for (PetscInt d = 0; d < 3; ++d)
+      step[k] += (J[(d + 1) % 3][l] * J[(d + 2) % 3][m] - J[(d + 1) % 3][m] * J[(d + 2) % 3][l]) * r[d] / det;
+  }
+}
+
+static PetscReal LocateNorm(const PetscReal r[3])
+{
+  return PetscSqrtReal(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+}
+
+/* Parameters of a tetrahedron that are not negative, and not more than 1 in sum */
+static void LocateClampTetrahedron(PetscReal xi[3])
+{
+  PetscReal sum = 0;
+
+  for (PetscInt k = 0; k < 3; ++k) sum += xi[k] = PetscMax(xi[k], 0.0);
+  for (PetscInt k = 0; sum > 1 && k < 3; ++k) xi[k] /= sum;
+}
+
+/* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the
+   distance */
+static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
+{
+  const PetscBool tetrahedron = MeshIsTetrahedron(n);
+  const PetscReal middle      = tetrahedron ? 0.25 : 0.0;
+  PetscReal       xi[3]       = {middle, middle, middle}, r[3], J[3][3], step[3];
+
+  for (PetscInt it = 0; it < 30; ++it) {
+    PetscReal change = 0;
+
+    LocateDifference(n, X, point, xi, N, r, J);
+    LocateSolve(J, r, step);
+    for (PetscInt k = 0; k < 3; ++k) {
+      const PetscReal next = PetscMax(-2.0, PetscMin(2.0, xi[k] + step[k]));
+
+      change = PetscMax(change, PetscAbsReal(next - xi[k]));
+      xi[k]  = next;
+    }
+    if (!(change > 8 * PETSC_MACHINE_EPSILON)) break;
+  }
+  if (tetrahedron) LocateClampTetrahedron(xi);
+  for (PetscInt k = 0; k < 3; ++k) xi[k] = PetscMax(-1.0, PetscMin(1.0, xi[k]));
+  LocateDifference(n, X, point, xi, N, r, J);
+  return LocateNorm(r);
+}
+
+/* Of a cell's nodes, with a margin all round */
+static PetscReal LocateBox(PetscInt n, PetscReal X[][3], PetscReal lower[3], PetscReal upper[3])
+{
+  PetscReal diagonal[3], size;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    lower[d] = upper[d] = X[0][d];
+    for (PetscInt a = 1; a < n; ++a) {
+      lower[d] = PetscMin(lower[d], X[a][d]);
+      upper[d] = PetscMax(upper[d], X[a][d]);
+    }
+    diagonal[d] = upper[d] - lower[d];
+  }
+  size = LocateNorm(diagonal);
+  for (PetscInt d = 0; d < 3; ++d) {
+    lower[d] -= locate_margin * size;
+    upper[d] += locate_margin * size;
+  }
+  return size;
+}
+
+struct _n_MeshLocator {
+  PetscInt n;
+  const PetscReal (*points)[3];
+  const PetscInt *body;
+  LocateBins      bins;
+  MeshPlace      *places;
+};
+
+/*@
+  MeshLocatorCreate - Prepares to find the cells that points are in
+
+  Not Collective
+
+  Input Parameters:
++ n      - number of points
+. points - the points; borrowed until the locator is destroyed [length]
+- body   - the body in which each is looked for, `PETSC_DECIDE`: any; borrowed too
+
+  Output Parameter:
+. locator - the locator; no cell is known to it
+
+  Level: developer
+
+.seealso: `MeshLocatorAddCell()`, `MeshLocatorGetPlaces()`, `MeshLocatorDestroy()`, `MeshLocate()`
+@*/
+PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *locator)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(locator));
+  (*locator)->n      = n;
+  (*locator)->points = points;
+  (*locator)->body   = body;
+  PetscCall(LocateBinsCreate(n, points, &(*locator)->bins));
+  PetscCall(PetscMalloc1(n, &(*locator)->places));
+  for (PetscInt i = 0; i < n; ++i) (*locator)->places[i] = (MeshPlace){.distance = PETSC_MAX_REAL, .cell = -1};
+  PetscFunctionReturn(0);
+}
+
+/* A place in the cell is taken where it is nearer than any before; where bodies touch, to rounding, that in the first
+   of them */
+static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscReal X[][3])
+{
+  MeshPlace      *nearest = &locator->places[i];
+  const PetscReal rounding =
+    locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
+
+  if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return; /* in a cell: none is nearer */
+  place.distance = LocateInCell(place.n, X, locator->points[i], place.N);
+  if (place.distance < nearest->distance + rounding) *nearest = place;
+}
+
+/*@
+  MeshLocatorAddCell - Looks which points are in a cell, or beside it
+
+  Not Collective
+
+  Input Parameters:
++ locator - the locator
+. cell    - a number for the cell
+. body    - its body
+. n       - its nodes: 8 or 27 of a hexahedron, 4 or 10 of a tetrahedron
+- X       - where they are, in the order of `MeshGetCellNodes()` [length]
+
+  Level: developer
+
+  Notes:
+  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was
+  added first. Cells farther away
+  than a quarter of their size are not looked at.
+
+.seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
+@*/
+PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3])
+{
+  const LocateBins *bins = &locator->bins;
+  PetscReal         lower[3], upper[3];
+  const PetscReal   size = LocateBox(n, X, lower, upper);
+  PetscInt          from[3], to[3];
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) {
+    from[d] = LocateBin(bins, d, lower[d]);
+    to[d]   = LocateBin(bins, d, upper[d]);
+  }
+  for (PetscInt k = from[2]; k <= to[2]; ++k) {
+    for (PetscInt j = from[1]; j <= to[1]; ++j) {
+      const PetscInt row = (k * bins->n[1] + j) * bins->n[0];
+
+      for (PetscInt o = bins->start[row + from[0]]; o < bins->start[row + to[0] + 1]; ++o) {
+        const PetscInt   i     = bins->order[o];
+        const PetscReal *point = locator->points[i];
+        PetscBool        near  = (PetscBool)(locator->body[i] == PETSC_DECIDE || locator->body[i] == body);
+
+        for (PetscInt d = 0; d < 3; ++d) near = (PetscBool)(near && point[d] >= lower[d] && point[d] <= upper[d]);
+        if (near) LocatorTry(locator, i, (MeshPlace){.cell = cell, .body = body, .size = size, .n = n}, X);
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocatorGetPlaces - Gets the places that points have in the cells so far
+
+  Not Collective
+
+  Input Parameter:
+. locator - the locator
+
+  Output Parameter:
+. places - one a point, borrowed; its cell is negative where none is near
+
+  Level: developer
+
+.seealso: `MeshLocatorAddCell()`
+@*/
+PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **places)
+{
+  PetscFunctionBegin;
+  *places = locator->places;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocatorDestroy - Frees a locator
+
+  Not Collective
+
+  Level: developer
+
+.seealso: `MeshLocatorCreate()`
+@*/
+PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
+{
+  PetscFunctionBegin;
+  PetscCall(LocateBinsDestroy(&(*locator)->bins));
+  PetscCall(PetscFree((*locator)->places));
+  PetscCall(PetscFree(*locator));
+  PetscFunctionReturn(0);
+}
+
+/* The nearest of all ranks has a point, of equals that of the first body, and of these the first */
+static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace places[])
+{
+  PetscMPIInt rank;
+  double     *distance;
+  struct {
+    double body;
+    int    rank;
+  } * first;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PetscMalloc2(n, &distance, n, &first));
+  for (PetscInt i = 0; i < n; ++i) distance[i] = (double)places[i].distance;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, (PetscMPIInt)n, MPI_DOUBLE, MPI_MIN, comm));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscBool nearest =
+      (PetscBool)(places[i].cell >= 0 &&
+                  (double)places[i].distance <= distance[i] + locate_rounding * (double)places[i].size);
+
+    first[i].body = nearest ? (double)places[i].body : PETSC_MAX_REAL;
+    first[i].rank = rank;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, first, (PetscMPIInt)n, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  for (PetscInt i = 0; i < n; ++i) {
+    places[i].distance = (PetscReal)distance[i];
+    if (first[i].rank != rank) places[i].cell = -1;
+  }
+  PetscCall(PetscFree2(distance, first));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshLocate - Finds the cells that points of the undeformed bodies are in
+
+  Collective
+
+  Input Parameters:
++ dm     - the mesh, from `MeshCreate()`
+. n      - number of points, the same on every rank
+. points - the points, the same on every rank [length]
+- body   - the body in which each is looked for; `PETSC_DECIDE`: any
+
+  Output Parameter:
+. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that
+           of the point from the cell, is the same
+           on every rank, and `PETSC_MAX_REAL` where no cell is near
+
+  Level: developer
+
+  Notes:
+  A point on a curved surface may be outside of the facets: it has the nearest place in a cell beside it.
+
+.seealso: `MeshCreate()`, `MeshGetCellVertices()`
+@*/
+PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
+{
+  MeshLocator        locator;
+  const MeshPlace   *found;
+  DMLabel            label;
+  PetscSection       section;
+  Vec                coordinates;
+  const PetscScalar *x;
+  PetscInt           cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(MeshLocatorCreate(n, points, body, &locator));
+  PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  b, nnodes, nodes[MESH_MAX_NODES];
+    PetscReal X[MESH_MAX_NODES][3];
+
+    PetscCall(DMLabelGetValue(label, c, &b));
+    PetscCall(MeshGetCellNodes(dm, c, &nnodes, nodes));
+    for (PetscInt a = 0; a < nnodes; ++a) {
+      PetscInt offset;
+
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
+      for (PetscInt d = 0; d < 3; ++d) X[a][d] = PetscRealPart(x[offset + d]);
+    }
+    PetscCall(MeshLocatorAddCell(locator, c, b, nnodes, X));
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(MeshLocatorGetPlaces(locator, &found));
+  PetscCall(PetscArraycpy(places, found, n));
+  PetscCall(MeshLocatorDestroy(&locator));
+  PetscCall(LocateChooseRank(PetscObjectComm((PetscObject)dm), n, places));
+  PetscFunctionReturn(0);
+}

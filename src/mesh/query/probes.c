@@ -1,0 +1,78 @@
+/* Where the probes of a scene are in its mesh */
+#include "src/mesh/meshimpl.h"
+
+/* A point this far outside, as a part of the cell's size, is on the surface: facets are not where the curved surface
+   is */
+static const PetscReal probe_tolerance = 0.1;
+
+static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3],
+  const MeshPlace *place)
+{
+  const char *what   = probe->line ? "a point of the line" : "the point",
+             *body   = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
+  const char *advice = probe->line ? ": let the line end before, and another one begin behind" : "";
+  MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
+
+  PetscFunctionBegin;
+  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT,
+    "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body,
+    advice);
+  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside%s", probe->name,
+    what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
+}
+
+/*@C
+  MeshLocateProbes - Finds the points of a scene's probes in its mesh
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, by `MeshCreate()`
+- scene - the scene
+
+  Output Parameters:
++ n      - points of all probes in turn
+. points - the points; free with `PetscFree()` [length]
+- places - their places, as `MeshLocate()` finds them; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  A point outside of its body by more than a tenth of a cell is an error.
+
+.seealso: `MeshLocate()`, `MeshCheckScene()`
+@*/
+PetscErrorCode MeshLocateProbes(DM dm, Scene scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[])
+{
+  PetscInt *body, k = 0;
+  PetscReal size;
+
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt p = 0; p < scene->nprobes; ++p) *n += scene->probes[p].n;
+  PetscCall(PetscMalloc1(*n, points));
+  PetscCall(PetscMalloc1(*n, places));
+  PetscCall(PetscMalloc1(*n, &body));
+  for (PetscInt p = 0; p < scene->nprobes; ++p) {
+    const SceneProbe *probe = &scene->probes[p];
+
+    for (PetscInt i = 0; i < probe->n; ++i, ++k) {
+      const PetscReal t = probe->line ? (PetscReal)i / (PetscReal)(probe->n - 1) : 0.0;
+
+      for (PetscInt d = 0; d < 3; ++d) (*points)[k][d] = (1 - t) * probe->from[d] + t * probe->to[d];
+      body[k] = probe->body;
+    }
+  }
+  PetscCall(MeshLocate(dm, *n, *points, body, *places));
+  k = 0;
+  for (PetscInt p = 0; p < scene->nprobes; ++p) {
+    for (PetscInt i = 0; i < scene->probes[p].n; ++i, ++k) {
+      size = (*places)[k].cell >= 0 ? (*places)[k].size : 0.0;
+      PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)dm)));
+      if ((*places)[k].distance > probe_tolerance * size)
+        PetscCall(ProbeRaise(dm, scene, &scene->probes[p], (*points)[k], &(*places)[k]));
+    }
+  }
+  PetscCall(PetscFree(body));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,279 @@
+/* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
+#include "src/mesh/meshimpl.h"
+
+/* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's
+   so that its edges from the first are right-handed */
+const PetscInt *MeshPlexCorners(PetscInt ncorners)
+{
+  static const PetscInt hexahedron[8] = {0, 3, 1, 2, 4, 5, 7, 6}, tetrahedron[4] = {1, 0, 2, 3};
+
+  return ncorners == 4 ? tetrahedron : hexahedron;
+}
+
+/* Points of a face label's stratum 1 within [start, end), as a sorted index set, empty on ranks without any */
+static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)
+{
+  PetscBool       has;
+  IS              all;
+  const PetscInt *p;
+  PetscInt        n, first, last;
+
+  PetscFunctionBegin;
+  PetscCall(DMHasLabel(dm, face, &has));
+  PetscCheck(has, PetscObjectComm((PetscObject)dm), PETSC_ERR_ARG_WRONG, "The mesh has no face \"%s\"", face);
+  PetscCall(DMGetStratumIS(dm, face, 1, &all));
+  if (!all) {
+    PetscCall(ISCreateGeneral(PETSC_COMM_SELF, 0, NULL, PETSC_COPY_VALUES, points));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ISSort(all));
+  PetscCall(ISGetLocalSize(all, &n));
+  PetscCall(ISGetIndices(all, &p));
+  PetscCall(PetscFindInt(start, n, p, &first));
+  PetscCall(PetscFindInt(end, n, p, &last));
+  if (first < 0) first = -(first + 1);
+  if (last < 0) last = -(last + 1);
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, last - first, p + first, PETSC_COPY_VALUES, points));
+  PetscCall(ISRestoreIndices(all, &p));
+  PetscCall(ISDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFacets - Gets the facets of a named face that this rank has
+
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. facets - the facets as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+
+  Level: intermediate
+
+  Notes:
+  Every facet is on exactly one rank. A name that is not a face of the mesh is an error.
+
+.seealso: `MeshCreate()`, `MeshGetFaceVertices()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, facets));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFaceVertices - Gets the vertices of a named face that this rank has, also those whose facets are on other ranks
+
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. vertices - the vertices as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+
+  Level: intermediate
+
+.seealso: `MeshCreate()`, `MeshGetFacets()`, `MeshGetFaceDofs()`
+@*/
+PetscErrorCode MeshGetFaceVertices(DM dm, const char face[], IS *vertices)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, vertices));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFaceDofs - Gets the global rows of one displacement component on a named face
+
+  Collective
+
+  Input Parameters:
++ dm        - the mesh
+. face      - name of the face, "<body>.<face>"
+- component - 0, 1 or 2
+
+  Output Parameter:
+. rows - the global rows that this rank owns, sorted; an index set on the mesh's communicator
+
+  Level: intermediate
+
+.seealso: `MeshGetFaceVertices()`, `ElasticitySetPrescribed()`
+@*/
+PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS *rows)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  IS              points;
+  PetscSection    section;
+  const PetscInt *p;
+  PetscInt        n, start, end, nowned = 0, *owned;
+
+  PetscFunctionBegin;
+  PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
+  PetscCall(DMPlexGetChart(dm, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, &points));
+  PetscCall(DMGetGlobalSection(dm, &section));
+  PetscCall(ISGetLocalSize(points, &n));
+  PetscCall(ISGetIndices(points, &p));
+  PetscCall(PetscMalloc1(n, &owned));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset, ncomponents;
+
+    PetscCall(PetscSectionGetDof(section, p[i], &ncomponents));
+    PetscCall(PetscSectionGetOffset(section, p[i], &offset));
+    if (ncomponents > 0 && offset >= 0) owned[nowned++] = offset + component;
+  }
+  PetscCall(ISRestoreIndices(points, &p));
+  PetscCall(ISDestroy(&points));
+  PetscCall(ISCreateGeneral(comm, nowned, owned, PETSC_COPY_VALUES, rows));
+  PetscCall(PetscFree(owned));
+  PetscCall(ISSort(*rows));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetFacetVertices - Gets the vertices of a boundary facet, counterclockwise seen from outside the body
+
+  Not Collective
+
+  Input Parameters:
++ dm    - the mesh
+- facet - the facet, a local DMPlex point with one cell
+
+  Output Parameter:
+. vertices - its 4 vertices, local DMPlex points; of a triangle 3, the last one twice
+
+  Level: developer
+
+.seealso: `MeshGetFacets()`, `MeshGetCellVertices()`
+@*/
+PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
+{
+  const PetscInt *cells, *cone, *orientation;
+  PetscInt        ncells, nfacets, ncorners, npoints, vstart, vend, n = 0, sign = 0, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetSupportSize(dm, facet, &ncells));
+  PetscCheck(ncells == 1, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+    "Point %" PetscInt_FMT " is not a boundary facet: it has %" PetscInt_FMT " cells", facet, ncells);
+  PetscCall(DMPlexGetSupport(dm, facet, &cells));
+  PetscCall(DMPlexGetConeSize(dm, cells[0], &nfacets));
+  PetscCall(DMPlexGetCone(dm, cells[0], &cone));
+  PetscCall(DMPlexGetConeOrientation(dm, cells[0], &orientation));
+  for (PetscInt f = 0; f < nfacets; ++f) {
+    if (cone[f] == facet) sign = orientation[f];
+  }
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(DMPlexGetConeSize(dm, facet, &ncorners));
+  PetscCall(DMPlexGetTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints; ++p) {
+    const PetscInt q = closure[2 * p];
+
+    /* a negative orientation: the cell sees the facet's vertices in reverse */
+    if (q >= vstart && q < vend) {
+      vertices[sign < 0 ? ncorners - 1 - n : n] = q;
+      ++n;
+    }
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  if (ncorners == 3) vertices[3] = vertices[2];
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetCellVertices - Gets the vertices of a hexahedron in tensor order
+
+  Not Collective
+
+  Input Parameters:
++ dm   - the mesh
+- cell - the cell, a local DMPlex point
+
+  Output Parameter:
+. vertices - its 8 vertices, local DMPlex points; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube
+
+  Level: developer
+
+.seealso: `MeshCreate()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
+{
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetCellCorners(dm, cell, &n, vertices));
+  PetscCheck(n == 8, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "Point %" PetscInt_FMT " is not a hexahedron", cell);
+  PetscFunctionReturn(0);
+}
+
+/* The 8 vertices of a hexahedron in tensor order, or the 4 of a tetrahedron */
+PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, PetscInt vertices[8])
+{
+  PetscInt        npoints, vstart, vend, n = 0, plex[8], *closure = NULL;
+  const PetscInt *order;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
+  PetscCall(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints && n < 8; ++p) {
+    const PetscInt q = closure[2 * p];
+
+    if (q >= vstart && q < vend) plex[n++] = q;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &npoints, &closure));
+  PetscCheck(n == 8 || n == 4, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+    "Point %" PetscInt_FMT " is neither a hexahedron nor a tetrahedron", cell);
+  order = MeshPlexCorners(n);
+  for (PetscInt a = 0; a < n; ++a) vertices[a] = plex[order[a]];
+  *ncorners = n;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshGetVertexCoordinates - Gets the reference coordinates of vertices
+
+  Not Collective
+
+  Input Parameters:
++ dm       - mesh from `MeshCreate()`
+. n        - number of vertices
+- vertices - local `DMPLEX` points
+
+  Output Parameter:
+. places - 3 coordinates a vertex [length]
+
+  Level: developer
+
+.seealso: `MeshGetCellVertices()`, `MeshGetFacetVertices()`
+@*/
+PetscErrorCode MeshGetVertexCoordinates(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
+{
+  Vec                coordinates;
+  PetscSection       section;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
+    for (PetscInt d = 0; d < 3; ++d) places[i][d] = PetscRealPart(x[offset + d]);
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscFunctionReturn(0);
+}

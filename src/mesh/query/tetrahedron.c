@@ -1,0 +1,105 @@
+/* Tetrahedra of 4 and of 10 nodes: the corners, then the middles of the edges, as VTK has them */
+#include "src/mesh/meshimpl.h"
+
+const PetscInt MeshTetrahedronEnds[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3},
+  {2, 3}};
+
+/* Place of a node on the reference tetrahedron, whose corners are the origin and the ends of the unit vectors */
+void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3])
+{
+  for (PetscInt d = 0; d < 3; ++d)
+    xi[d] = 0.5 * ((MeshTetrahedronEnds[node][0] == d + 1 ? 1 : 0) + (MeshTetrahedronEnds[node][1] == d + 1 ? 1 : 0));
+}
+
+/*@
+  MeshTetrahedronShape - Evaluates the shape functions of a tetrahedron
+
+  Not Collective
+
+  Input Parameters:
++ n  - its nodes: 4, or 10
+- xi - a place on the reference tetrahedron, whose corners are the origin and the ends of the unit vectors
+
+  Output Parameters:
++ N  - values of the n shape functions
+- dN - their derivatives by the three parameters
+
+  Level: developer
+
+  Notes:
+  With barycentric coordinates l, they are l_a at the corners of 4 nodes; of 10, l_a (2 l_a - 1) there, and 4 l_a l_b
+  at the middle of the edge from a to b.
+
+.seealso: `MeshGetCellNodes()`
+@*/
+void MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
+{
+  const PetscReal l[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
+
+  for (PetscInt a = 0; a < n; ++a) {
+    const PetscInt  p = MeshTetrahedronEnds[a][0], q = MeshTetrahedronEnds[a][1];
+    const PetscReal slope = n == 4 ? 1 : 4 * l[p] - 1;
+
+    N[a] = n == 4 ? l[p] : p == q ? l[p] * (2 * l[p] - 1) : 4 * l[p] * l[q];
+    for (PetscInt d = 0; d < 3; ++d) {
+      const PetscReal dp = p ? (p == d + 1 ? 1 : 0) : -1, dq = q ? (q == d + 1 ? 1 : 0) : -1;
+
+      dN[d][a] = p == q ? slope * dp : 4 * (dp * l[q] + l[p] * dq);
+    }
+  }
+}
+
+/* Places with the same barycentric coordinates in all orders: n of them, the coordinates that differ from the others */
+typedef struct {
+  PetscInt  n;
+  PetscReal place, weight; /* of the whole, each */
+} TetrahedronOrbit;
+
+/* Of n points of an orbit: of 4, one coordinate is 1 - 3 place; of 6, two are 1/2 - place */
+static void TetrahedronOrbitPoint(const TetrahedronOrbit *orbit, PetscInt i, PetscReal xi[3])
+{
+  const PetscReal other = orbit->n == 4 ? 1 - 3 * orbit->place : 0.5 - orbit->place;
+  const PetscInt  p     = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][0],
+                 q      = orbit->n == 4 ? i : MeshTetrahedronEnds[4 + i][1];
+
+  for (PetscInt d = 0; d < 3; ++d) xi[d] = p == d + 1 || q == d + 1 ? other : orbit->place;
+}
+
+/*@
+  MeshTetrahedronRule - The rule that integrates over a tetrahedron of so many nodes
+
+  Not Collective
+
+  Input Parameter:
+. nnodes - 4, or 10
+
+  Output Parameters:
++ npoints - the number of its points: 4, or 14
+. xi      - their places on the reference tetrahedron
+- weight  - their weights, whose sum is 1/6
+
+  Level: developer
+
+  Note:
+  It is of degree 2 for 4 nodes and of degree 5 for 10.
+
+  References:
+  N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000.
+
+.seealso: `MeshTetrahedronShape()`
+@*/
+void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[])
+{
+  static const TetrahedronOrbit second[1] = {{4, 0.13819660112501051518, 0.25}};
+  static const TetrahedronOrbit fifth[3]  = {{4, 0.31088591926330060980, 0.11268792571801585080},
+     {4, 0.09273525031089122640, 0.073493043116361949544}, {6, 0.04550370412564964949, 0.042546020777081466438}};
+  const TetrahedronOrbit       *orbits    = nnodes == 4 ? second : fifth;
+
+  *npoints = 0;
+  for (PetscInt k = 0; k < (nnodes == 4 ? 1 : 3); ++k) {
+    for (PetscInt i = 0; i < orbits[k].n; ++i, ++*npoints) {
+      TetrahedronOrbitPoint(&orbits[k], i, xi[*npoints]);
+      weight[*npoints] = orbits[k].weight / 6;
+    }
+  }
+}

@@ -1,0 +1,188 @@
+/* Local refinement: of the mesh that uniform refinement made, on the rank that has it, a mesh of the cells as they
+   are then, with its labels and curves */
+#include "src/mesh/meshimpl.h"
+
+/* Which side of a cell a facet of it is: 2 d + end */
+static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscInt *side)
+{
+  PetscInt vertices[8], npoints, sum[3] = {0, 0, 0}, *closure = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetCellVertices(dm, cell, vertices));
+  PetscCall(DMPlexGetTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  for (PetscInt p = 0; p < npoints; ++p) {
+    for (PetscInt a = 0; a < 8; ++a) {
+      for (PetscInt d = 0; d < 3 && vertices[a] == closure[2 * p]; ++d) sum[d] += a >> d & 1;
+    }
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
+  *side = 0;
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (sum[d] % 4 == 0) *side = 2 * d + sum[d] / 4;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The facet of the mesh before that a side of a cell lies on, negative where it is inside of one of its cells */
+static PetscErrorCode LocalGetRootFacet(DM dm, const MeshHexes *hexes, PetscInt cell, PetscInt side, PetscInt *facet)
+{
+  const PetscInt *place = &hexes->place[4 * cell], *cone;
+
+  PetscFunctionBegin;
+  *facet = -1;
+  if (place[side / 2] != (side % 2 ? (1 << place[3]) - 1 : 0)) PetscFunctionReturn(0);
+  PetscCall(DMPlexGetCone(dm, hexes->root[cell], &cone));
+  for (PetscInt i = 0; i < 6; ++i) {
+    PetscInt at;
+
+    PetscCall(LocalGetSide(dm, hexes->root[cell], cone[i], &at));
+    if (at == side) *facet = cone[i];
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LocalIsMade(const char label[], PetscBool *made)
+{
+  PetscBool same;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcmp(label, "depth", made));
+  PetscCall(PetscStrcmp(label, "celltype", &same));
+  *made = (PetscBool)(*made || same);
+  PetscFunctionReturn(0);
+}
+
+/* Labels of a facet that bounds its body are those of the facet that it lies on; one that does not and has one cell
+   is a coarse cell's, or those of fine ones beside it */
+static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, PetscInt facet)
+{
+  const PetscInt *cells;
+  PetscInt        side, root, nlabels, ncells = 0;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetSupport(fine, facet, &cells));
+  PetscCall(LocalGetSide(fine, cells[0], facet, &side));
+  PetscCall(LocalGetRootFacet(dm, hexes, cells[0], side, &root));
+  if (root >= 0) PetscCall(DMPlexGetSupportSize(dm, root, &ncells));
+  if (ncells != 1) {
+    PetscCall(DMSetLabelValue(fine, MESH_INNER_LABEL, facet, 1));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(DMGetNumLabels(dm, &nlabels));
+  for (PetscInt l = 0; l < nlabels; ++l) {
+    const char *name;
+    PetscInt    value;
+    PetscBool   made;
+
+    PetscCall(DMGetLabelName(dm, l, &name));
+    PetscCall(LocalIsMade(name, &made));
+    if (made) continue;
+    PetscCall(DMGetLabelValue(dm, name, root, &value));
+    if (value >= 0) PetscCall(DMSetLabelValue(fine, name, facet, value));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LocalLabelPoints(DM dm, const MeshHexes *hexes, DM fine)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    PetscInt body;
+
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, hexes->root[c], &body));
+    PetscCall(DMSetLabelValue(fine, MESH_BODY_LABEL, c, body));
+  }
+  PetscCall(DMPlexGetHeightStratum(fine, 1, &start, &end));
+  for (PetscInt f = start; f < end; ++f) {
+    PetscInt ncells;
+
+    PetscCall(DMPlexGetSupportSize(fine, f, &ncells));
+    if (ncells == 1) PetscCall(LocalLabelFacet(dm, hexes, fine, f));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective: the labels of the mesh before, and of facets that bound no body though they have one cell; as level 0
+   has them */
+static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
+{
+  PetscInt nlabels;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetNumLabels(dm, &nlabels));
+  PetscCall(DMCreateLabel(fine, MESH_INNER_LABEL));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt l = 0; l < nlabels; ++l) {
+      const char *name;
+      DMLabel     label;
+      PetscBool   made, body;
+
+      PetscCall(DMGetLabelName(dm, l, &name));
+      PetscCall(LocalIsMade(name, &made));
+      PetscCall(PetscStrcmp(name, MESH_BODY_LABEL, &body));
+      if (made) continue;
+      if (!pass) PetscCall(DMCreateLabel(fine, name));
+      PetscCall(DMGetLabel(fine, name, &label));
+      if (pass && !body) PetscCall(DMPlexLabelComplete(fine, label));
+    }
+    if (!pass) PetscCall(LocalLabelPoints(dm, hexes, fine));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
+{
+  const PetscInt *order = MeshPlexCorners(8);
+  PetscInt       *cells;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(8 * hexes->ncells, &cells));
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    for (PetscInt a = 0; a < 8; ++a) cells[8 * c + order[a]] = hexes->vertex[8 * c + a];
+  }
+  PetscCall(DMPlexCreateFromCellListPetsc(PetscObjectComm((PetscObject)dm), 3, hexes->ncells, hexes->nvertices, 8,
+    PETSC_TRUE, cells, 3, hexes->x, fine));
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
+/* Collective; the mesh is that of the first rank */
+PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBody bodies[], DM *dm, MeshCurves *curves,
+  MeshHanging *hanging)
+{
+  MPI_Comm       comm = PetscObjectComm((PetscObject)*dm);
+  RankError      error;
+  PetscErrorCode ierr;
+  PetscMPIInt    rank;
+  MeshHexes      hexes;
+  DM             fine;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  for (PetscInt z = 0; z < local->nzones; ++z) {
+    for (PetscInt k = 0; k < 2 && local->zones[z].face[k]; ++k) {
+      PetscBool has;
+
+      PetscCall(DMHasLabel(*dm, local->zones[z].face[k], &has));
+      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinements \"%s\": there is no face \"%s\"", local->zones[z].name,
+        local->zones[z].face[k]);
+    }
+  }
+  PetscCall(RankErrorBegin(&error));
+  ierr = MeshHexesCreate(*dm, &hexes);
+  if (!ierr && rank == 0) ierr = MeshHexesRefineZones(*dm, bodies, local->nzones, local->zones, &hexes);
+  if (!ierr && rank == 0) ierr = MeshHexesRefineInverted(*dm, bodies, curves, &hexes);
+  if (!ierr && rank == 0 && local->marks) ierr = MeshHexesRefineMarks(local->marks, *dm, bodies, curves, &hexes);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  PetscCall(LocalCreateMesh(*dm, &hexes, &fine));
+  PetscCall(LocalLabel(*dm, &hexes, fine));
+  PetscCall(MeshCurvesCutOut(&hexes, fine, curves));
+  PetscCall(MeshHangingCreate(&hexes, fine, hanging));
+  PetscCall(MeshHexesDestroy(&hexes));
+  PetscCall(DMDestroy(dm));
+  *dm = fine;
+  PetscFunctionReturn(0);
+}

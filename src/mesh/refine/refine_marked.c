@@ -1,0 +1,122 @@
+/* Cells that are marked mesh after mesh: the same marks make the same meshes again, on any number of ranks */
+#include "src/mesh/meshimpl.h"
+
+#define MESH_NUMBERS "cell numbers" /* of the mesh: of its cells, as the first rank had them */
+
+/* Keeps with the mesh the numbers of its cells */
+PetscErrorCode MeshNumberCells(DM dm, const MeshHanging *hanging)
+{
+  PetscInt cstart, cend, *number;
+  IS       numbers;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(PetscMalloc1(cend - cstart, &number));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(hanging->section, c, &offset));
+    number[c - cstart] = hanging->numbers[offset];
+  }
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, cend - cstart, number, PETSC_OWN_POINTER, &numbers));
+  PetscCall(PetscObjectCompose((PetscObject)dm, MESH_NUMBERS, (PetscObject)numbers));
+  PetscCall(ISDestroy(&numbers));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->count), &marks->count));
+  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->cells), &marks->cells));
+  marks->count[marks->n]   = n;
+  marks->cells[marks->n++] = cells;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshMarksAdd - Marks cells of a mesh for the next one
+
+  Collective
+
+  Input Parameters:
++ dm     - mesh from `MeshCreateScene()`, made with these marks
+- marked - the answer for each local cell
+
+  Input/Output Parameter:
+. marks - begins as zeros; the mesh that is made with them next has the marked cells refined
+
+  Level: developer
+
+.seealso: `MeshCreateScene()`, `MeshMarksDestroy()`
+@*/
+PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
+  PetscMPIInt     rank, size, nlocal, *counts, *displs;
+  PetscInt        cstart, cend, n = 0, *local, *all;
+  const PetscInt *number;
+  IS              numbers;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectQuery((PetscObject)dm, MESH_NUMBERS, (PetscObject *)&numbers));
+  PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE,
+    "The cells of this mesh have no numbers: it was made without marks");
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(PetscMalloc3(cend - cstart, &local, size, &counts, size + 1, &displs));
+  PetscCall(ISGetIndices(numbers, &number));
+  for (PetscInt c = 0; c < cend - cstart; ++c) {
+    if (marked[c]) local[n++] = number[c];
+  }
+  PetscCall(ISRestoreIndices(numbers, &number));
+  PetscCall(PetscMPIIntCast(n, &nlocal));
+  PetscCallMPI(MPI_Gather(&nlocal, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
+  displs[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) displs[r + 1] = rank ? 0 : displs[r] + counts[r];
+  PetscCall(PetscMalloc1(displs[size], &all));
+  PetscCallMPI(MPI_Gatherv(local, nlocal, MPIU_INT, all, counts, displs, MPIU_INT, 0, comm));
+  PetscCall(MarksAppend(marks, displs[size], all));
+  PetscCall(PetscFree3(local, counts, displs));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  MeshMarksDestroy - Frees marks
+
+  Not Collective
+
+  Input Parameter:
+. marks - zeros then
+
+  Level: developer
+
+.seealso: `MeshMarksAdd()`
+@*/
+PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < marks->n; ++m) PetscCall(PetscFree(marks->cells[m]));
+  PetscCall(PetscFree(marks->count));
+  PetscCall(PetscFree(marks->cells));
+  marks->n = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Not collective: on the rank that has the marks */
+PetscErrorCode MeshHexesRefineMarks(const MeshMarks *marks, DM dm, const SceneBody bodies[], const MeshCurves *curves,
+  MeshHexes *hexes)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < marks->n; ++m) {
+    PetscBool *marked;
+
+    PetscCall(PetscCalloc1(hexes->ncells, &marked));
+    for (PetscInt i = 0; i < marks->count[m]; ++i) marked[marks->cells[m][i]] = PETSC_TRUE;
+    PetscCall(MeshHexesRefine(hexes, marked));
+    PetscCall(MeshHexesRefineInverted(dm, bodies, curves, hexes));
+    PetscCall(PetscFree(marked));
+  }
+  PetscFunctionReturn(0);
+}

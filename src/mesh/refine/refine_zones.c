@@ -1,0 +1,201 @@
+/* Which cells a scene refines: those near a face, near both faces of a contact pair, or in a box, until they are as
+   fine as it says */
+#include "src/mesh/meshimpl.h"
+
+/* Where a zone is: boxes about the facets of up to two faces, and about all of each; a box of its own where there is
+   no face */
+typedef struct {
+  PetscInt  nfaces, n[2];
+  PetscReal all[2][6], *facets[2];
+} Zone;
+
+static void ZoneBoxClear(PetscReal box[6])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    box[d]     = PETSC_MAX_REAL;
+    box[3 + d] = PETSC_MIN_REAL;
+  }
+}
+
+static void ZoneBoxAdd(PetscReal box[6], const PetscReal x[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    box[d]     = PetscMin(box[d], x[d]);
+    box[3 + d] = PetscMax(box[3 + d], x[d]);
+  }
+}
+
+/* Are two boxes nearer than that, but for rounding? */
+static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], PetscReal distance)
+{
+  PetscReal square = 0, size = 0;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    square += PetscSqr(PetscMax(0, PetscMax(a[d] - b[3 + d], b[d] - a[3 + d])));
+    size += a[3 + d] - a[d];
+  }
+  return (PetscBool)(PetscSqrtReal(square) <= distance + 1e-9 * size);
+}
+
+/* Where a vertex of a body is; of a curved shape its coordinates are still parameters */
+static PetscErrorCode ZonePlaceVertex(const SceneBody *body, const PetscReal parameters[3], PetscReal x[3])
+{
+  const Shape *shape;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeGet(PETSC_COMM_SELF, body, &shape));
+  if (shape && shape->map && body->curved) PetscCall(shape->map(body, parameters, x));
+  else PetscCall(PetscArraycpy(x, parameters, 3));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ZoneAddFace(DM dm, const SceneBody bodies[], const char face[], Zone *zone)
+{
+  const PetscInt  k = zone->nfaces++;
+  IS              facets;
+  const PetscInt *f;
+
+  PetscFunctionBegin;
+  ZoneBoxClear(zone->all[k]);
+  PetscCall(MeshGetFacets(dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &zone->n[k]));
+  PetscCall(ISGetIndices(facets, &f));
+  PetscCall(PetscMalloc1(6 * zone->n[k], &zone->facets[k]));
+  for (PetscInt i = 0; i < zone->n[k]; ++i) {
+    const PetscInt *cells;
+    PetscInt        vertices[4], body;
+    PetscReal       x[4][3];
+
+    PetscCall(MeshGetFacetVertices(dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
+    PetscCall(DMPlexGetSupport(dm, f[i], &cells));
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cells[0], &body));
+    ZoneBoxClear(&zone->facets[k][6 * i]);
+    for (PetscInt a = 0; a < 4; ++a) {
+      PetscCall(ZonePlaceVertex(&bodies[body], x[a], x[a]));
+      ZoneBoxAdd(&zone->facets[k][6 * i], x[a]);
+      ZoneBoxAdd(zone->all[k], x[a]);
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ZoneCreate(DM dm, const SceneBody bodies[], const SceneRefinement *refinement, Zone *zone)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(zone, sizeof(*zone)));
+  for (PetscInt k = 0; k < 2 && refinement->face[k]; ++k) PetscCall(ZoneAddFace(dm, bodies, refinement->face[k], zone));
+  for (PetscInt d = 0; d < 3 && !zone->nfaces; ++d) {
+    zone->all[0][d]     = refinement->lower[d];
+    zone->all[0][3 + d] = refinement->upper[d];
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ZoneDestroy(Zone *zone)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(zone->facets[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Is a box within the distance of each of the faces, or of the zone's box? */
+static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal box[6])
+{
+  if (!zone->nfaces) return ZoneBoxesMeet(zone->all[0], box, distance);
+  for (PetscInt k = 0; k < zone->nfaces; ++k) {
+    PetscInt i = ZoneBoxesMeet(zone->all[k], box, distance) ? 0 : zone->n[k];
+
+    while (i < zone->n[k] && !ZoneBoxesMeet(&zone->facets[k][6 * i], box, distance)) ++i;
+    if (i == zone->n[k]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* The boxes about all cells, 6 numbers each */
+static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshHexes *hexes, PetscInt body[],
+  PetscReal box[])
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, hexes->root[c], &body[c]));
+    ZoneBoxClear(&box[6 * c]);
+    for (PetscInt a = 0; a < 8; ++a) {
+      PetscReal x[3];
+
+      PetscCall(ZonePlaceVertex(&bodies[body[c]], &hexes->x[3 * hexes->vertex[8 * c + a]], x));
+      ZoneBoxAdd(&box[6 * c], x);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* No cell is near both faces, or in the box */
+static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefinement *refinement)
+{
+  const PetscReal  *a = refinement->lower, *b = refinement->upper;
+  const char *const body = refinement->body >= 0 ? bodies[refinement->body].name : "";
+
+  PetscFunctionBegin;
+  PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name,
+    (double)refinement->distance, refinement->face[0], refinement->face[1]);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], meets no cell of %s%s%s",
+    refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
+    *body ? "body \"" : "any body", body, *body ? "\"" : "");
+}
+
+/* Marks the cells of a zone that are not fine enough, and counts those of any size */
+static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone,
+  const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
+{
+  PetscInt n = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < hexes->ncells; ++c) {
+    if (refinement->body >= 0 && body[c] != refinement->body) continue;
+    if (!ZoneHolds(zone, refinement->distance, &box[6 * c])) continue;
+    ++n;
+    if (hexes->place[4 * c + 3] >= refinement->levels) continue;
+    PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      refinement->name, bodies[body[c]].name, bodies[body[c]].order);
+    marked[c] = PETSC_TRUE;
+    *more     = PETSC_TRUE;
+  }
+  if (!n) PetscCall(ZoneComplain(bodies, refinement));
+  PetscFunctionReturn(0);
+}
+
+/* Not collective: all zones, each until its cells are fine enough; dm: the mesh that the cells were made of */
+PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n, const SceneRefinement refinements[],
+  MeshHexes *hexes)
+{
+  PetscBool more = (PetscBool)(n > 0);
+  Zone     *zones;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &zones));
+  for (PetscInt z = 0; z < n; ++z) PetscCall(ZoneCreate(dm, bodies, &refinements[z], &zones[z]));
+  while (more) {
+    PetscBool *marked;
+    PetscInt  *body;
+    PetscReal *box;
+
+    more = PETSC_FALSE;
+    PetscCall(PetscCalloc1(hexes->ncells, &marked));
+    PetscCall(PetscMalloc2(hexes->ncells, &body, 6 * hexes->ncells, &box));
+    PetscCall(ZonesGetBoxes(dm, bodies, hexes, body, box));
+    for (PetscInt z = 0; z < n; ++z)
+      PetscCall(ZoneMark(bodies, &refinements[z], &zones[z], hexes, body, box, marked, &more));
+    PetscCall(PetscFree2(body, box));
+    if (more) PetscCall(MeshHexesRefine(hexes, marked));
+    PetscCall(PetscFree(marked));
+  }
+  for (PetscInt z = 0; z < n; ++z) PetscCall(ZoneDestroy(&zones[z]));
+  PetscCall(PetscFree(zones));
+  PetscFunctionReturn(0);
+}

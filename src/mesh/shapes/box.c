@@ -1,0 +1,67 @@
+/* Boxes of hexahedra, aligned with the axes, equal or graded along each axis */
+#include "src/mesh/meshimpl.h"
+
+static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)
+{
+  static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", NULL};
+
+  return faces;
+}
+
+static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
+{
+  PetscFunctionBegin;
+  *ncells    = 1;
+  *nvertices = 1;
+  for (PetscInt d = 0; d < 3; ++d) {
+    PetscCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
+      PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the box must have lower < upper along each axis, but along %c they are %g and %g", body->name,
+      "xyz"[d], (double)body -> lower[d], (double)body -> upper[d]);
+    PetscCheck(body->cells[d] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the box must have at least one cell along each axis, but has %" PetscInt_FMT " along %c",
+      body->name, body->cells[d], "xyz"[d]);
+    PetscCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\" has too many level 0 cells for this PETSc's integers: %" PetscInt_FMT " x %" PetscInt_FMT
+      " x %" PetscInt_FMT,
+      body->name, body->cells[0], body->cells[1], body->cells[2]);
+    PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], body->cells[d]));
+    *ncells *= body->cells[d];
+    *nvertices *= body->cells[d] + 1;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscInt BoxVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+{
+  const PetscInt *n = (const PetscInt *)context;
+
+  return i + (n[0] + 1) * (j + (n[1] + 1) * k);
+}
+
+static PetscErrorCode ShapeCreate_Box(const SceneBody *body, ShapeGrid *grid)
+{
+  const PetscInt  *n     = body->cells;
+  const ShapeBlock block = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, BoxVertex};
+  PetscReal       *x;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeGridCreate(1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
+  x = grid->coordinates;
+  for (PetscInt k = 0; k <= n[2]; ++k) {
+    for (PetscInt j = 0; j <= n[1]; ++j) {
+      for (PetscInt i = 0; i <= n[0]; ++i, x += 3) {
+        const PetscInt index[3] = {i, j, k};
+
+        for (PetscInt d = 0; d < 3; ++d) {
+          const PetscReal t = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
+
+          x[d] = (1 - t) * body->lower[d] + t * body->upper[d];
+        }
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+const Shape ShapeBox = {ShapeFaces_Box, ShapeSize_Box, ShapeCreate_Box, NULL};

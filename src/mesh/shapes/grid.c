@@ -1,0 +1,126 @@
+/* Level 0 grids made of blocks of cells, graded, and the limits of their numbers: what the shapes share */
+#include "src/mesh/meshimpl.h"
+
+/* Both sides of a block that are normal to direction d */
+static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
+{
+  const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+  for (PetscInt end = 0; end < 2; ++end) {
+    if (block->faces[2 * d + end] < 0) continue;
+    for (PetscInt j = 0; j < block->n[t]; ++j) {
+      for (PetscInt i = 0; i < block->n[s]; ++i) {
+        static const PetscInt around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
+        for (PetscInt a = 0; a < 4; ++a) {
+          PetscInt at[3];
+
+          at[d]                               = end ? block->n[d] : 0;
+          at[s]                               = i + around[a][0];
+          at[t]                               = j + around[a][1];
+          grid->facets[4 * grid->nfacets + a] = block->vertex(block->context, at[0], at[1], at[2]);
+        }
+        grid->facetface[grid->nfacets++] = block->faces[2 * d + end];
+      }
+    }
+  }
+}
+
+static void ShapeBlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
+{
+  for (PetscInt k = 0; k < block->n[2]; ++k) {
+    for (PetscInt j = 0; j < block->n[1]; ++j) {
+      for (PetscInt i = 0; i < block->n[0]; ++i, ++grid->ncells) {
+        for (PetscInt a = 0; a < 8; ++a)
+          grid->cells[8 * grid->ncells + (a ^ flip)] =
+            block->vertex(block->context, i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
+      }
+    }
+  }
+}
+
+PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], PetscInt nvertices, PetscBool mirrored,
+  ShapeGrid *grid)
+{
+  PetscInt ncells = 0, nfacets = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < nblocks; ++b) {
+    const PetscInt *n = blocks[b].n;
+
+    ncells += n[0] * n[1] * n[2];
+    for (PetscInt side = 0; side < 6; ++side)
+      nfacets += blocks[b].faces[side] < 0 ? 0 : n[(side / 2 + 1) % 3] * n[(side / 2 + 2) % 3];
+  }
+  PetscCall(PetscMalloc1(8 * ncells, &grid->cells));
+  PetscCall(PetscMalloc1(3 * nvertices, &grid->coordinates));
+  PetscCall(PetscMalloc1(4 * nfacets, &grid->facets));
+  PetscCall(PetscMalloc1(nfacets, &grid->facetface));
+  grid->ncorners  = 8;
+  grid->nvertices = nvertices;
+  grid->ncells    = 0;
+  grid->nfacets   = 0;
+  for (PetscInt b = 0; b < nblocks; ++b) {
+    ShapeBlockCells(&blocks[b], mirrored ? 1 : 0, grid);
+    for (PetscInt d = 0; d < 3; ++d) ShapeBlockFacets(&blocks[b], d, grid);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(grid->cells));
+  PetscCall(PetscFree(grid->coordinates));
+  PetscCall(PetscFree(grid->facets));
+  PetscCall(PetscFree(grid->facetface));
+  PetscCall(PetscFree(grid->curve));
+  PetscFunctionReturn(0);
+}
+
+/* Length of the first i cells: `even` of length 1, then growing by the ratio */
+static PetscReal ShapeGradedLength(PetscReal ratio, PetscInt even, PetscInt i)
+{
+  if (i <= even) return (PetscReal)i;
+  return (PetscReal)even + ratio * (PetscPowReal(ratio, (PetscReal)(i - even)) - 1) / (ratio - 1);
+}
+
+PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
+{
+  PetscReal ratio;
+
+  even = PetscMax(even, 1);
+  if (grading == 0 || grading == 1 || n <= even || i == 0 || i == n) return (PetscReal)i / (PetscReal)n;
+  if (grading < 1) return 1 - ShapeGraded(1 / grading, even, n, n - i);
+  ratio = PetscPowReal(grading, 1 / (PetscReal)(n - even));
+  return ShapeGradedLength(ratio, even, i) / ShapeGradedLength(ratio, even, n);
+}
+
+PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)
+{
+  PetscFunctionBegin;
+  PetscCheck(count > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" must have at least one cell %s, but has %" PetscInt_FMT, body->name, what, count);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal nvertices)
+{
+  PetscFunctionBegin;
+  PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal grading, PetscInt even, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the even cells of a grading must be between 0 and all %" PetscInt_FMT ", but are %" PetscInt_FMT,
+    body->name, n, even);
+  PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, "
+    "but is %g",
+    body->name, (double)grading);
+  PetscFunctionReturn(0);
+}

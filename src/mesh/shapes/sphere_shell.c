@@ -1,0 +1,93 @@
+/* Octant of a shell between spheres that need not be concentric. The outer surface may be cut by a further sphere,
+   the cap. Every surface is met by rays from the octant's corner, so that all points stay in their coordinate planes.
+ */
+#include "src/mesh/meshimpl.h"
+
+/* Distance from the corner to the sphere along a direction of the first octant; the corner is inside */
+static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere, const PetscReal direction[3])
+{
+  PetscReal along = 0, square = 0;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscReal c = (sphere->center[d] - body->octant.corner[d]) * (body->octant.signs[d] < 0 ? -1 : 1);
+
+    along += c * direction[d];
+    square += c * c;
+  }
+  return along + PetscSqrtReal(along * along + sphere->radius * sphere->radius - square);
+}
+
+static void ShellDistances(const SceneBody *body, const PetscReal direction[3], PetscReal *inner, PetscReal *outer)
+{
+  *inner = SphereDistance(body, &body->octant.inner, direction);
+  *outer = SphereDistance(body, &body->octant.outer, direction);
+  if (body->octant.cap.radius > 0) *outer = PetscMin(*outer, SphereDistance(body, &body->octant.cap, direction));
+}
+
+static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, const char what[],
+  const SceneSphere *sphere)
+{
+  PetscReal square = 0;
+
+  PetscFunctionBegin;
+  PetscCheck(sphere->radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the %s sphere must be positive, but is %g", body->name, what, (double)sphere->radius);
+  for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(sphere->center[d] - body->octant.corner[d]);
+  PetscCheck(square < PetscSqr(sphere->radius), comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the octant's corner must lie inside of the %s sphere, but is %g away from its center, and the radius "
+    "is %g",
+    body->name, what, (double)PetscSqrtReal(square), (double)sphere->radius);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
+{
+  const PetscInt samples = 8; /* directions along an edge of the cube of parameters */
+
+  PetscFunctionBegin;
+  PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the cap must be positive, or 0 for none, but is %g", body->name,
+    (double)body->octant.cap.radius);
+  PetscCall(ShellCheckCorner(comm, body, "inner", &body->octant.inner));
+  PetscCall(ShellCheckCorner(comm, body, "outer", &body->octant.outer));
+  if (body->octant.cap.radius > 0) PetscCall(ShellCheckCorner(comm, body, "cap", &body->octant.cap));
+  for (PetscInt i = 0; i < 3 * PetscSqr(samples + 1); ++i) {
+    const PetscInt column = i / 3 % (samples + 1), row = i / 3 / (samples + 1);
+    PetscReal      q[3], direction[3], inner, outer;
+
+    q[i % 3]       = 1;
+    q[(i + 1) % 3] = (PetscReal)column / samples;
+    q[(i + 2) % 3] = (PetscReal)row / samples;
+    OctantDirection(q, direction);
+    ShellDistances(body, direction, &inner, &outer);
+    PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the inner surface must lie inside of the outer one, but in the direction (%g, %g, %g) they are %g "
+      "and %g away from the corner",
+      body->name, (double)direction[0], (double)direction[1], (double)direction[2], (double)inner, (double)outer);
+  }
+  PetscCall(OctantSize(comm, body, PETSC_FALSE, ncells, nvertices));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeCreate_SphereShell(const SceneBody *body, ShapeGrid *grid)
+{
+  PetscFunctionBegin;
+  PetscCall(OctantCreate(body, PETSC_FALSE, grid));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeMap_SphereShell(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
+{
+  PetscReal q[3], s, direction[3], inner, outer, place[3];
+
+  PetscFunctionBegin;
+  OctantSplit(p, q, &s);
+  OctantDirection(q, direction);
+  ShellDistances(body, direction, &inner, &outer);
+  for (PetscInt d = 0; d < 3; ++d) place[d] = ((1 - s) * inner + s * outer) * direction[d];
+  OctantPlace(body, place, x);
+  PetscFunctionReturn(0);
+}
+
+const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell};

@@ -1,0 +1,40 @@
+/* Octant of a shell between two ellipsoids around its corner */
+#include "src/mesh/meshimpl.h"
+
+static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
+{
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscReal inner = body->octant.inner_axes[d], outer = body->octant.outer_axes[d];
+
+    PetscCheck(inner > 0 && inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the semi-axes must be 0 < inner < outer, but along %c they are %g and %g", body->name, "xyz"[d],
+      (double)inner, (double)outer);
+  }
+  PetscCall(OctantSize(comm, body, PETSC_FALSE, ncells, nvertices));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeCreate_SpheroidShell(const SceneBody *body, ShapeGrid *grid)
+{
+  PetscFunctionBegin;
+  PetscCall(OctantCreate(body, PETSC_FALSE, grid));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeMap_SpheroidShell(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
+{
+  PetscReal q[3], s, direction[3], place[3];
+
+  PetscFunctionBegin;
+  OctantSplit(p, q, &s);
+  OctantDirection(q, direction);
+  for (PetscInt d = 0; d < 3; ++d)
+    place[d] = ((1 - s) * body->octant.inner_axes[d] + s * body->octant.outer_axes[d]) * direction[d];
+  OctantPlace(body, place, x);
+  PetscFunctionReturn(0);
+}
+
+const Shape ShapeSpheroidShell = {OctantFaces, ShapeSize_SpheroidShell, ShapeCreate_SpheroidShell,
+  ShapeMap_SpheroidShell};

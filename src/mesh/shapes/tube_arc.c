@@ -1,0 +1,88 @@
+/* Arc of a tube. Parameters: distance from the axis, angle about it, place along it */
+#include "src/mesh/meshimpl.h"
+
+static const char *const *ShapeFaces_TubeArc(PETSC_UNUSED const SceneBody *body)
+{
+  static const char *const faces[] = {"inner", "outer", "amin", "amax", "lmin", "lmax", NULL};
+
+  return faces;
+}
+
+static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
+{
+  const SceneTubeArc *tube  = &body->tube;
+  const PetscInt     *n     = body->cells;
+  const PetscReal     angle = tube->angles[1] - tube->angles[0];
+
+  PetscFunctionBegin;
+  PetscCheck(tube->axis >= 0 && tube->axis < 3, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the axis of the tube must be 0, 1 or 2, but is %" PetscInt_FMT, body->name, tube->axis);
+  PetscCheck(tube->radii[0] > 0 && tube->radii[0] < tube->radii[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radii of the tube must be 0 < inner < outer, but are %g and %g", body->name,
+    (double)tube->radii[0], (double)tube->radii[1]);
+  PetscCheck(angle > 0 && angle < 360, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the arc must be more than 0 and less than 360 degrees, but goes from %g to %g", body->name,
+    (double)tube->angles[0], (double)tube->angles[1]);
+  PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
+    (double)tube->extent[0], (double)tube->extent[1]);
+  PetscCall(ShapeCheckCount(comm, body, "radially", n[0]));
+  PetscCall(ShapeCheckCount(comm, body, "around the axis", n[1]));
+  PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
+  PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of "
+    "cells is %" PetscInt_FMT,
+    body->name, (double)angle, n[1]);
+  PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
+  *ncells    = (PetscInt64)n[0] * n[1] * n[2];
+  *nvertices = (PetscInt64)(n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+  PetscFunctionReturn(0);
+}
+
+static PetscInt TubeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+{
+  const PetscInt *n = (const PetscInt *)context;
+
+  return i + (n[0] + 1) * (j + (n[1] + 1) * k);
+}
+
+static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid)
+{
+  const PetscReal *range[3] = {body->tube.radii, body->tube.angles, body->tube.extent};
+  const PetscInt  *n        = body->cells;
+  const ShapeBlock block    = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, TubeVertex};
+  PetscReal       *p;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeGridCreate(1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
+  p = grid->coordinates;
+  for (PetscInt k = 0; k <= n[2]; ++k) {
+    for (PetscInt j = 0; j <= n[1]; ++j) {
+      for (PetscInt i = 0; i <= n[0]; ++i, p += 3) {
+        const PetscInt index[3] = {i, j, k};
+
+        for (PetscInt d = 0; d < 3; ++d) {
+          const PetscReal part = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
+
+          p[d] = (1 - part) * range[d][0] + part * range[d][1];
+        }
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeMap_TubeArc(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
+{
+  const PetscInt  axis = body->tube.axis, s = (axis + 1) % 3, t = (axis + 2) % 3;
+  const PetscReal radius = p[0], angle = p[1] * PETSC_PI / 180, along = p[2];
+
+  PetscFunctionBegin;
+  x[axis] = along;
+  x[s]    = body->tube.center[s] + radius * PetscCosReal(angle);
+  x[t]    = body->tube.center[t] + radius * PetscSinReal(angle);
+  PetscFunctionReturn(0);
+}
+
+const Shape ShapeTubeArc = {ShapeFaces_TubeArc, ShapeSize_TubeArc, ShapeCreate_TubeArc, ShapeMap_TubeArc};

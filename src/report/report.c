@@ -1,0 +1,93 @@
+/* What a solve adds to the report of its load step. */
+#include "src/step/stepimpl.h"
+#include <stdarg.h>
+
+/* Collective. Said once on stderr, at once, and kept for the summary */
+PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
+{
+  char    sentence[512];
+  va_list args;
+
+  PetscFunctionBegin;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(sentence, sizeof(sentence), format, NULL, args));
+  va_end(args);
+  PetscCall(PetscFPrintf(comm, stderr, "contact: warning: %s\n", sentence));
+  PetscCall(PetscRealloc((size_t)(report->nwarnings + 1) * sizeof(*report->warnings), &report->warnings));
+  PetscCall(PetscStrallocpy(sentence, (char **)&report->warnings[report->nwarnings++]));
+  PetscFunctionReturn(0);
+}
+
+/* The last solve's end is the load step's */
+PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])
+{
+  PetscFunctionBegin;
+  report->converged = converged;
+  PetscCall(PetscFree(*(char **)&report->reason));
+  PetscCall(PetscStrallocpy(reason, (char **)&report->reason));
+  PetscFunctionReturn(0);
+}
+
+/* Appends */
+PetscErrorCode ReportIterations(StepReport *report, PetscInt n, const PetscInt iterations[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((report->nksp + n) * sizeof(PetscInt), &report->ksp_iterations));
+  PetscCall(PetscArraycpy(report->ksp_iterations + report->nksp, iterations, n));
+  report->nksp += n;
+  PetscFunctionReturn(0);
+}
+
+/* What the preconditioner has done so far; zeros where it does not count */
+PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
+{
+  PC        pc;
+  PetscBool isamgf;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(counts, sizeof(*counts)));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &isamgf));
+  if (isamgf) PetscCall(PCAMGFGetCounts(pc, counts));
+  PetscFunctionReturn(0);
+}
+
+/* What the preconditioner did since `before`: amgf counts for itself, any other PC is applied once an iteration of
+   the whole step */
+PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepReport *report)
+{
+  PC           pc;
+  PetscBool    isamgf;
+  PCAMGFCounts counts;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &isamgf));
+  if (isamgf) {
+    PetscCall(PCAMGFGetCounts(pc, &counts));
+    PetscCall(PCAMGFGetFilterSize(pc, &report->filter_dofs));
+    report->amg_applications += counts.amg_applies - before->amg_applies;
+    report->amg_setups += counts.amg_setups - before->amg_setups;
+    PetscCall(PCAMGFGetFactored(pc, &report->factored, NULL));
+  } else {
+    report->amg_applications = 0;
+    for (PetscInt i = 0; i < report->nksp; ++i) report->amg_applications += report->ksp_iterations[i];
+    report->amg_setups = report->nksp;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ReportFallbacks(StepReport *report, const TaoIPFilterFallbacks *solve)
+{
+  TaoIPFilterFallbacks *sum = &report->linear;
+
+  PetscFunctionBegin;
+  sum->refinements += solve->refinements;
+  sum->amg_rebuilds += solve->amg_rebuilds;
+  sum->filters += solve->filters;
+  sum->direct += solve->direct;
+  sum->failures += solve->failures;
+  sum->subspaces += solve->subspaces;
+  sum->backward_error = PetscMax(sum->backward_error, solve->backward_error);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,142 @@
+/* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at
+   the contact as the last one has it */
+#include "src/step/stepimpl.h"
+
+#define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */
+
+/*@C
+   SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before
+
+   Collective
+
+   Input Parameters:
++  sim   - the simulation, before SimulationSetUp()
+-  marks - the marks, which must outlive the simulation's set-up; none at the beginning
+
+   Level: developer
+
+.seealso: `SimulationPropose()`, `SimulationMark()`, `MeshMarksAdd()`
+@*/
+PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody *body = &scene->bodies[b];
+
+    PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP,
+      "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      body->name, body->order);
+    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX, sim->comm, PETSC_ERR_SUP,
+      "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: "
+      "leave the option out",
+      body->name);
+  }
+  PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
+    "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
+    scene->ties[0].name);
+  sim->marks = marks;
+  PetscFunctionReturn(0);
+}
+
+/* Squared errors of cells add up over the load steps */
+PetscErrorCode AdaptAddErrors(Simulation sim, PetscReal cells[])
+{
+  PetscInt cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
+/* The errors of this rank's cells above a threshold, over the ranks */
+static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
+{
+  PetscFunctionBegin;
+  *sum = 0.0;
+  for (PetscInt c = 0; c < n; ++c) *sum += sim->adapt.errors[c] >= threshold ? sim->adapt.errors[c] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of
+   cells: equal ones by symmetry stay together, on any number of ranks */
+static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
+{
+  const PetscReal step    = PetscPowReal(2.0, -0.125);
+  PetscReal       largest = 0.0, threshold, all, sum = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, sim->adapt.errors[c]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCall(AdaptSum(sim, n, 0.0, &all));
+  threshold = 1.03 * largest;
+  while (sum < ADAPT_SHARE * all) {
+    threshold *= step;
+    PetscCall(AdaptSum(sim, n, threshold, &sum));
+  }
+  for (PetscInt c = 0; c < n; ++c)
+    sim->adapt.marked[c] = (PetscBool)(sim->adapt.errors[c] >= threshold && sim->adapt.errors[c] > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationPropose - Chooses the cells that the next mesh is to have refined
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, with marks and after its load steps
+
+   Output Parameter:
+.  growth - how many times its unknowns the next mesh has, about
+
+   Level: developer
+
+   Notes:
+   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps;
+   and, on both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces,
+   and of plane ones those at the edge of contact.
+
+.seealso: `SimulationMark()`, `AccuracyAssess()`
+@*/
+PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
+{
+  PetscInt cstart, cend, counts[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  PetscCall(AdaptMarkErrors(sim, cend - cstart));
+  PetscCall(AdaptMarkContact(sim));
+  for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->adapt.marked[c];
+  counts[1] = cend - cstart;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->comm));
+  *growth = 1.0 + 7.0 * (PetscReal)counts[0] / (PetscReal)counts[1];
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationMark - Marks the cells that were proposed
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, after SimulationPropose()
+
+   Output Parameter:
+.  marks - the marks that it was made with; those for the next mesh are added
+
+   Level: developer
+
+.seealso: `SimulationSetMarks()`, `SimulationPropose()`
+@*/
+PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshMarksAdd(sim->dm, sim->adapt.marked, marks));
+  PetscFunctionReturn(0);
+}

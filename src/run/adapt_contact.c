@@ -1,0 +1,209 @@
+/* Which cells at the contact the next mesh has refined, as the last load step has it: recovery sees neither facets in
+   place of curves nor where the faces meet */
+#include "src/step/stepimpl.h"
+
+/* Of each vertex of a face, in its local vector */
+typedef enum {
+  VERTEX_CLOSED, /* 1 where the pair is in contact */
+  VERTEX_ANGLE,  /* of the facets that meet there [rad]: 2 pi inside of a plane face */
+  VERTEX_HANGS   /* 1 where it follows others */
+} VertexFact;
+
+#define ADAPT_PLANE \
+  1e-9 /* of a face's area: its facets' area vectors add up to all of it but for this where it is plane */
+#define ADAPT_INSIDE (1.9 * PETSC_PI) /* the angle about a vertex that is not on a face's border */
+
+static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
+{
+  PetscSection global;
+  PetscInt     rstart;
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(facts, &rstart, NULL));
+  PetscCall(VecGetArray(facts, &a));
+  for (PetscInt k = 0; k < sim->npoints; ++k) {
+    PetscInt offset;
+
+    if (sim->points[k].pair != pair || !sim->points[k].closed) continue;
+    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &offset));
+    a[offset - rstart + VERTEX_CLOSED] = 1.0;
+  }
+  PetscCall(VecRestoreArray(facts, &a));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AdaptSetHanging(Simulation sim, Vec facts)
+{
+  Mat          means;
+  PetscInt     start = 0, end = 0;
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetHanging(sim->dm, &means));
+  if (means) PetscCall(MatGetOwnershipRange(means, &start, &end));
+  PetscCall(VecGetArray(facts, &a));
+  for (PetscInt i = start; i < end; ++i) {
+    PetscInt n;
+
+    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
+    a[3 * (i - start) + VERTEX_HANGS] = n > 0 ? 1.0 : 0.0;
+    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+  }
+  PetscCall(VecRestoreArray(facts, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Angle at corner a of an undeformed facet */
+static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
+{
+  PetscReal ab = 0.0, aa = 0.0, bb = 0.0;
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    const PetscReal d = x[(a + 1) % 4][c] - x[a][c], e = x[(a + 3) % 4][c] - x[a][c];
+
+    ab += d * e;
+    aa += d * d;
+    bb += e * e;
+  }
+  return aa > 0.0 && bb > 0.0 ? PetscAcosReal(PetscClipInterval(ab / PetscSqrtReal(aa * bb), -1.0, 1.0)) : 0.0;
+}
+
+/* Twice the area vector of an undeformed facet */
+static void FacetArea(PetscReal x[4][3], PetscReal area[3])
+{
+  PetscReal d[3], e[3];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    d[c] = x[2][c] - x[0][c];
+    e[c] = x[3][c] - x[1][c];
+  }
+  for (PetscInt c = 0; c < 3; ++c) area[c] = d[(c + 1) % 3] * e[(c + 2) % 3] - d[(c + 2) % 3] * e[(c + 1) % 3];
+}
+
+/* Adds the angles about a face's vertices, and finds whether it is plane */
+static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec facts, PetscBool *plane)
+{
+  PetscSection    section;
+  IS              facets;
+  PetscInt        n;
+  const PetscInt *f;
+  PetscReal       sums[4] = {0.0};
+  Vec             angles;
+  PetscScalar    *a;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(DMGetLocalVector(sim->dm, &angles));
+  PetscCall(VecZeroEntries(angles));
+  PetscCall(VecGetArray(angles, &a));
+  PetscCall(MeshGetFacets(sim->dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], area[3];
+
+    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(sim->dm, 4, vertices, x));
+    FacetArea(x, area);
+    for (PetscInt c = 0; c < 3; ++c) sums[c] += area[c];
+    sums[3] += PetscSqrtReal(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    for (PetscInt k = 0; k < 4; ++k) {
+      PetscInt offset;
+
+      PetscCall(PetscSectionGetOffset(section, vertices[k], &offset));
+      a[offset + VERTEX_ANGLE] += FacetAngle(x, k);
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscCall(VecRestoreArray(angles, &a));
+  PetscCall(DMLocalToGlobal(sim->dm, angles, ADD_VALUES, facts));
+  PetscCall(DMRestoreLocalVector(sim->dm, &angles));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  *plane = (PetscBool)(PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) >=
+                       (1.0 - ADAPT_PLANE) * sums[3]);
+  PetscFunctionReturn(0);
+}
+
+/* Is a facet in contact, and, of a plane face, at the edge of contact: where it ends, or the face does? */
+static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar facts[], const PetscInt vertices[4],
+  PetscBool plane, PetscBool *errs)
+{
+  PetscBool any = PETSC_FALSE, edge = (PetscBool)!plane;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 4; ++k) {
+    PetscInt  offset;
+    PetscBool closed, hangs, border;
+
+    PetscCall(PetscSectionGetOffset(section, vertices[k], &offset));
+    closed = (PetscBool)(PetscRealPart(facts[offset + VERTEX_CLOSED]) > 0.0);
+    hangs  = (PetscBool)(PetscRealPart(facts[offset + VERTEX_HANGS]) > 0.0);
+    border = (PetscBool)(PetscRealPart(facts[offset + VERTEX_ANGLE]) < ADAPT_INSIDE);
+    any    = (PetscBool)(any || closed);
+    edge   = (PetscBool)(edge || (!hangs && (!closed || border)));
+  }
+  *errs = (PetscBool)(any && edge);
+  PetscFunctionReturn(0);
+}
+
+/* The cells of deformable bodies behind such facets */
+static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local, PetscBool plane)
+{
+  PetscSection       section;
+  IS                 facets;
+  PetscInt           n, cstart;
+  const PetscInt    *f;
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, NULL));
+  PetscCall(MeshGetFacets(sim->dm, face, &facets));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  PetscCall(VecGetArrayRead(local, &a));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt *cells;
+    PetscInt        vertices[4], body;
+    PetscBool       errs = PETSC_FALSE;
+
+    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
+    PetscCall(AdaptFacetErrs(section, a, vertices, plane, &errs));
+    PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
+    PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
+    if (errs && sim->scene->bodies[body].material.type != MATERIAL_RIGID)
+      sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(local, &a));
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(ISDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/* Both sides of each pair. Under a plane face cells are refined where the error is: refined wherever faces touch,
+   they would be most of all */
+PetscErrorCode AdaptMarkContact(Simulation sim)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    const char *const face[2] = {sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar};
+    PetscBool         plane[2];
+    Vec               facts, local;
+
+    PetscCall(DMGetGlobalVector(sim->dm, &facts));
+    PetscCall(VecZeroEntries(facts));
+    PetscCall(AdaptSetClosed(sim, p, facts));
+    PetscCall(AdaptSetHanging(sim, facts));
+    for (PetscInt k = 0; k < 2; ++k) PetscCall(AdaptMeasureFace(sim, face[k], facts, &plane[k]));
+    PetscCall(DMGetLocalVector(sim->dm, &local));
+    PetscCall(DMGlobalToLocal(sim->dm, facts, INSERT_VALUES, local));
+    PetscCall(DMRestoreGlobalVector(sim->dm, &facts));
+    for (PetscInt k = 0; k < 2; ++k) PetscCall(AdaptMarkFace(sim, face[k], local, (PetscBool)(plane[0] && plane[1])));
+    PetscCall(DMRestoreLocalVector(sim->dm, &local));
+  }
+  PetscFunctionReturn(0);
+}

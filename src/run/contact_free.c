@@ -1,0 +1,103 @@
+/* The yardstick: what the same mesh and the same AMG cost without contact. */
+#include "src/step/stepimpl.h"
+#include <petsctime.h>
+
+/* The optimizer's own, with its options: PCAMGF without a subspace is its AMG alone */
+static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
+{
+  Tao tao;
+  Mat K;
+
+  PetscFunctionBegin;
+  PetscCall(TaoCreate(sim->comm, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  PetscCall(TaoGetKSP(tao, ksp));
+  PetscCall(PetscObjectReference((PetscObject)*ksp));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(KSPSetFromOptions(*ksp));
+  PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
+  PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
+  PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format that the optimizer's matrix has */
+  PetscCall(StiffnessSetModes(sim, *ksp, K));
+  PetscCall(KSPSetOperators(*ksp, K, K));
+  PetscCall(MatDestroy(&K));
+  PetscFunctionReturn(0);
+}
+
+/*
+   The load of the comparison: the step's own forces, which the prescribed displacements cause in the driven bodies, and
+   a uniform pressure over the contact faces of the same norm, so that every body is loaded as contact loads it
+*/
+static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
+{
+  ContactLinearization lin;
+  Vec                  pressure;
+  PetscReal            size, contact;
+
+  PetscFunctionBegin;
+  if (!sim->contact) PetscFunctionReturn(0);
+  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lin));
+  PetscCall(VecDuplicate(load, &pressure));
+  PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
+  PetscCall(TiesGather(&sim->ties, pressure));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, pressure));
+  PetscCall(VecNorm(load, NORM_2, &size));
+  PetscCall(VecNorm(pressure, NORM_2, &contact));
+  if (contact > 0.0) PetscCall(VecAXPY(load, -(size > 0.0 ? size : 1.0) / contact, pressure));
+  PetscCall(VecDestroy(&pressure));
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationContactFree - Solves the first load step's elastic problem with its contact pairs replaced by a given
+   pressure on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time,
+   condition number beta and the bound sqrt(2 (beta+3)/beta) iterations into the report.
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, before or after any step; its state does not change
+
+   Level: advanced
+
+   Notes:
+   beta is the ratio of the extreme Ritz values of CG. Every body must be held without contact; where one is not the
+   solve does not converge and the report keeps iterations = 0.
+
+.seealso: `SimulationGetReport()`, `PCAMGF`
+@*/
+PetscErrorCode SimulationContactFree(Simulation sim)
+{
+  RunReport         *report = &sim->report;
+  StepProblem        problem;
+  KSP                ksp;
+  KSPConvergedReason reason;
+  PetscReal          emax, emin;
+  PetscLogDouble     t0, t1;
+
+  PetscFunctionBegin;
+  PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP,
+    "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
+  PetscCall(StepProblemCreate(sim, 1.0, &problem));
+  PetscCall(ContactFreeLoad(sim, problem.force));
+  PetscCall(ContactFreeKSP(sim, &ksp));
+  PetscCall(KSPSetComputeSingularValues(ksp, PETSC_TRUE));
+  PetscCall(PetscTime(&t0));
+  PetscCall(KSPSolve(ksp, problem.force, problem.w));
+  PetscCall(PetscTime(&t1));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  if (reason > 0) {
+    PetscReal beta;
+
+    PetscCall(KSPComputeExtremeSingularValues(ksp, &emax, &emin));
+    beta = emin > 0.0 ? emax / emin : PETSC_INFINITY;
+    PetscCall(KSPGetIterationNumber(ksp, &report->contact_free.iterations));
+    report->contact_free.condition = beta;
+    report->contact_free.bound = PetscSqrtReal(2.0 * (1.0 + 3.0 / beta)) * (PetscReal)report->contact_free.iterations;
+    report->contact_free.solve_time = t1 - t0;
+  }
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(StepProblemDestroy(&problem));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,119 @@
+/* Building what a scene calls for: mesh, elasticity, loads, contact, report. */
+#include "src/step/stepimpl.h"
+
+static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
+{
+  Scene        scene = sim->scene;
+  Material    *materials;
+  ElementType *elements;
+  PetscBool    linear;
+  IS           rows;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    materials[b] = scene->bodies[b].material;
+    elements[b]  = scene->bodies[b].element;
+  }
+  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, elements, &sim->elasticity));
+  PetscCall(PetscFree2(materials, elements));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
+  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
+    "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
+    "quadratic");
+  PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
+  PetscCall(PrescribedCreate(sim->dm, scene, &sim->places, &sim->prescribed));
+  PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
+  PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
+  PetscCall(ISDestroy(&rows));
+  PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
+  PetscCall(TemperaturesCreate(scene, sim->elasticity, sim->comm, &sim->temperatures));
+  PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
+  PetscCall(SpringsMeasureStiffness(sim, &sim->stiffness));
+  PetscCall(SpringsCreate(sim));
+  PetscCall(StiffnessSetType(sim));
+  PetscCall(TiesCreate(sim));
+  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(TiesCreateTangent(sim, &sim->K));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(sim, sim->path.u, sim->K));
+  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SimulationSetUpContact(Simulation sim)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  if (!scene->npairs) PetscFunctionReturn(0);
+  PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
+  PetscCall(ContactSetFromOptions(sim->contact));
+  PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
+  for (PetscInt p = 0; p < scene->npairs; ++p)
+    PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
+      "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
+  PetscCall(ContactHistoryCreate(sim->dm, scene, &sim->history));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SimulationSetUpReport(Simulation sim)
+{
+  RunReport  *report = &sim->report;
+  Scene       scene  = sim->scene;
+  PetscMPIInt size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  report->ranks = size;
+  PetscCall(VecGetSize(sim->path.u, &report->dofs));
+  report->problem   = scene->name;
+  report->units     = scene->units ? scene->units : "";
+  report->refine    = scene->refine;
+  report->converged = PETSC_TRUE;
+  report->reason    = "all load steps converged";
+  report->nbodies   = scene->nbodies;
+  PetscCall(PetscCalloc1(scene->nsteps, &report->steps));
+  PetscCall(PetscMalloc2(scene->nbodies, &report->bodies, scene->nbodies, &report->assemblies));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b] = scene->bodies[b].name;
+  PetscCall(EffectsCreate(sim, report));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the
+   contact pairs if it names any; at time 0 with zero displacement
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Level: beginner
+
+.seealso: `SimulationCreate()`, `SimulationStep()`
+@*/
+PetscErrorCode SimulationSetUp(Simulation sim)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  PetscCall(StepEventsRead(&sim->start));
+  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.start));
+  PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(MeshCreateScene(sim->comm, scene, sim->marks, &sim->dm));
+  PetscCall(MeshCheckScene(sim->dm, scene));
+  PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
+  PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
+  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));
+  PetscCall(VecSet(sim->path.u, 0.0));
+  PetscCall(VecDuplicate(sim->path.u, &sim->path.previous_u));
+  PetscCall(VecSet(sim->path.previous_u, 0.0));
+  PetscCall(SimulationSetUpElasticity(sim));
+  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
+  PetscCall(SimulationSetUpContact(sim));
+  PetscCall(ForecastSetUp(sim));
+  PetscCall(SimulationSetUpReport(sim));
+  PetscFunctionReturn(0);
+}

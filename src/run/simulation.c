@@ -1,0 +1,290 @@
+/* The life of a simulation, and what its caller may set and ask. */
+#include "src/step/stepimpl.h"
+
+/*@C
+   SimulationCreate - Prepares to simulate a scene
+
+   Collective
+
+   Input Parameters:
++  comm  - the communicator
+-  scene - the scene; must outlive the simulation
+
+   Output Parameter:
+.  sim - the simulation
+
+   Level: beginner
+
+.seealso: `SimulationSetTolerances()`, `SimulationSetMonitor()`, `SimulationSetFromOptions()`, `SimulationSetUp()`,
+          `SimulationDestroy()`, `SceneLoad()`
+@*/
+PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
+{
+  PetscFunctionBegin;
+  PetscCall(StepEventsRegister());
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscNew(sim));
+  (*sim)->comm     = comm;
+  (*sim)->scene    = scene;
+  (*sim)->warm     = PETSC_TRUE;
+  (*sim)->estimate = PETSC_TRUE;
+  (*sim)->maxcuts  = 5;
+  (*sim)->progress = (Progress){.every = 10.0};
+  (*sim)->tolerances =
+    (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetTolerances - What the solvers of a simulation are asked for, unless options say otherwise
+
+   Logically Collective
+
+   Input Parameters:
++  sim        - the simulation, before SimulationSetFromOptions()
+-  tolerances - the tolerances
+
+   Level: intermediate
+
+   Note:
+   `-tao_gatol` and `-tao_ipfilter_tol` win over that of the optimizer, `-elasticity_ksp_rtol` over the linear solver's,
+   `-contact_update_tol` and `-contact_gap_tol` over those of the gap.
+
+.seealso: `SimulationGetTolerances()`, `AccuracyPlan()`
+@*/
+PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tolerances)
+{
+  PetscFunctionBegin;
+  sim->tolerances = *tolerances;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetTolerances - What the solvers of a simulation are asked for
+
+   Not Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  tolerances - the tolerances; after a load step those that its solvers had, options included
+
+   Level: intermediate
+
+.seealso: `SimulationSetTolerances()`
+@*/
+PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerances)
+{
+  PetscFunctionBegin;
+  *tolerances = sim->tolerances;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetMonitor - Whether to say why a load step is cut, and how the gap changes when it is linearized again
+
+   Logically Collective
+
+   Input Parameters:
++  sim     - the simulation, before SimulationSetFromOptions()
+-  monitor - the answer, unless the option -load_monitor says otherwise
+
+   Level: intermediate
+@*/
+PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
+{
+  PetscFunctionBegin;
+  sim->monitor = monitor;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and
+   the cells' mean stress
+
+   Logically Collective
+
+   Input Parameters:
++  sim    - the simulation, before SimulationSetUp()
+.  nodes  - stress at the nodes with its principal values, strain energy of the cells; default false
+-  points - stress at the quadrature points; default false
+
+   Level: intermediate
+
+.seealso: `SimulationStep()`, `OutputWrite()`
+@*/
+PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool points)
+{
+  PetscFunctionBegin;
+  sim->results.nodes  = nodes;
+  sim->results.points = points;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationSetFromOptions - Takes what the options say
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation, before SimulationSetUp()
+
+   Options Database Keys:
++  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
+                                coarser mesh ended with; default true
+.  -load_max_cuts <5>         - how often a load step that fails is halved
+.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
+.  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
+.  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
+.  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
+.  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
+                                linearization
+-  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
+                                TAOIPFILTER: the
+                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc
+                                solvers have
+                                the prefix penalty_. The faces penetrate by about pressure times the bodies'
+                                flexibility over this
+
+   Level: beginner
+
+.seealso: `SimulationCreate()`, `SimulationSetUp()`
+@*/
+PetscErrorCode SimulationSetFromOptions(Simulation sim)
+{
+  PetscFunctionBegin;
+  PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
+  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last",
+    "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep",
+    sim->maxcuts, &sim->maxcuts, NULL, 0));
+  PetscCall(
+    PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again",
+      "SimulationStep", sim->monitor, &sim->monitor, NULL));
+  PetscCall(PetscOptionsReal("-progress_every", "Seconds after which the run says again how far it is, 0: never",
+    "SimulationStep", sim->progress.every, &sim->progress.every, NULL));
+  PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
+    "SimulationStep", sim->estimate, &sim->estimate, NULL));
+  PetscCall(PetscOptionsReal("-contact_update_tol",
+    "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep",
+    sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
+  PetscCall(PetscOptionsReal("-contact_gap_tol",
+    "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
+    "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
+  PetscCall(PetscOptionsReal("-contact_penalty",
+    "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point "
+    "method)",
+    "SimulationStep", sim->penalty, &sim->penalty, NULL));
+  PetscOptionsEnd();
+  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
+  PetscCheck(sim->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->progress.every), sim->comm,
+    PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g",
+    (double)sim->progress.every);
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetDM - The mesh of all bodies, borrowed.
+
+   Not Collective
+
+   Level: intermediate
+@*/
+PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
+{
+  PetscFunctionBegin;
+  *dm = sim->dm;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationGetReport - The report of the run so far: one entry a load step, time of the phases, memory.
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation
+
+   Output Parameter:
+.  report - a view; its arrays and strings are borrowed and end with the simulation
+
+   Level: intermediate
+
+   Note:
+   Phase times come from PETSc's events, so PetscLogDefaultBegin() (or -log_view) must have been called before the
+   simulation was created; otherwise only the total is known.
+@*/
+PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(StepEventsGetTimes(sim->comm, &sim->start, &sim->report.time));
+  for (PetscInt b = 0; b < sim->report.nbodies; ++b)
+    PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
+  PetscCall(EffectsSetTimes(sim, &sim->report));
+  PetscCall(MemoryUsageGetPeak(sim->comm, &sim->report.peak_memory_bytes));
+  *report = sim->report;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationDestroy - Frees a simulation and its report.
+
+   Collective
+
+   Level: beginner
+@*/
+PetscErrorCode SimulationDestroy(Simulation *sim)
+{
+  Simulation s = *sim;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < s->report.nsteps; ++i) {
+    PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
+    PetscCall(PetscFree(s->report.steps[i].body_errors));
+    PetscCall(PetscFree(s->report.steps[i].ramps));
+    PetscCall(PetscFree(s->report.steps[i].probes));
+    PetscCall(PetscFree(s->report.steps[i].lines));
+    PetscCall(ForcesFree(&s->report.steps[i]));
+    PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
+  }
+  PetscCall(PetscFree(s->report.steps));
+  PetscCall(PetscFree2(s->report.bodies, s->report.assemblies));
+  PetscCall(PetscFree(s->report.effects));
+  for (PetscInt i = 0; i < s->report.nwarnings; ++i) PetscCall(PetscFree(*(char **)&s->report.warnings[i]));
+  PetscCall(PetscFree(s->report.warnings));
+  PetscCall(PetscFree2(s->pressure, s->gap));
+  PetscCall(PetscFree2(s->shear, s->slip));
+  PetscCall(PetscFree(s->stress));
+  PetscCall(PetscFree(s->points));
+  PetscCall(ResultsFree(&s->results));
+  PetscCall(PetscFree2(s->adapt.errors, s->adapt.marked));
+  PetscCall(StepForecastDestroy(&s->forecast.here));
+  PetscCall(ProbesDestroy(&s->probes));
+  PetscCall(ContactLinearizationDestroy(&s->linearization));
+  PetscCall(ContactLinearizationDestroy(&s->upcoming));
+  PetscCall(ContactHistoryDestroy(&s->history));
+  PetscCall(ContactDestroy(&s->contact));
+  PetscCall(PrescribedDestroy(&s->prescribed));
+  PetscCall(DeadLoadsDestroy(&s->loads));
+  PetscCall(TemperaturesDestroy(&s->temperatures));
+  PetscCall(SpringsDestroy(&s->springs));
+  PetscCall(TiesDestroy(&s->ties));
+  PetscCall(MatDestroy(&s->follows));
+  PetscCall(RigidDestroy(&s->rigid));
+  PetscCall(VertexPlacesDestroy(&s->places));
+  PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(PetscContainerDestroy(&s->subspace));
+  PetscCall(ElasticityDestroy(&s->elasticity));
+  PetscCall(MatDestroy(&s->K));
+  PetscCall(VecDestroy(&s->mass));
+  PetscCall(VecDestroy(&s->path.u));
+  PetscCall(VecDestroy(&s->path.previous_u));
+  PetscCall(VecDestroy(&s->path.outside));
+  PetscCall(VecDestroy(&s->path.contact));
+  PetscCall(DMDestroy(&s->dm));
+  PetscCall(PetscFree(*sim));
+  PetscFunctionReturn(0);
+}

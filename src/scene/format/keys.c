@@ -1,0 +1,178 @@
+/* The keys of a scene file: reading it, asking for keys, and what to say of those nobody asked for. */
+#include "src/scene/sceneimpl.h"
+#include <options.h>
+#include <stdarg.h>
+#include <string.h>
+
+/* On the first rank: the whole file, ended by a zero */
+static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
+{
+  FILE     *stream;
+  PetscBool exists;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTestFile(file, 'r', &exists));
+  stream = exists ? fopen(file, "r") : NULL;
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "there is no readable scene file \"%s\"", file);
+  PetscCheck(!fseek(stream, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "the scene file \"%s\" cannot be read",
+    file);
+  *length = (PetscInt64)ftell(stream);
+  rewind(stream);
+  PetscCheck(*length >= 0 && *length < PETSC_MPI_INT_MAX, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "the scene file \"%s\" is too long", file);
+  PetscCall(PetscCalloc1(*length + 1, text));
+  PetscCheck(fread(*text, 1, (size_t)*length, stream) == (size_t)*length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "the scene file \"%s\" cannot be read", file);
+  (void)fclose(stream);
+  PetscFunctionReturn(0);
+}
+
+/* The text of the file on all ranks, to be freed */
+static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
+{
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(RankErrorBegin(&error));
+  if (rank == 0) ierr = SceneKeysReadText(file, length, text);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
+  if (rank) PetscCall(PetscCalloc1(*length + 1, text));
+  PetscCallMPI(MPI_Bcast(*text, (PetscMPIInt)*length, MPI_CHAR, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys)
+{
+  SceneKeys      k;
+  PetscInt64     length;
+  char          *text;
+  RankError      error;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGetText(comm, file, &length, &text));
+  PetscCall(PetscNew(&k));
+  k->comm = comm;
+  k->file = file;
+  PetscCall(PetscOptionsCreate(&k->options));
+  PetscCall(RankErrorBegin(&error));
+  ierr = SceneCheckYAML((size_t)length, text);
+  if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
+  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ,
+    "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
+  PetscCall(PetscFree(text));
+  *keys = k;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysComplain(SceneKeys keys, const char format[], ...)
+{
+  va_list args;
+
+  PetscFunctionBegin;
+  if (keys->complaint[0]) PetscFunctionReturn(0);
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(keys->complaint, sizeof(keys->complaint), format, NULL, args));
+  va_end(args);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
+{
+  PetscFunctionBegin;
+  if (keys->nasked == keys->maxasked) {
+    keys->maxasked = 2 * keys->maxasked + 16;
+    PetscCall(PetscRealloc(keys->maxasked * sizeof(*keys->asked), &keys->asked));
+  }
+  PetscCall(PetscStrallocpy(key, &keys->asked[keys->nasked++]));
+  PetscFunctionReturn(0);
+}
+
+/* The text of a key, borrowed; NULL if the file has not got it */
+PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
+{
+  char      option[SCENE_KEY_LENGTH] = "-";
+  PetscBool set;
+  va_list   args;
+
+  PetscFunctionBegin;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(option + 1, sizeof(option) - 1, format, NULL, args));
+  va_end(args);
+  PetscCall(SceneKeysRemember(keys, option + 1));
+  PetscCall(PetscOptionsFindPair(keys->options, NULL, option, value, &set));
+  if (set && !*value) *value = "";
+  if (!set) {
+    *value = NULL;
+    if (required) PetscCall(SceneKeysComplain(keys, "the key \"%s\" is missing", option + 1));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What YAML makes of 3 in {poisson: 0,3} */
+static PetscBool SceneKeyIsNumber(const char key[])
+{
+  const char *last = strrchr(key, '_');
+
+  return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
+}
+
+/* Raises what is wrong with the file, if anything: a key nobody asked for, else the first complaint */
+PetscErrorCode SceneKeysCheck(SceneKeys keys)
+{
+  PetscInt    n;
+  char      **names, **values;
+  const char *nearest, *unknown = NULL;
+  size_t      shortest = 0, length;
+  PetscBool   cyclic;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
+  /* The shortest is the outermost: below a misspelt list every key is unknown */
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(PetscStrlen(names[i], &length));
+    if (!unknown || length < shortest) {
+      unknown  = names[i];
+      shortest = length;
+    }
+  }
+  if (unknown) {
+    PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
+    PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list "
+      "symmetry names",
+      keys->file);
+    PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -",
+      keys->file, unknown);
+    PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, "
+      "[1, 2]",
+      keys->file, unknown);
+    PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
+    SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file,
+      unknown, nearest);
+  }
+  PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
+  PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < (*keys)->nasked; ++i) PetscCall(PetscFree((*keys)->asked[i]));
+  PetscCall(PetscFree((*keys)->asked));
+  for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
+  PetscCall(PetscFree((*keys)->materials));
+  PetscCall(PetscOptionsDestroy(&(*keys)->options));
+  PetscCall(PetscFree(*keys));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,41 @@
+/* Numbers as a scene file writes them */
+#include "src/scene/sceneimpl.h"
+#include <petscviewer.h>
+#include <stdlib.h>
+
+/* The shortest decimal that reads back as the same number */
+PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
+{
+  char text[64];
+
+  PetscFunctionBegin;
+  for (int digits = 6; digits <= 17; ++digits) {
+    (void)snprintf(text, sizeof(text), "%.*g", digits, (double)value);
+    if ((PetscReal)strtod(text, NULL) == value) break;
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s", text));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewList(PetscViewer viewer, PetscInt n, const PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "["));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (i) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
+    PetscCall(SceneViewReal(viewer, values[i]));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewReals(PetscViewer viewer, const char label[], PetscInt n, const PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", label));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  PetscCall(SceneViewList(viewer, n, values));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,157 @@
+/* Values of a scene file: text to numbers, lists and names. What does not parse is complained of and left as it was. */
+#include "src/scene/sceneimpl.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <ctype.h>
+
+static PetscBool SceneParseAtEnd(const char *s)
+{
+  while (isspace((unsigned char)*s)) ++s;
+  return *s ? PETSC_FALSE : PETSC_TRUE;
+}
+
+/* A decimal number or a fraction of two, as -5/7 */
+PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[], PetscReal *value)
+{
+  char  *end;
+  double number = strtod(text, &end), divisor = 1.0;
+
+  PetscFunctionBegin;
+  if (end != text && *end == '/') {
+    const char *start = end + 1;
+
+    divisor = strtod(start, &end);
+    if (end == start) end = (char *)text;
+  }
+  if (end == text || !SceneParseAtEnd(end))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
+  else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a finite number", key, text));
+  else *value = (PetscReal)(number / divisor);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[], PetscInt *value)
+{
+  char     *end;
+  long long number;
+
+  PetscFunctionBegin;
+  errno  = 0;
+  number = strtoll(text, &end, 10);
+  if (end == text || !SceneParseAtEnd(end))
+    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
+  else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT)
+    PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
+  else *value = (PetscInt)number;
+  PetscFunctionReturn(0);
+}
+
+/* names as PETSc keeps them: values, then the type's name, its prefix and NULL */
+PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[], const char *const names[],
+  PetscInt *value)
+{
+  char      choices[SCENE_KEY_LENGTH] = "";
+  PetscBool same;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; names[i + 2]; ++i) {
+    PetscCall(PetscStrcasecmp(text, names[i], &same));
+    if (same) {
+      *value = i;
+      PetscFunctionReturn(0);
+    }
+    if (i) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
+    PetscCall(PetscStrlcat(choices, names[i], sizeof(choices)));
+  }
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseAnswer(SceneKeys keys, const char key[], const char text[], PetscBool *value)
+{
+  static const char *const answers[] = {"false", "true", "Answer", "", NULL};
+  PetscInt                 answer    = *value;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseEnum(keys, key, text, answers, &answer));
+  *value = answer ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* words is for PetscStrToArrayDestroy(); NULL and no words if the length is wrong */
+PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[], PetscInt *n, char ***words)
+{
+  int count;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrToArray(text, ',', &count, words));
+  if (*n != PETSC_DECIDE && *n != count) {
+    PetscCall(SceneKeysComplain(keys, "%s has %d values, it needs %" PetscInt_FMT, key, count, *n));
+    PetscCall(PetscStrToArrayDestroy(count, *words));
+    *words = NULL;
+    count  = 0;
+  }
+  *n = count;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseReals(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscReal values[])
+{
+  char **words;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseList(keys, key, text, &n, &words));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(SceneParseReal(keys, key, words[i], &values[i]));
+  if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseInts(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscInt values[])
+{
+  char **words;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseList(keys, key, text, &n, &words));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(SceneParseInt(keys, key, words[i], &values[i]));
+  if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+PetscBool SceneIsName(const char name[])
+{
+  if (!isalpha((unsigned char)name[0])) return PETSC_FALSE;
+  for (const char *c = name; *c; ++c)
+    if (!isalnum((unsigned char)*c) && *c != '_' && *c != '-') return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The names of a list of named things, allocated one by one. Names are keys, and keys do not tell case apart */
+PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool required, PetscInt *n, char ***names)
+{
+  const char *text;
+  char      **words;
+  PetscBool   same;
+
+  PetscFunctionBegin;
+  *n     = 0;
+  *names = NULL;
+  PetscCall(SceneKeysGet(keys, required, &text, "%s", key));
+  if (!text) PetscFunctionReturn(0);
+  *n = PETSC_DECIDE;
+  PetscCall(SceneParseList(keys, key, text, n, &words));
+  PetscCall(PetscMalloc1(*n, names));
+  for (PetscInt i = 0; i < *n; ++i) {
+    PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
+    if (!SceneIsName(words[i]))
+      PetscCall(
+        SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
+    for (PetscInt j = 0; j < i; ++j) {
+      PetscCall(PetscStrcasecmp(words[i], words[j], &same));
+      if (same) PetscCall(SceneKeysComplain(keys, "the name \"%s\" stands twice in %s", words[i], key));
+    }
+  }
+  if (required && !*n) PetscCall(SceneKeysComplain(keys, "%s is empty", key));
+  PetscCall(PetscStrToArrayDestroy((int)*n, words));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,72 @@
+/* Load programs by expressions and by tables of times and values */
+#include "src/scene/sceneimpl.h"
+
+static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
+  PetscInt *n, PetscReal **values)
+{
+  char   key[SCENE_KEY_LENGTH];
+  char **words;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", owner, column));
+  PetscCall(SceneParseList(keys, key, text, n, &words));
+  PetscCall(PetscCalloc1(*n, values));
+  for (PetscInt i = 0; i < *n; ++i) PetscCall(SceneParseReal(keys, key, words[i], &(*values)[i]));
+  if (words) PetscCall(PetscStrToArrayDestroy((int)*n, words));
+  PetscFunctionReturn(0);
+}
+
+/* Linear in between; before the first time and after the last the value there */
+static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const PetscReal values[], PetscReal time)
+{
+  PetscInt i = 0;
+
+  while (i < n && times[i] < time) ++i;
+  if (!i) return values[0];
+  if (i == n) return values[n - 1];
+  return values[i - 1] + (values[i] - values[i - 1]) * (time - times[i - 1]) / (times[i] - times[i - 1]);
+}
+
+static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char times[], const char values[],
+  PetscInt nsteps, PetscReal factor[])
+{
+  PetscInt   n = PETSC_DECIDE;
+  PetscReal *time, *value;
+
+  PetscFunctionBegin;
+  PetscCall(TableReadColumn(keys, owner, "times", times, &n, &time));
+  PetscCall(TableReadColumn(keys, owner, "values", values, &n, &value));
+  if (!n) PetscCall(SceneKeysComplain(keys, "%s_times is empty, or values are not as many", owner));
+  for (PetscInt i = 1; i < n; ++i) {
+    if (!(time[i] > time[i - 1]))
+      PetscCall(SceneKeysComplain(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i],
+        (double)time[i - 1]));
+  }
+  for (PetscInt k = 0; n && k < nsteps; ++k) factor[k] = TableInterpolate(n, time, value, (PetscReal)(k + 1));
+  PetscCall(PetscFree(time));
+  PetscCall(PetscFree(value));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nsteps, PetscReal factor[],
+  PetscBool *found)
+{
+  const char *expression, *times, *values;
+  char        key[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_expression", owner));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &expression, "%s", key));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &times, "%s_times", owner));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &values, "%s_values", owner));
+  *found = (PetscBool)(expression || times || values);
+  if (expression && (times || values))
+    PetscCall(SceneKeysComplain(keys, "%s has an expression and a table; it is one of the two", owner));
+  else if (!times != !values)
+    PetscCall(
+      SceneKeysComplain(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
+  else if (times) PetscCall(TableRead(keys, owner, times, values, nsteps, factor));
+  for (PetscInt k = 0; expression && k < nsteps; ++k)
+    PetscCall(SceneEvaluate(keys, key, expression, (PetscReal)(k + 1), nsteps, &factor[k]));
+  PetscFunctionReturn(0);
+}

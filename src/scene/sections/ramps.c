@@ -1,0 +1,167 @@
+/* load and ramps: the program of the load itself and of what follows a program of its own */
+#include "src/scene/sceneimpl.h"
+
+/* Equal parts of a rise from 0 to 1 */
+static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(PetscMax(0, nsteps), &ramp->factor));
+  for (PetscInt i = 0; i < nsteps; ++i) ramp->factor[i] = (PetscReal)(i + 1) / (PetscReal)nsteps;
+  PetscFunctionReturn(0);
+}
+
+/* The load itself is ramp 0, and sets the number of steps */
+static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp)
+{
+  const char *steps, *factors;
+  char      **words;
+  PetscBool   program;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
+  if (steps && factors) PetscCall(SceneKeysComplain(keys, "load_steps and load_factors exclude each other"));
+  if (factors) {
+    scene->nsteps = PETSC_DECIDE;
+    PetscCall(SceneParseList(keys, "load_factors", factors, &scene->nsteps, &words));
+    PetscCall(PetscStrToArrayDestroy((int)scene->nsteps, words));
+    PetscCall(PetscCalloc1(scene->nsteps, &ramp->factor));
+    PetscCall(SceneParseReals(keys, "load_factors", factors, scene->nsteps, ramp->factor));
+  } else {
+    scene->nsteps = 1;
+    if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
+    if (scene->nsteps > SCENE_MAX_STEPS) {
+      PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps,
+        SCENE_MAX_STEPS));
+      scene->nsteps = SCENE_MAX_STEPS;
+    }
+    PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
+    PetscCall(SceneReadProgram(keys, "load", scene->nsteps, ramp->factor, &program));
+  }
+  if (scene->nsteps < 1)
+    PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *ramp)
+{
+  char        key[SCENE_KEY_LENGTH], owner[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscBool   reserved, program;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
+  if (reserved)
+    PetscCall(SceneKeysComplain(keys,
+      "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
+  PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
+  PetscCall(SceneReadProgram(keys, owner, nsteps, ramp->factor, &program));
+  if (!text && !program)
+    PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values",
+      ramp->name));
+  if (text && program)
+    PetscCall(
+      SceneKeysComplain(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
+  if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
+{
+  PetscInt n;
+  char   **names;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetNames(keys, "ramps", PETSC_FALSE, &n, &names));
+  scene->nramps = 1 + n;
+  PetscCall(PetscCalloc1(scene->nramps, &scene->ramps));
+  PetscCall(SceneReadLoad(keys, scene, &scene->ramps[0]));
+  for (PetscInt r = 0; r < n; ++r) {
+    scene->ramps[1 + r].name = names[r];
+    PetscCall(SceneReadRamp(keys, scene->nsteps, &scene->ramps[1 + r]));
+  }
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+/* The ramp that <list>_<name> follows: its key ramp, or else the load */
+PetscErrorCode SceneReadRampName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *ramp)
+{
+  const char *text;
+  char        choices[SCENE_KEY_LENGTH] = "";
+  PetscBool   same;
+
+  PetscFunctionBegin;
+  *ramp = 0;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_ramp", list, name));
+  if (!text) PetscFunctionReturn(0);
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    PetscCall(PetscStrcasecmp(text, scene->ramps[r].name, &same));
+    if (same) {
+      *ramp = r;
+      PetscFunctionReturn(0);
+    }
+    if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
+    PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
+  }
+  PetscCall(SceneKeysComplain(keys, "%s_%s_ramp is \"%s\"; it can be: %s", list, name, text, choices));
+  PetscFunctionReturn(0);
+}
+
+/* The same programs in so many steps of equal time. Displacement bounds begin no earlier than they did */
+PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
+{
+  const PetscReal stretch = (PetscReal)nsteps / (PetscReal)scene->nsteps;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    PetscReal *factor;
+
+    PetscCall(PetscMalloc1(nsteps, &factor));
+    for (PetscInt i = 0; i < nsteps; ++i)
+      PetscCall(
+        SceneGetFactor(scene, r, (PetscReal)(i + 1) * (PetscReal)scene->nsteps / (PetscReal)nsteps, &factor[i]));
+    PetscCall(PetscFree(scene->ramps[r].factor));
+    scene->ramps[r].factor = factor;
+  }
+  if (scene->displacement_bounds)
+    scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
+  scene->nsteps = nsteps;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneGetFactor - Factor of a ramp at a time
+
+   Not Collective
+
+   Input Parameters:
++  scene - the scene
+.  ramp  - index of the ramp; 0 is the load itself
+-  time  - load step k, counted from 1, ends at time k; 0 is the start
+
+   Output Parameter:
+.  factor - linear between the ends of the load steps, 0 at time 0
+
+   Level: intermediate
+
+.seealso: `SceneLoad()`
+@*/
+PetscErrorCode SceneGetFactor(Scene scene, PetscInt ramp, PetscReal time, PetscReal *factor)
+{
+  const PetscReal *end  = scene->ramps[ramp].factor;
+  const PetscInt   step = PetscMin(scene->nsteps - 1, (PetscInt)PetscFloorReal(time)); /* before this end */
+
+  PetscFunctionBegin;
+  if (time >= (PetscReal)scene->nsteps) *factor = end[scene->nsteps - 1];
+  else {
+    const PetscReal from = step ? end[step - 1] : 0.0;
+
+    *factor = from + (time - (PetscReal)step) * (end[step] - from);
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,254 @@
+/* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
+   {radius: 1} */
+#include "src/scene/sceneimpl.h"
+#include <petscviewer.h>
+#include <stddef.h>
+#include <string.h>
+
+const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh",
+  "BodyShape", "SHAPE_", NULL};
+
+static const char *const Axes[]       = {"x", "y", "z", "Axis", "AXIS_", NULL};
+static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direction", "DIRECTION_", NULL};
+
+typedef enum {
+  KEY_REALS,
+  KEY_INTS,
+  KEY_AXIS,
+  KEY_DIRECTION,
+  KEY_TEXT
+} KeyType;
+
+typedef struct {
+  const char *name;
+  KeyType     type;
+  PetscInt    n; /* values */
+  size_t      offset;
+  PetscBool   required;
+} ShapeKey;
+
+#define KEY(name, type, n, field, required) \
+  { \
+    name, type, n, offsetof(SceneBody, field), required \
+  }
+
+static const ShapeKey box_keys[] = {
+  KEY("lower", KEY_REALS, 3, lower, PETSC_TRUE),
+  KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
+  KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey tube_arc_keys[] = {
+  KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE),
+  KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE),
+  KEY("radii", KEY_REALS, 2, tube.radii, PETSC_TRUE),
+  KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
+  KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
+  KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey half_ellipse_keys[] = {
+  KEY("axis", KEY_AXIS, 1, ellipse.axis, PETSC_TRUE),
+  KEY("depth", KEY_DIRECTION, 1, ellipse.depth, PETSC_TRUE),
+  KEY("half", KEY_DIRECTION, 1, ellipse.half, PETSC_FALSE),
+  KEY("center", KEY_REALS, 3, ellipse.center, PETSC_FALSE),
+  KEY("semi_axes", KEY_REALS, 2, ellipse.semi_axes, PETSC_TRUE),
+  KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
+  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
+  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+/* What every octant has: where it is, and how it is divided */
+#define OCTANT_PLACE_KEYS \
+  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
+#define OCTANT_GRID_KEYS \
+  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
+    KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
+    KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
+    KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
+
+static const ShapeKey sphere_shell_keys[] = {
+  OCTANT_PLACE_KEYS,
+  KEY("inner_radius", KEY_REALS, 1, octant.inner.radius, PETSC_TRUE),
+  KEY("inner_center", KEY_REALS, 3, octant.inner.center, PETSC_FALSE),
+  KEY("outer_radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
+  KEY("outer_center", KEY_REALS, 3, octant.outer.center, PETSC_FALSE),
+  KEY("cap_radius", KEY_REALS, 1, octant.cap.radius, PETSC_FALSE),
+  KEY("cap_center", KEY_REALS, 3, octant.cap.center, PETSC_FALSE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey spheroid_shell_keys[] = {
+  OCTANT_PLACE_KEYS,
+  KEY("inner_semi_axes", KEY_REALS, 3, octant.inner_axes, PETSC_TRUE),
+  KEY("outer_semi_axes", KEY_REALS, 3, octant.outer_axes, PETSC_TRUE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey ball_keys[] = {
+  OCTANT_PLACE_KEYS,
+  KEY("radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey gmsh_keys[] = {
+  KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
+  KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys,
+  spheroid_shell_keys, ball_keys, gmsh_keys};
+
+static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
+{
+  char        name[SCENE_KEY_LENGTH];
+  const char *text;
+  void       *value = (char *)body + key->offset;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "bodies_%s_%s", body->name, key->name));
+  PetscCall(SceneKeysGet(keys, key->required, &text, "%s", name));
+  if (!text) PetscFunctionReturn(0);
+  switch (key->type) {
+  case KEY_REALS: PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value)); break;
+  case KEY_INTS: PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value)); break;
+  case KEY_AXIS: PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value)); break;
+  case KEY_DIRECTION: PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value)); break;
+  case KEY_TEXT: PetscCall(PetscStrallocpy(text, (char **)value)); break;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A file's name is relative to the folder of the scene */
+PetscErrorCode SceneResolveFile(const char scene[], char **file)
+{
+  const char *slash = strrchr(scene, '/');
+  char        path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
+  PetscCall(PetscFree(*file));
+  PetscCall(PetscStrallocpy(path, file));
+  PetscFunctionReturn(0);
+}
+
+/* The key mesh without a shape says gmsh */
+static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text, *mesh = NULL;
+  PetscInt    shape = SHAPE_BOX;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_shape", body->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseEnum(keys, key, text, BodyShapes, &shape));
+  else {
+    PetscBool set;
+
+    PetscCall(PetscSNPrintf(key, sizeof(key), "-bodies_%s_mesh", body->name));
+    PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &mesh, &set));
+    if (set) shape = SHAPE_GMSH;
+  }
+  body->shape = (BodyShape)shape;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
+{
+  char         key[SCENE_KEY_LENGTH];
+  const char  *text;
+  SceneOctant *octant    = &body->octant;
+  SceneSphere *spheres[] = {&octant->inner, &octant->outer, &octant->cap};
+
+  PetscFunctionBegin;
+  PetscCall(SceneReadShapeName(keys, body));
+  body->curved       = PETSC_TRUE;
+  body->ellipse.half = PETSC_DECIDE;
+  octant->layer_even = 1;
+  for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = body->even[d] = 1;
+  for (const ShapeKey *k = shape_keys[body->shape]; k->name; ++k) {
+    PetscCall(SceneReadShapeKey(keys, k, body));
+    /* Spheres are around the center of the body unless they have their own, which comes later in the table */
+    if (k->offset == offsetof(SceneBody, octant.corner)) {
+      for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
+    }
+  }
+  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
+  if (body->shape != SHAPE_BOX) {
+    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+    if (text) PetscCall(SceneParseAnswer(keys, key, text, &body->curved));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Optional keys that were not given are 0 all over, or the default below */
+static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *body)
+{
+  const void *value = (const char *)body + key->offset;
+
+  if (key->required) return PETSC_FALSE;
+  if (key->type == KEY_DIRECTION) return *(const PetscInt *)value < 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt i = 0; i < key->n; ++i) {
+    if (key->type == KEY_REALS && ((const PetscReal *)value)[i] != 0) return PETSC_FALSE;
+    if (key->type == KEY_INTS && ((const PetscInt *)value)[i] != 1) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "shape: %s\n", BodyShapes[body->shape]));
+  for (const ShapeKey *k = shape_keys[body->shape]; k->name; ++k) {
+    const void     *value = (const char *)body + k->offset;
+    const PetscInt *n     = (const PetscInt *)value;
+
+    if (SceneShapeKeyIsDefault(k, body)) continue;
+    if (k->type == KEY_REALS && k->n > 1) PetscCall(SceneViewReals(viewer, k->name, k->n, (const PetscReal *)value));
+    else {
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", k->name));
+      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+      if (k->type == KEY_REALS) PetscCall(SceneViewReal(viewer, *(const PetscReal *)value));
+      else if (k->type == KEY_AXIS) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", Axes[*n]));
+      else if (k->type == KEY_DIRECTION) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", Directions[*n]));
+      else if (k->type == KEY_TEXT) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", *(char *const *)value));
+      else if (k->n == 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT, *n));
+      else
+        PetscCall(PetscViewerASCIIPrintf(viewer, "[%" PetscInt_FMT ", %" PetscInt_FMT ", %" PetscInt_FMT "]", n[0],
+          n[1], n[2]));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+    }
+  }
+  if (!body->curved && body->shape != SHAPE_BOX) PetscCall(PetscViewerASCIIPrintf(viewer, "curved: false\n"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneDestroyShape(SceneBody *body)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(body->gmsh.file));
+  PetscCall(PetscFree(body->gmsh.volume));
+  for (PetscInt s = 0; s < body->nsubfaces; ++s) {
+    PetscCall(PetscFree(body->subfaces[s].name));
+    PetscCall(PetscFree(body->subfaces[s].of));
+  }
+  PetscCall(PetscFree(body->subfaces));
+  PetscFunctionReturn(0);
+}

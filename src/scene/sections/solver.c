@@ -1,0 +1,111 @@
+/*
+   solver: PETSc options, as a mapping. They are set while the scene lives, where neither the command line nor an
+   options file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked
+   for in the end.
+*/
+#include "src/scene/sceneimpl.h"
+
+#define SOLVER_PREFIX "solver_"
+
+static PetscErrorCode SceneAddOption(Scene scene, const char name[], const char value[])
+{
+  SceneOption *option;
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((size_t)(scene->noptions + 1) * sizeof(*scene->options), &scene->options));
+  option      = &scene->options[scene->noptions++];
+  option->set = PETSC_FALSE;
+  PetscCall(PetscStrallocpy(name, &option->name));
+  PetscCall(PetscStrallocpy(value ? value : "", &option->value));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
+{
+  const char *text;
+  PetscInt    n;
+  char      **names, **values;
+  PetscBool   ours;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "solver"));
+  if (text && text[0])
+    PetscCall(SceneKeysComplain(keys,
+      "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
+  PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(PetscStrncmp(names[i], SOLVER_PREFIX, sizeof(SOLVER_PREFIX) - 1, &ours));
+    if (!ours) continue;
+    PetscCall(SceneAddOption(scene, names[i] + sizeof(SOLVER_PREFIX) - 1, values[i]));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", names[i]));
+  }
+  PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneSetOptions(Scene scene)
+{
+  char      name[SCENE_KEY_LENGTH];
+  PetscBool given;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < scene->noptions; ++i) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-%s", scene->options[i].name));
+    PetscCall(PetscOptionsHasName(NULL, NULL, name, &given));
+    if (given) continue;
+    PetscCall(PetscOptionsSetValue(NULL, name, scene->options[i].value[0] ? scene->options[i].value : NULL));
+    scene->options[i].set = PETSC_TRUE;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneDestroyOptions(Scene scene)
+{
+  char name[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < scene->noptions; ++i) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-%s", scene->options[i].name));
+    if (scene->options[i].set) PetscCall(PetscOptionsClearValue(NULL, name));
+    PetscCall(PetscFree(scene->options[i].name));
+    PetscCall(PetscFree(scene->options[i].value));
+  }
+  PetscCall(PetscFree(scene->options));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneReportUnusedOptions - Warns on stderr of every solver option of a scene that nothing has asked for
+
+   Collective
+
+   Input Parameters:
++  comm  - the communicator
+-  scene - the scene, after its run
+
+   Level: intermediate
+
+   Note:
+   Such an option is misspelt, or belongs to a solver that did not run. One that the command line overrides is
+   not reported.
+
+.seealso: `SceneLoad()`
+@*/
+PetscErrorCode SceneReportUnusedOptions(MPI_Comm comm, Scene scene)
+{
+  PetscBool used;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < scene->noptions; ++i) {
+    const SceneOption *option = &scene->options[i];
+
+    if (!option->set) continue;
+    PetscCall(PetscOptionsUsed(NULL, option->name, &used));
+    if (!used)
+      PetscCall(PetscFPrintf(comm, stderr,
+        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or of a solver that "
+        "did not run\n",
+        scene->name, option->name));
+  }
+  PetscFunctionReturn(0);
+}

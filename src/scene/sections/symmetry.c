@@ -1,0 +1,164 @@
+/*
+   symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a
+   built-in shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or
+   with a vector as its normal. Symmetry planes become prescribed displacements, after those of the scene.
+*/
+#include "src/scene/sceneimpl.h"
+#include <string.h>
+
+static const char *const axes[] = {"x", "y", "z", "Axis", "", NULL};
+
+static PetscBool SymmetryIsOneOf(const char name[], const char a[], const char b[])
+{
+  return !strcmp(name, a) || !strcmp(name, b) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* xmin, xmax, x0, ymin, ... */
+static PetscInt SymmetryAxisOfBox(const char face[])
+{
+  if (face[0] < 'x' || face[0] > 'z') return PETSC_DECIDE;
+  return SymmetryIsOneOf(face + 1, "min", "max") || !strcmp(face + 1, "0") ? face[0] - 'x' : PETSC_DECIDE;
+}
+
+static PetscInt SymmetryAxisOfTubeArc(const SceneTubeArc *tube, const char face[])
+{
+  PetscReal quarters;
+
+  if (SymmetryIsOneOf(face, "lmin", "lmax")) return tube->axis;
+  if (!SymmetryIsOneOf(face, "amin", "amax")) return PETSC_DECIDE;
+  quarters = tube->angles[!strcmp(face, "amax")] / 90;
+  if (quarters != PetscFloorReal(quarters)) return PETSC_DECIDE;
+  return (tube->axis + (PetscFmodReal(quarters, 2) == 0 ? 2 : 1)) % 3;
+}
+
+static PetscInt SymmetryAxisOfHalfEllipse(const SceneHalfEllipse *ellipse, const char face[])
+{
+  if (SymmetryIsOneOf(face, "lmin", "lmax")) return ellipse->axis;
+  if (!strcmp(face, "flat")) return ellipse->depth % 3;
+  return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
+}
+
+/* Faces of arcs at other angles: normal to the circle, 0 where it is none of them */
+static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal normal[3])
+{
+  const char         *name = NULL;
+  const PetscInt      b    = SceneFindBody(scene, face, &name);
+  const SceneTubeArc *tube = b >= 0 ? &scene->bodies[b].tube : NULL;
+  PetscReal           angle;
+
+  normal[0] = normal[1] = normal[2] = 0;
+  if (!tube || scene->bodies[b].shape != SHAPE_TUBE_ARC || !SymmetryIsOneOf(name, "amin", "amax")) return;
+  angle                        = tube->angles[!strcmp(name, "amax")] * PETSC_PI / 180;
+  normal[(tube->axis + 1) % 3] = -PetscSinReal(angle);
+  normal[(tube->axis + 2) % 3] = PetscCosReal(angle);
+}
+
+/* Along an axis it is a component that is prescribed */
+static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *displacement)
+{
+  const PetscReal length = PetscSqrtReal(PetscSqr(normal[0]) + PetscSqr(normal[1]) + PetscSqr(normal[2]));
+  PetscInt        axis   = -1;
+
+  if (!(length > 0)) return;
+  for (PetscInt i = 0; i < 3; ++i) {
+    displacement->normal[i] = normal[i];
+    if (PetscAbsReal(normal[i]) == length) axis = i;
+  }
+  if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
+  else displacement->inclined = PETSC_TRUE;
+}
+
+/* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
+static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
+{
+  const char      *name;
+  const PetscInt   b = SceneFindBody(scene, face, &name);
+  const SceneBody *body;
+
+  if (b < 0) return PETSC_DECIDE;
+  body = &scene->bodies[b];
+  if (body->shape == SHAPE_TUBE_ARC) return SymmetryAxisOfTubeArc(&body->tube, name);
+  if (body->shape == SHAPE_HALF_ELLIPSE) return SymmetryAxisOfHalfEllipse(&body->ellipse, name);
+  return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);
+}
+
+/* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis
+   is unknown */
+static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
+{
+  const PetscInt axis = SymmetryAxisOfFace(scene, face);
+  char           name[SCENE_KEY_LENGTH];
+  PetscReal      normal[3];
+
+  PetscFunctionBegin;
+  if (axis >= 0) displacement->fixed[axis] = PETSC_TRUE;
+  else {
+    SymmetryNormalOfTubeArc(scene, face, normal);
+    SymmetrySetNormal(normal, displacement);
+  }
+  PetscCall(PetscSNPrintf(name, sizeof(name), "symmetry_%s", face));
+  *strchr(name, '.') = '_';
+  PetscCall(PetscStrallocpy(name, &displacement->name));
+  PetscCall(PetscStrallocpy(face, &displacement->face));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], SceneDisplacement *displacement)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+  PetscInt    axis      = 0;
+  PetscReal   normal[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(name, &displacement->name));
+  if (!SceneIsName(name))
+    PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "symmetry_%s_face", name));
+  PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
+  if (text && strchr(text, ',')) {
+    PetscCall(SceneParseReals(keys, key, text, 3, normal));
+    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0)
+      PetscCall(SceneKeysComplain(keys, "%s is zero; it is x, y, z or a vector", key));
+    SymmetrySetNormal(normal, displacement);
+  } else {
+    if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
+    displacement->fixed[axis] = PETSC_TRUE;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* After bodies and displacements */
+PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
+{
+  const char *text;
+  char      **words;
+  PetscInt    n     = PETSC_DECIDE;
+  size_t      given = (size_t)scene->ndisplacements;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "symmetry"));
+  if (!text) PetscFunctionReturn(0);
+  PetscCall(SceneParseList(keys, "symmetry", text, &n, &words));
+  if (n) {
+    PetscCall(PetscRealloc((given + (size_t)n) * sizeof(*scene->displacements), &scene->displacements));
+    PetscCall(PetscArrayzero(scene->displacements + given, n));
+  }
+  for (PetscInt i = 0; i < n; ++i) {
+    SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
+    PetscBool          same;
+
+    if (strchr(words[i], '.')) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
+    else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
+    for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
+      PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
+      if (same)
+        PetscCall(SceneKeysComplain(keys,
+          "\"%s\" in symmetry is also the name of another displacement or symmetry plane", words[i]));
+    }
+  }
+  PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,189 @@
+/* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
+#include "src/step/stepimpl.h"
+
+static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
+static const PetscReal open_share = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is
+                                             open, and its pressure that of a barrier */
+
+PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
+{
+  const PetscInt npairs = scene->npairs;
+  PetscBool      rubs   = PETSC_FALSE;
+  PetscInt       last;
+  Vec            u;
+
+  PetscFunctionBegin;
+  m->npairs = npairs;
+  PetscCall(DMGetGlobalSection(dm, &m->global));
+  PetscCall(DMGetGlobalVector(dm, &u));
+  PetscCall(VecGetOwnershipRange(u, &m->first, &last));
+  PetscCall(DMRestoreGlobalVector(dm, &u));
+  m->nowned = (last - m->first) / 3;
+  PetscCall(
+    PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
+  for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
+  if (rubs)
+    PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned,
+      &m->slip_path, npairs * m->nowned, &m->dissipated));
+  PetscFunctionReturn(0);
+}
+
+/* Of a row, whose vertex this rank owns */
+PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, PetscInt row)
+{
+  PetscInt offset = m->first;
+
+  (void)PetscSectionGetOffset(m->global, lin->vertex[row], &offset);
+  return lin->pair[row] * m->nowned + (offset - m->first) / 3;
+}
+
+/* stiffness: of the bodies [force/length] */
+PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
+  PetscReal stiffness)
+{
+  const PetscScalar *z, *s, *mass;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
+  PetscCall(PetscArrayzero(m->open, m->npairs * m->nowned));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(slack, &s));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    const PetscInt k = ContactHistoryIndex(m, lin, i);
+
+    m->pressure[k] = PetscRealPart(z[i]);
+    m->slack[k]    = PetscRealPart(s[i]);
+    m->open[k]     = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) <= open_share * stiffness * m->slack[k]);
+  }
+  PetscCall(VecRestoreArrayRead(slack, &s));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Start values for the rows of a new linearization: pressures scaled by the growth of the load. A vertex that had no
+   row gets zeros, which the optimizer moves off the boundary. `any` is false when nothing is remembered on any rank.
+*/
+PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearization lin, PetscReal scale, Vec slack,
+  Vec pressure, PetscBool *any)
+{
+  PetscScalar *z, *s;
+  PetscBool    found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(pressure, &z));
+  PetscCall(VecGetArrayWrite(slack, &s));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    const PetscInt k = ContactHistoryIndex(m, lin, i);
+
+    z[i] = scale * m->pressure[k];
+    s[i] = m->pressure[k] > 0.0 ? m->slack[k] : 0.0;
+    if (m->pressure[k] > 0.0) found = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayWrite(slack, &s));
+  PetscCall(VecRestoreArrayWrite(pressure, &z));
+  PetscCallMPI(MPI_Allreduce(&found, any, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pressure)));
+  PetscFunctionReturn(0);
+}
+
+/* The pressure, 0 of rows that are open */
+static PetscReal ContactHistoryPressure(const ContactHistory *m, PetscInt k)
+{
+  return m->open[k] ? 0.0 : m->pressure[k];
+}
+
+static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm comm, PetscReal *largest)
+{
+  PetscFunctionBegin;
+  *largest = 0.0;
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) *largest = PetscMax(*largest, ContactHistoryPressure(m, k));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
+/*
+   How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under
+   pressure, and as penetration over the others, whose open gap does not matter.
+*/
+PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearization lin, PetscReal *change)
+{
+  const PetscScalar *g;
+  PetscReal          largest, worst = 0.0;
+  MPI_Comm           comm = PetscObjectComm((PetscObject)lin->g);
+
+  PetscFunctionBegin;
+  PetscCall(ContactHistoryLargest(m, comm, &largest));
+  PetscCall(VecGetArrayRead(lin->g, &g));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    const PetscInt  k   = ContactHistoryIndex(m, lin, i);
+    const PetscReal gap = PetscRealPart(g[i]);
+
+    worst = PetscMax(worst,
+      ContactHistoryPressure(m, k) > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
+  }
+  PetscCall(VecRestoreArrayRead(lin->g, &g));
+  PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscFunctionReturn(0);
+}
+
+/* 1 for the rows of a linearization whose vertices were under pressure, 0 for others */
+PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLinearization lin, Vec closed)
+{
+  PetscScalar *c;
+  PetscReal    largest;
+
+  PetscFunctionBegin;
+  PetscCall(ContactHistoryLargest(m, PetscObjectComm((PetscObject)closed), &largest));
+  PetscCall(VecGetArrayWrite(closed, &c));
+  for (PetscInt i = 0; i < lin->nlocal; ++i)
+    c[i] = ContactHistoryPressure(m, ContactHistoryIndex(m, lin, i)) > negligible_pressure * largest ? 1.0 : 0.0;
+  PetscCall(VecRestoreArrayWrite(closed, &c));
+  PetscFunctionReturn(0);
+}
+
+/* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
+PetscErrorCode ContactHistoryFindLost(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
+  PetscInt *nlost)
+{
+  const PetscInt n    = m->npairs * m->nowned;
+  const MPI_Comm comm = PetscObjectComm((PetscObject)lin->g);
+  PetscReal      largest;
+
+  PetscFunctionBegin;
+  *nlost = 0;
+  PetscCall(ContactHistoryLargest(m, comm, &largest));
+  PetscCall(PetscMalloc1(n, lost));
+  for (PetscInt k = 0; k < n; ++k)
+    (*lost)[k] = (PetscBool)(ContactHistoryPressure(m, k) > negligible_pressure * largest);
+  for (PetscInt i = 0; i < lin->nlocal; ++i) (*lost)[ContactHistoryIndex(m, lin, i)] = PETSC_FALSE;
+  for (PetscInt k = 0; k < n; ++k) *nlost += (*lost)[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nlost, 1, MPIU_INT, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+/* Smallest gap of those vertices in a linearization that looks deeper; 0 if they have no row there either */
+PetscErrorCode ContactHistoryLeastGap(const ContactHistory *m, const PetscBool lost[], ContactLinearization lin,
+  PetscReal *least)
+{
+  const PetscScalar *g;
+
+  PetscFunctionBegin;
+  *least = 0.0;
+  PetscCall(VecGetArrayRead(lin->g, &g));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    if (lost[ContactHistoryIndex(m, lin, i)]) *least = PetscMin(*least, PetscRealPart(g[i]));
+  }
+  PetscCall(VecRestoreArrayRead(lin->g, &g));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 1, MPIU_REAL, MPIU_MIN, PetscObjectComm((PetscObject)lin->g)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(m->pressure, m->slack, m->open));
+  PetscCall(PetscFree4(m->shear, m->settled, m->slip_path, m->dissipated));
+  PetscFunctionReturn(0);
+}

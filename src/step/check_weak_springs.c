@@ -1,0 +1,110 @@
+/* Weak springs that carry a load, or let a body go: nothing else holds it, and what they make of it is no answer. */
+#include "stepimpl.h"
+
+/* Of a body's dead loads, the sizes at its vertices summed */
+static const PetscReal weak_springs_share = 0.01;
+
+/* carried[4 body]: the weak springs' resultant on each body, and the sum of the sizes of the loads at its vertices */
+static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscReal carried[])
+{
+  const PetscScalar *v, *k, *f;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(carried, 4 * sim->scene->nbodies));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(u, &v));
+  PetscCall(VecGetArrayRead(sim->springs.weak, &k));
+  PetscCall(VecGetArrayRead(load, &f));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal *body = &carried[4 * sim->places.body[i / 3]], square = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      body[d] -= PetscRealPart(k[i + d] * v[i + d]);
+      square += PetscSqr(PetscRealPart(f[i + d]));
+    }
+    body[3] += PetscSqrtReal(square);
+  }
+  PetscCall(VecRestoreArrayRead(load, &f));
+  PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, carried, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* A solve has not converged where a body under load hangs on its weak springs */
+PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
+{
+  Scene      scene = p->sim->scene;
+  PetscReal *carried;
+
+  PetscFunctionBegin;
+  if (!p->sim->springs.weak || !p->load || !report->converged) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(4 * scene->nbodies, &carried));
+  PetscCall(WeakSpringsMeasure(p->sim, u, p->load, carried));
+  for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
+    const PetscReal *c = &carried[4 * b], force = PetscSqrtReal(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+    char             reason[256];
+
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; add a support, or "
+      "stiffer springs than weak_springs: %g",
+      scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
+    if (force > weak_springs_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  PetscCall(PetscFree(carried));
+  PetscFunctionReturn(0);
+}
+
+/* Of each body on weak springs the largest change of a displacement from u0 to u, squared; of others 0 */
+static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal moved[])
+{
+  const PetscScalar *k, *v0, *v;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(moved, sim->scene->nbodies));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(sim->springs.weak, &k));
+  PetscCall(VecGetArrayRead(u0, &v0));
+  PetscCall(VecGetArrayRead(u, &v));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal *body = &moved[sim->places.body[i / 3]], square = 0.0;
+
+    if (!(PetscRealPart(k[i]) > 0.0)) continue;
+    for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(PetscRealPart(v[i + d] - v0[i + d]));
+    *body = PetscMax(*body, square);
+  }
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCall(VecRestoreArrayRead(u0, &v0));
+  PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, (PetscMPIInt)sim->scene->nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Nor has one that follows another linearization of the gap, at u_linearized, and takes such a body farther from
+   there than it is long: faces that tilt have squeezed it out */
+PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
+{
+  Scene      scene = p->sim->scene;
+  PetscReal *volume, *moved;
+
+  PetscFunctionBegin;
+  if (!p->sim->springs.weak || !report->converged) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
+  PetscCall(SpringsMeasureVolumes(p->sim, volume));
+  PetscCall(WeakSpringsMeasureMotion(p->sim, u_linearized, u, moved));
+  for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
+    const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);
+    char            reason[256];
+
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; "
+      "friction, something that holds it, or stiffer springs than weak_springs: %g",
+      scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
+    if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  PetscCall(PetscFree2(volume, moved));
+  PetscFunctionReturn(0);
+}

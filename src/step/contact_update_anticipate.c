@@ -1,0 +1,129 @@
+/*
+   Between smooth surfaces J keeps the shape of the patches, so that its forces are those that the facets of a body
+   take evenly. In truth vertices that move turn the normals about them, and the patches bend; that would show at the
+   next linearization only, and die away slowly. So the rows under pressure are asked for another gap g', from which J
+   leads where the gap's derivative B has them closed: with the bodies responding to forces as on the diagonal of
+   their stiffness, D = diag(K)^-1,
+
+     B D J^T w = g,   g' = J D J^T w.
+
+   At the solution of the load step both are 0.
+*/
+#include "stepimpl.h"
+
+#define ANTICIPATE_TOLERANCE  1e-3
+#define ANTICIPATE_ITERATIONS 100
+
+typedef struct {
+  Mat J, B;
+  Vec closed;         /* 1 for rows under pressure, 0 for others */
+  Vec D;              /* 0 on prescribed rows */
+  Vec row, force, du; /* work */
+} GapResponse;
+
+/* y = what a matrix makes of the displacement that forces J^T x of the closed rows lead to, there; x on the others */
+static PetscErrorCode ResponseApply(GapResponse *r, Mat A, Vec x, Vec y)
+{
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(r->row, r->closed, x));
+  PetscCall(MatMultTranspose(r->J, r->row, r->force));
+  PetscCall(VecPointwiseMult(r->du, r->D, r->force));
+  PetscCall(MatMult(A, r->du, y));
+  PetscCall(VecAYPX(r->row, -1.0, x));
+  PetscCall(VecPointwiseMult(y, r->closed, y));
+  PetscCall(VecAXPY(y, 1.0, r->row));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ResponseMult(Mat shell, Vec x, Vec y)
+{
+  GapResponse *r;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(shell, &r));
+  PetscCall(ResponseApply(r, r->B, x, y));
+  PetscFunctionReturn(0);
+}
+
+/* 1 / diag(K), 1 where that is not known; 0 on prescribed rows */
+static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
+{
+  PetscScalar *d;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(p->K, D));
+  PetscCall(VecGetLocalSize(D, &n));
+  PetscCall(VecGetArray(D, &d));
+  for (PetscInt i = 0; i < n; ++i) d[i] = PetscRealPart(d[i]) > 0.0 ? 1.0 / d[i] : 1.0;
+  PetscCall(VecRestoreArray(D, &d));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, D));
+  PetscFunctionReturn(0);
+}
+
+/* B D J^T w = g on the closed rows; whether it was found */
+static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *found)
+{
+  const MPI_Comm     comm = PetscObjectComm((PetscObject)g);
+  PetscInt           n;
+  Mat                shell;
+  KSP                ksp;
+  PC                 pc;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(g, &n));
+  PetscCall(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, r, &shell));
+  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (void (*)(void))ResponseMult));
+  PetscCall(KSPCreate(comm, &ksp));
+  PetscCall(KSPSetType(ksp, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(ksp, ANTICIPATE_ITERATIONS));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCNONE));
+  PetscCall(KSPSetOperators(ksp, shell, shell));
+  PetscCall(KSPSetTolerances(ksp, ANTICIPATE_TOLERANCE, PETSC_DEFAULT, PETSC_DEFAULT, ANTICIPATE_ITERATIONS));
+  PetscCall(KSPSolve(ksp, g, w));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  *found = (PetscBool)(reason > 0);
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(MatDestroy(&shell));
+  PetscFunctionReturn(0);
+}
+
+/* Asks, in p->g as StepProblemSetContact() left it for lin, for that other gap where the last solution had rows under
+   pressure; nothing where no pair is smooth */
+PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
+{
+  GapResponse r = {.J = lin->J, .B = lin->derivative};
+  Vec         g, w;
+  PetscBool   found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!lin->derivative) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->g, &r.closed));
+  PetscCall(VecDuplicate(p->g, &r.row));
+  PetscCall(VecDuplicate(p->g, &g));
+  PetscCall(VecDuplicate(p->g, &w));
+  PetscCall(VecDuplicate(p->base, &r.D));
+  PetscCall(VecDuplicate(p->base, &r.force));
+  PetscCall(VecDuplicate(p->base, &r.du));
+  PetscCall(ContactHistoryFindClosed(&p->sim->history, lin, r.closed));
+  PetscCall(ResponseDiagonal(p, r.D));
+  PetscCall(VecPointwiseMult(g, r.closed, lin->g));
+  PetscCall(ResponseSolve(&r, g, w, &found));
+  if (found) {
+    PetscCall(ResponseApply(&r, r.J, w, g));
+    PetscCall(VecPointwiseMult(g, r.closed, g));
+    PetscCall(VecPointwiseMult(r.row, r.closed, lin->g));
+    PetscCall(VecAXPY(p->g, -1.0, r.row));
+    PetscCall(VecAXPY(p->g, 1.0, g));
+  }
+  PetscCall(VecDestroy(&r.closed));
+  PetscCall(VecDestroy(&r.row));
+  PetscCall(VecDestroy(&g));
+  PetscCall(VecDestroy(&w));
+  PetscCall(VecDestroy(&r.D));
+  PetscCall(VecDestroy(&r.force));
+  PetscCall(VecDestroy(&r.du));
+  PetscFunctionReturn(0);
+}

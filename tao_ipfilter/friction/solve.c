@@ -1,0 +1,198 @@
+/* Solves the systems of system.c by GMRES: no dense matrix is made of C, unless GMRES gives up. */
+#include "tao_ipfilter/ipfilterimpl.h"
+#include <petscblaslapack.h>
+
+/* What the shells of a solve know */
+typedef struct {
+  IPTermSystem          *system;
+  const IPReducedSystem *s;
+} TermSolveShell;
+
+/* a += factor RZ y, and b += RZ^T f, each where it is wanted */
+static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor, const PetscReal y[], PetscReal a[],
+  const PetscReal f[], PetscReal b[])
+{
+  const PetscReal one = 1.0;
+  PetscBLASInt    m, k, inc = 1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(s->m, &m));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  if (!m || !k) PetscFunctionReturn(0);
+  if (a) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &factor, s->JZ, &m, y, &inc, &one, a, &inc));
+  if (b) PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &factor, s->JZ, &m, f, &inc, &one, b, &inc));
+  PetscFunctionReturn(0);
+}
+
+/* The system's matrix, in rows and columns that are roots of energies */
+static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
+{
+  const PetscReal    one = 1.0, zero = 0.0;
+  const PetscScalar *x;
+  PetscScalar       *b;
+  TermSolveShell    *solve;
+  IPTermSystem      *t;
+  PetscBLASInt       k, kmax, inc = 1;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(shell, &solve));
+  t = solve->system;
+  PetscCall(PetscBLASIntCast(solve->s->k, &k));
+  PetscCall(PetscBLASIntCast(solve->s->kmax, &kmax));
+  PetscCall(VecGetArrayRead(in, &x));
+  PetscCall(VecGetArrayWrite(out, &b));
+  for (PetscInt i = 0; i < t->m; i++) t->f[i] = t->scale[i] * PetscRealPart(x[i]);
+  PetscCall(IPTermSystemApplyCompliance(t, t->f, t->v));
+  PetscCall(TermSolveCouple(solve->s, -1.0, x + t->m, t->v, NULL, NULL));
+  if (k)
+    PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, solve->s->T, &kmax, x + t->m, &inc, &zero, b + t->m, &inc));
+  PetscCall(TermSolveCouple(solve->s, 1.0, NULL, NULL, t->f, b + t->m));
+  PetscCall(VecPlaceArray(t->r, t->v));
+  PetscCall(VecPlaceArray(t->z, b));
+  PetscCall(MatMult(t->Bv, t->r, t->z));
+  PetscCall(VecResetArray(t->r));
+  PetscCall(VecPlaceArray(t->r, t->f));
+  PetscCall(MatMultAdd(t->Bf, t->r, t->z, t->z));
+  PetscCall(VecResetArray(t->r));
+  PetscCall(VecResetArray(t->z));
+  for (PetscInt i = 0; i < t->m; i++) b[i] *= t->scale[i];
+  PetscCall(VecRestoreArrayWrite(out, &b));
+  PetscCall(VecRestoreArrayRead(in, &x));
+  PetscFunctionReturn(0);
+}
+
+/* y = H^-1 (r_y - RZ^T P r_f), f = P r_f + V y */
+static PetscErrorCode TermSolvePrecondition(PC pc, Vec in, Vec out)
+{
+  const PetscReal    one = 1.0;
+  const PetscScalar *r;
+  PetscScalar       *x;
+  TermSolveShell    *solve;
+  IPTermSystem      *t;
+  PetscBLASInt       m, k, inc = 1, info;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &solve));
+  t = solve->system;
+  PetscCall(PetscBLASIntCast(t->m, &m));
+  PetscCall(PetscBLASIntCast(solve->s->k, &k));
+  PetscCall(VecGetArrayRead(in, &r));
+  PetscCall(VecGetArrayWrite(out, &x));
+  for (PetscInt i = 0; i < t->m; i++) t->f[i] = PetscRealPart(r[i]) / t->scale[i];
+  PetscCall(IPTermFactorApply(t, t->f, x));
+  PetscCall(PetscArraycpy(x + t->m, r + t->m, k));
+  PetscCall(TermSolveCouple(solve->s, -1.0, NULL, NULL, x, x + t->m));
+  if (k) PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &k, &inc, t->H, &k, t->pivots, x + t->m, &k, &info));
+  if (k && m) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &one, t->V, &m, x + t->m, &inc, &one, x, &inc));
+  for (PetscInt i = 0; i < t->m; i++) x[i] /= t->scale[i];
+  PetscCall(VecRestoreArrayWrite(out, &x));
+  PetscCall(VecRestoreArrayRead(in, &r));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, PetscInt limit, KSP *ksp)
+{
+  const PetscInt n = solve->system->m + solve->s->k, restart = 60;
+  Mat            shell;
+  PC             pc;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, solve, &shell));
+  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (void (*)(void))TermSolveMult));
+  PetscCall(KSPCreate(PETSC_COMM_SELF, ksp));
+  PetscCall(KSPSetOptionsPrefix(*ksp, "tao_ipfilter_terms_"));
+  PetscCall(KSPSetOperators(*ksp, shell, shell));
+  PetscCall(MatDestroy(&shell));
+  PetscCall(KSPSetType(*ksp, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(*ksp, restart));
+  PetscCall(KSPSetPCSide(*ksp, PC_RIGHT));
+  PetscCall(KSPSetTolerances(*ksp, rtol, 0.0, PETSC_DEFAULT, limit));
+  PetscCall(KSPGetPC(*ksp, &pc));
+  PetscCall(PCSetType(pc, PCSHELL));
+  PetscCall(PCShellSetContext(pc, solve));
+  PetscCall(PCShellSetApply(pc, TermSolvePrecondition));
+  PetscFunctionReturn(0);
+}
+
+/* x: the solution of the system with b on the right, from x on, by the factors there are */
+static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, PetscInt limit, Vec b, Vec x,
+  PetscInt *its, PetscBool *converged)
+{
+  KSPConvergedReason reason;
+  KSP                ksp;
+
+  PetscFunctionBegin;
+  PetscCall(TermSolveCreateKSP(solve, rtol, limit, &ksp));
+  PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE));
+  PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPGetIterationNumber(ksp, its));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  *converged = (PetscBool)(reason > 0);
+  PetscCall(KSPDestroy(&ksp));
+  PetscFunctionReturn(0);
+}
+
+/* b = (r_f, r_y), or back, with the rows' scale */
+static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, PetscReal rf[], PetscReal ry[],
+  PetscBool back)
+{
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(b, &a));
+  for (PetscInt i = 0; i < t->m; i++) {
+    if (back) rf[i] = t->scale[i] * PetscRealPart(a[i]);
+    else a[i] = t->scale[i] * rf[i];
+  }
+  if (back) PetscCall(PetscArraycpy(ry, a + t->m, k));
+  else PetscCall(PetscArraycpy(a + t->m, ry, k));
+  PetscCall(VecRestoreArray(b, &a));
+  PetscFunctionReturn(0);
+}
+
+/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors serve while they
+   are not much slower than they were when new: soft bodies leave GMRES 20 to 30 iterations with any. Before the end
+   of so many there are new ones. */
+static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[],
+  PetscBool keep, PetscBool *converged)
+{
+  IPTermSystem  *t   = solve->system;
+  const PetscInt old = PetscMax(20, 2 * t->fresh), slow = PetscMax(12, t->fresh + t->fresh / 2), limit = 120;
+  PetscInt       its = 0;
+  PetscBool      fresh, ready;
+  Vec            b, x;
+
+  PetscFunctionBegin;
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, t->m + solve->s->k, &b));
+  PetscCall(VecDuplicate(b, &x));
+  PetscCall(VecZeroEntries(x));
+  PetscCall(TermSolveCopy(t, solve->s->k, b, rf, ry, PETSC_FALSE));
+  do {
+    fresh = (PetscBool)(!t->F || t->stale);
+    PetscCall(IPTermFactorPrepare(t, solve->s, &ready));
+    if (!ready) break;
+    PetscCall(TermSolveIterate(solve, rtol, fresh ? limit : old, b, x, &its, converged));
+    t->stale = (PetscBool)(!fresh && its > slow);
+    if (fresh) t->fresh = its;
+  } while (!fresh && its >= old);
+  *converged = (PetscBool)(ready && (*converged || keep));
+  if (*converged) PetscCall(TermSolveCopy(t, solve->s->k, x, rf, ry, PETSC_TRUE));
+  PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&b));
+  PetscFunctionReturn(0);
+}
+
+/* Overwrites r_f and r_y with the solution to a relative residual, or what GMRES has made of it where there is no
+   room for dense factors; *solved is false where there is none */
+PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved)
+{
+  const PetscBool dense = IPTermDenseFits(t);
+  TermSolveShell  solve = {.system = t, .s = s};
+
+  PetscFunctionBegin;
+  *solved = PETSC_FALSE;
+  if (!t->C) PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!dense, solved));
+  if (!*solved && dense) PetscCall(IPTermDenseSolve(t, s, rf, ry, solved));
+  PetscFunctionReturn(0);
+}

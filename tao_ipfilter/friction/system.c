@@ -1,0 +1,158 @@
+/*
+   The linear systems of Newton's method on the laws of laws.c, for changes of the forces f of all rows R and of y,
+
+     (B_v C + B_f) f - B_v RZ y = r_f,   RZ^T f + T y = r_y,   C = R K_WW^-1 R^T,
+
+   B_v and B_f made of blocks of a constraint and its term; K_WW is factored, and C is applied. Solved in solve.c,
+   with the preconditioner of factor.c.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&t->K));
+  PetscCall(MatDestroy(&t->R));
+  PetscCall(MatDestroy(&t->RD));
+  PetscCall(MatDestroy(&t->G));
+  PetscCall(MatDestroy(&t->Bv));
+  PetscCall(MatDestroy(&t->Bf));
+  PetscCall(MatDestroy(&t->Pv));
+  PetscCall(MatDestroy(&t->Pf));
+  PetscCall(MatDestroy(&t->A));
+  PetscCall(MatDestroy(&t->F));
+  PetscCall(MatDestroy(&t->FK));
+  PetscCall(VecDestroy(&t->r));
+  PetscCall(VecDestroy(&t->z));
+  PetscCall(VecDestroy(&t->S));
+  PetscCall(VecDestroy(&t->w));
+  PetscCall(VecDestroy(&t->Kw));
+  PetscCall(PetscFree4(t->gives, t->scale, t->f, t->v));
+  PetscCall(PetscFree4(t->V, t->ZV, t->H, t->pivots));
+  PetscCall(PetscFree(t->C));
+  PetscCall(PetscMemzero(t, sizeof(*t)));
+  PetscFunctionReturn(0);
+}
+
+/* A matrix of all rows with the blocks of a constraint and its term, zeros */
+static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
+{
+  const PetscScalar zeros[9] = {0.0};
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, m + 2 * n, m + 2 * n, 3, NULL, B));
+  for (PetscInt i = 0; i < PetscMax(m, n); i++) {
+    const PetscInt rows[3] = {i, m + 2 * i, m + 2 * i + 1}, first = i < m ? 0 : 1, last = i < n ? 3 : 1;
+
+    PetscCall(MatSetValues(*B, last - first, rows + first, last - first, rows + first, zeros, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(*B, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*B, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* R D, and G = R D R^T with the blocks in it; what each row gives way by, were its unknowns alone */
+static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
+{
+  const PetscScalar *a;
+  Mat                Rt;
+  Vec                d;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(t->K, &d, NULL));
+  PetscCall(MatGetDiagonal(t->K, d));
+  PetscCall(VecReciprocal(d));
+  PetscCall(MatDuplicate(t->R, MAT_COPY_VALUES, &t->RD));
+  PetscCall(MatDiagonalScale(t->RD, NULL, d));
+  PetscCall(VecDestroy(&d));
+  PetscCall(MatTranspose(t->R, MAT_INITIAL_MATRIX, &Rt));
+  PetscCall(MatMatMult(t->RD, Rt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &t->G));
+  PetscCall(MatDestroy(&Rt));
+  PetscCall(MatAXPY(t->G, 0.0, t->Bf, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatGetDiagonal(t->G, t->r));
+  PetscCall(VecGetArrayRead(t->r, &a));
+  for (PetscInt i = 0; i < t->m; i++) t->gives[i] = PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(t->r, &a));
+  PetscFunctionReturn(0);
+}
+
+/* L U = K_WW by PETSc's own, which spends little on a solve */
+static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t)
+{
+  MatFactorInfo info;
+  IS            rows, columns;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  info.fill = 5.0;
+  PetscCall(MatGetFactor(t->K, MATSOLVERPETSC, MAT_FACTOR_LU, &t->FK));
+  PetscCall(MatGetOrdering(t->K, MATORDERINGND, &rows, &columns));
+  PetscCall(MatLUFactorSymbolic(t->FK, t->K, rows, columns, &info));
+  PetscCall(MatLUFactorNumeric(t->FK, t->K, &info));
+  PetscCall(ISDestroy(&rows));
+  PetscCall(ISDestroy(&columns));
+  PetscFunctionReturn(0);
+}
+
+/* Of sequential K_WW and R, the rows of m constraints and below them two a term, n terms; with room for so many
+   directions */
+PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R)
+{
+  PetscFunctionBegin;
+  PetscCall(IPTermSystemDestroy(t));
+  PetscCall(PetscObjectReference((PetscObject)K));
+  PetscCall(PetscObjectReference((PetscObject)R));
+  t->K = K;
+  t->R = R;
+  t->m = m + 2 * n;
+  PetscCall(MatCreateVecs(R, &t->w, &t->r));
+  PetscCall(VecDuplicate(t->w, &t->Kw));
+  PetscCall(VecDuplicate(t->r, &t->z));
+  PetscCall(VecDuplicate(t->r, &t->S));
+  PetscCall(PetscMalloc4(t->m, &t->gives, t->m, &t->scale, t->m, &t->f, t->m, &t->v));
+  PetscCall(
+    PetscMalloc4((size_t)t->m * (size_t)kmax, &t->V, kmax * kmax, &t->ZV, kmax * kmax, &t->H, kmax, &t->pivots));
+  PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));
+  PetscCall(TermSystemCreateBlocks(m, n, &t->Bf));
+  PetscCall(TermSystemMakeRows(t));
+  PetscCall(TermSystemFactorStiffness(t));
+  PetscFunctionReturn(0);
+}
+
+/* Coefficients of one row: of v and of f, at the rows of its constraint and its term, n <= 3 */
+PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[],
+  const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
+{
+  PetscFunctionBegin;
+  PetscCall(MatSetValues(t->Bv, 1, &row, n, columns, by_v, INSERT_VALUES));
+  PetscCall(MatSetValues(t->Bf, 1, &row, n, columns, by_f, INSERT_VALUES));
+  t->scale[row] = scale;
+  PetscFunctionReturn(0);
+}
+
+/* The rows are as they are to be */
+PetscErrorCode IPTermSystemAssemble(IPTermSystem *t)
+{
+  const Mat B[2] = {t->Bv, t->Bf};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(MatAssemblyBegin(B[k], MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(B[k], MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* v = C f */
+PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *t, const PetscReal f[], PetscReal v[])
+{
+  PetscFunctionBegin;
+  PetscCall(VecPlaceArray(t->r, f));
+  PetscCall(MatMultTranspose(t->R, t->r, t->w));
+  PetscCall(VecResetArray(t->r));
+  PetscCall(MatSolve(t->FK, t->w, t->Kw));
+  PetscCall(VecPlaceArray(t->z, v));
+  PetscCall(MatMult(t->R, t->Kw, t->z));
+  PetscCall(VecResetArray(t->z));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,235 @@
+/*
+   What residuals are worth in the objective: to first order its error is at most
+
+     sum_j |r_j| l_j  +  sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i|  +  sum_i m_i t_i z_i,
+
+   the stationarity residual r over lengths l_j of the unknowns, the violation times its multipliers, and the gap of
+   complementarity. Each term is an energy, whatever the units of its row, bound or unknown, so that none is measured
+   by the size of another one, and the last sum grows with the number of bounds as the error does. All is held against
+   the objective.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+#define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective that residuals may be worth */
+#define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that stands in for it where they cancel */
+#define IP_WORTH_FIRST    1e-8 /* fraction of the first terms that stands in for them where they vanish, too */
+#define IP_WORTH_ROUNDING (100.0 * PETSC_MACHINE_EPSILON) /* of the terms: no residual is worth less */
+
+/* sum_j |a_j b_j| */
+static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
+{
+  const PetscScalar *aa, *ba;
+  PetscReal          local = 0.0;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(a, &n));
+  PetscCall(VecGetArrayRead(a, &aa));
+  PetscCall(VecGetArrayRead(b, &ba));
+  for (PetscInt j = 0; j < n; j++) local += PetscAbsScalar(aa[j] * ba[j]);
+  PetscCall(VecRestoreArrayRead(b, &ba));
+  PetscCall(VecRestoreArrayRead(a, &aa));
+  PetscCallMPI(MPI_Allreduce(&local, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)a)));
+  PetscFunctionReturn(0);
+}
+
+/* sum_j |r_j| l_j, l_j the unknown's size or what a Newton step of it alone would be, whichever is larger: an unknown
+   that is zero may be far from where it belongs. diagonal: of the condensed matrix. */
+static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscReal *sum)
+{
+  const Vec          v[4] = {r, tao->solution, diagonal, tao->gradient};
+  const PetscScalar *a[4];
+  const PetscReal    rounding = 10.0 * PETSC_MACHINE_EPSILON;
+  PetscReal          local    = 0.0;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(r, &n));
+  for (PetscInt k = 0; k < 4; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  for (PetscInt j = 0; j < n; j++) {
+    const PetscReal rj = PetscAbsScalar(a[0][j]), d = PetscAbsScalar(a[2][j]), x = PetscAbsScalar(a[1][j]);
+
+    local += rj * (d > 0.0 && rj > rounding * PetscAbsScalar(a[3][j]) ? PetscMax(x, rj / d) : x);
+  }
+  for (PetscInt k = 0; k < 4; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
+  PetscCallMPI(MPI_Allreduce(&local, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* The stationarity residual's worth. The diagonal is that of the last matrix, and the Hessian's before there is one. */
+static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *worth)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
+  if (ip->cond.A && ip->rec.nsystems) PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  else PetscCall(VecCopy(ip->stiff.hdiag, diagonal));
+  PetscCall(ErrorBoundImbalance(tao, diagonal, ip->rx, worth));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
+  PetscFunctionReturn(0);
+}
+
+/* The violation's worth */
+static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *worth)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     equality;
+  Vec           force;
+
+  PetscFunctionBegin;
+  *worth = 0.0;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+    PetscCall(ErrorBoundProduct(force, ip->rc, worth));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  }
+  if (ip->me) {
+    PetscCall(ErrorBoundProduct(ip->at.y, ip->at.ce, &equality));
+    *worth += equality;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The gap of complementarity, sum m t z */
+static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *worth)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *worth = 0.0;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) {
+    PetscReal sum;
+
+    PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &sum));
+    *worth += sum;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Terms that make up the objective: sum_j |x_j (H x)_j| + |x_j g_j| */
+PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     linear;
+  Vec           Hx;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
+  PetscCall(MatMult(ip->hess.H, tao->solution, Hx));
+  PetscCall(ErrorBoundProduct(Hx, tao->solution, terms));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
+  PetscCall(ErrorBoundProduct(tao->gradient, tao->solution, &linear));
+  *terms += linear;
+  PetscFunctionReturn(0);
+}
+
+/* The same at the start, where the unknowns may all be zero: with what Newton steps of each alone would gain, and the
+   gap there */
+static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     gain, gap;
+
+  PetscFunctionBegin;
+  PetscCall(ErrorBoundImbalance(tao, ip->stiff.hdiag, tao->gradient, &gain));
+  PetscCall(ErrorBoundOfGap(tao, &gap));
+  ip->first.energy = terms + gain + gap;
+  PetscFunctionReturn(0);
+}
+
+/* The objective that residuals are held against. A constant one has no size. */
+PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     terms, gradient;
+
+  PetscFunctionBegin;
+  PetscCall(IPErrorBoundTerms(tao, &terms));
+  if (ip->first.energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  *energy = PetscMax(PetscMax(IP_WORTH_TERMS, IP_WORTH_ROUNDING / (IP_WORTH_MULTIPLE * ip->tol)) * terms,
+    IP_WORTH_FIRST * ip->first.energy);
+  *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
+  if (ip->first.gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
+/* Fills kkt.work and kkt.work_dual: over the multiple of the objective that the tolerance stands for */
+PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal unit = IP_WORTH_MULTIPLE * ip->scale.energy;
+  PetscReal       forces, violation, gap;
+
+  PetscFunctionBegin;
+  ip->kkt.work = ip->kkt.work_dual = 0.0;
+  if (!(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  PetscCall(ErrorBoundOfForces(tao, &forces));
+  PetscCall(ErrorBoundOfViolation(tao, &violation));
+  PetscCall(ErrorBoundOfGap(tao, &gap));
+  if (forces > 0.0) ip->kkt.work_dual = forces / unit;
+  gap = PetscMax(PetscMax(forces, violation), gap);
+  if (gap > 0.0) ip->kkt.work = gap / unit;
+  PetscFunctionReturn(0);
+}
+
+/* What a relaxation of the inequality constraints is worth, over the same: their multipliers times what they are
+   raised by */
+PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     worth;
+
+  PetscFunctionBegin;
+  *work = 0.0;
+  if (!(ip->relax.by > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &worth));
+  if (worth > 0.0) *work = ip->relax.by * worth / (IP_WORTH_MULTIPLE * ip->scale.energy);
+  PetscFunctionReturn(0);
+}
+
+/* Whether a gap of complementarity is within the tolerance */
+PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
+{
+  return (PetscBool)(gap <= IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy);
+}
+
+/* The norm of a stationarity residual of which both measures are 1 at most */
+PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
+{
+  return ip->kkt.work_dual > 0.0 ? PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual) : ip->scale.dual;
+}
+
+/* The same at the end of the step dx, where the objective is what a quadratic one would be: at a start of zero its
+   terms say nothing */
+PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   slope;
+  PetscReal     energy;
+
+  PetscFunctionBegin;
+  *unit = IPErrorBoundForceUnit(ip);
+  if (!(ip->kkt.work_dual > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  PetscCall(VecDot(tao->gradient, dx, &slope));
+  energy = PetscAbsReal(ip->at.f + 0.5 * PetscRealPart(slope));
+  if (energy > ip->scale.energy)
+    *unit = PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual * energy / ip->scale.energy);
+  PetscFunctionReturn(0);
+}
+
+/* mu below which the method need not go: each of its products is within a tenth of the tolerance, and all together
+   are within half of it */
+PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
+{
+  PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale.product;
+
+  for (PetscInt b = 0; b < IP_NPAIRS; b++)
+    if (ip->pair[b].n) weight += ip->pair[b].weight;
+  if (weight > 0.0 && ip->scale.energy < PETSC_INFINITY)
+    mu = PetscMin(mu, 0.5 * IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy / weight);
+  return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
+}

@@ -1,0 +1,234 @@
+/*
+   The contact problem on the subspace, as a linear complementarity problem of the constraints' size. With w eliminated,
+
+     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,   gap = C lambda - JZ y - h >=
+     0 in the others,
+
+   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. Block principal pivoting
+   (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
+   squares problems with nonnegative variables, 1994) is the primal-dual active set method that exchanges one row at a
+   time where exchanging all does not help, and so ends.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+#include <petscblaslapack.h>
+
+PetscErrorCode IPActiveSetDestroy(IPActiveSet *set)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(set->active));
+  PetscCall(PetscFree(set->rows));
+  PetscCall(PetscFree(set->L));
+  PetscCall(PetscFree(set->V));
+  PetscCall(PetscFree(set->H));
+  PetscCall(PetscFree(set->r));
+  PetscCall(PetscMemzero(set, sizeof(*set)));
+  PetscFunctionReturn(0);
+}
+
+/* m rows, none of them active */
+PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *set)
+{
+  PetscFunctionBegin;
+  PetscCall(IPActiveSetDestroy(set));
+  set->m = m;
+  PetscCall(PetscCalloc1(m, &set->active));
+  PetscCall(PetscMalloc1(m, &set->rows));
+  PetscCall(PetscMalloc1(m, &set->r));
+  PetscFunctionReturn(0);
+}
+
+/* The rows of the active set; those that nothing gives way to take no part in it */
+static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
+{
+  PetscInt n = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < set->m; i++)
+    if (set->active[i]) set->rows[n++] = i;
+  PetscCall(IPComplianceColumns(c, n, set->rows));
+  set->n = 0;
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscInt i = set->rows[k];
+
+    if (IPComplianceColumn(c, i)[i] > 0.0) set->rows[set->n++] = i;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* L L^T = C_AA, its diagonal raised by as little as makes dependent rows no obstacle; *factored is false where no
+   small number does */
+static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, PetscBool *factored)
+{
+  const PetscReal first = 1e-13, last = 1e-8;
+  const size_t    n = (size_t)set->n;
+  PetscBLASInt    nb, info = 1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(set->n, &nb));
+  PetscCall(PetscFree(set->L));
+  PetscCall(PetscMalloc1(n * n, &set->L));
+  for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
+    for (size_t j = 0; j < n; j++) {
+      const PetscReal *column = IPComplianceColumn(c, set->rows[j]);
+
+      for (size_t i = 0; i < n; i++) set->L[i + j * n] = column[set->rows[i]];
+      set->L[j + j * n] *= 1.0 + shift;
+    }
+    if (n) PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &nb, set->L, &nb, &info));
+    else info = 0;
+  }
+  *factored = (PetscBool)!info;
+  set->k    = 0;
+  PetscFunctionReturn(0);
+}
+
+/* V = L^-1 JZ_A, the columns that are new */
+static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSystem *s)
+{
+  PetscBLASInt    n, k;
+  const PetscReal one   = 1.0;
+  const size_t    first = (size_t)set->k * (size_t)set->n;
+
+  PetscFunctionBegin;
+  if (!set->k) {
+    PetscCall(PetscFree(set->V));
+    PetscCall(PetscMalloc1((size_t)set->n * (size_t)s->kmax, &set->V));
+  }
+  for (PetscInt j = set->k; j < s->k; j++) {
+    for (PetscInt i = 0; i < set->n; i++) set->V[i + j * set->n] = s->JZ[set->rows[i] + j * s->m];
+  }
+  PetscCall(PetscBLASIntCast(set->n, &n));
+  PetscCall(PetscBLASIntCast(s->k - set->k, &k));
+  if (n && k) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "N", "N", &n, &k, &one, set->L, &n, set->V + first, &n));
+  set->k = s->k;
+  PetscFunctionReturn(0);
+}
+
+/* H = T + V^T V, its diagonal raised by as little as a body needs that no active constraint holds; *factored is false
+   where H is indefinite */
+static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
+{
+  const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
+  PetscBLASInt    n, k, info                      = 1;
+
+  PetscFunctionBegin;
+  *factored = PETSC_TRUE;
+  if (!s->k) PetscFunctionReturn(0);
+  PetscCall(PetscBLASIntCast(set->n, &n));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  PetscCall(PetscFree(set->H));
+  PetscCall(PetscMalloc1(s->k * s->k, &set->H));
+  for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
+    for (PetscInt j = 0; j < s->k; j++) {
+      for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax];
+      set->H[j + j * s->k] += shift * s->G[j];
+    }
+    if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &k));
+    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &k, &info));
+  }
+  *factored = (PetscBool)!info;
+  PetscFunctionReturn(0);
+}
+
+/* y = H^-1 (t - V^T r), lambda_A = L^-T (V y + r) with r = L^-1 h_A */
+static PetscErrorCode ActiveSetBackSubstitute(IPActiveSet *set, const IPReducedSystem *s)
+{
+  const PetscReal one = 1.0, minus = -1.0;
+  PetscBLASInt    n, k, inc = 1, info;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(set->n, &n));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  for (PetscInt i = 0; i < set->n; i++) set->r[i] = s->h[set->rows[i]];
+  if (n) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "N", "N", &n, &inc, &one, set->L, &n, set->r, &n));
+  PetscCall(PetscArraycpy(s->y, s->t, s->k));
+  if (n && k) PetscCallBLAS("BLASgemv", BLASgemv_("T", &n, &k, &minus, set->V, &n, set->r, &inc, &one, s->y, &inc));
+  if (k) {
+    PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &k, &inc, set->H, &k, s->y, &k, &info));
+    PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs said %d of %d directions", (int)info, (int)k);
+  }
+  if (n && k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &one, set->V, &n, s->y, &inc, &one, set->r, &inc));
+  if (n) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "T", "N", &n, &inc, &one, set->L, &n, set->r, &n));
+  PetscCall(PetscArrayzero(s->lambda, s->m));
+  for (PetscInt i = 0; i < set->n; i++) s->lambda[set->rows[i]] = set->r[i];
+  PetscFunctionReturn(0);
+}
+
+/* gap = C lambda - JZ y - h */
+static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c, const IPReducedSystem *s)
+{
+  const PetscReal one = 1.0, minus = -1.0;
+  PetscBLASInt    m, k, inc = 1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(s->m, &m));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  for (PetscInt i = 0; i < s->m; i++) s->gap[i] = -s->h[i];
+  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, s->gap, &inc));
+  for (PetscInt i = 0; i < set->n; i++)
+    PetscCallBLAS("BLASaxpy",
+      BLASaxpy_(&m, &s->lambda[set->rows[i]], IPComplianceColumn(c, set->rows[i]), &inc, s->gap, &inc));
+  PetscFunctionReturn(0);
+}
+
+/* Solves with the rows that are active */
+static PetscErrorCode ActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  *solved = PETSC_TRUE;
+  if (!set->factored) {
+    PetscCall(ActiveSetList(set, c));
+    PetscCall(ActiveSetFactorRows(set, c, solved));
+    if (!*solved) PetscFunctionReturn(0);
+    set->factored = PETSC_TRUE;
+  }
+  PetscCall(ActiveSetFactorColumns(set, s));
+  PetscCall(ActiveSetFactorDirections(set, s, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(ActiveSetBackSubstitute(set, s));
+  PetscCall(ActiveSetGap(set, c, s));
+  PetscFunctionReturn(0);
+}
+
+/* Whether a row belongs to the other set: an active one that pulls, another that is penetrated by more than rounding */
+static PetscBool ActiveSetMisplaced(const IPActiveSet *set, const IPReducedSystem *s, PetscInt i)
+{
+  const PetscReal rounding = 1e-13;
+
+  return (PetscBool)(set->active[i] ? s->lambda[i] < 0.0 : s->gap[i] < -rounding * s->length);
+}
+
+/* Exchanges all rows that are misplaced, or the last of them alone */
+static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscBool all)
+{
+  for (PetscInt i = set->m - 1; i >= 0; i--) {
+    if (!ActiveSetMisplaced(set, s, i)) continue;
+    set->active[i] = (PetscBool)!set->active[i];
+    set->factored  = PETSC_FALSE;
+    if (!all) break;
+  }
+}
+
+/* lambda, gap and y of the contact problem, from the last active set; *steps: systems solved; *solved is false where
+   it has no end */
+PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscInt patience = 5, limit = 200;
+  PetscInt       least = PETSC_MAX_INT, left = patience;
+
+  PetscFunctionBegin;
+  for (*steps = 1; *steps <= limit; (*steps)++) {
+    PetscInt misplaced = 0;
+
+    PetscCall(ActiveSetSolveRows(set, c, s, solved));
+    if (!*solved) PetscFunctionReturn(0);
+    for (PetscInt i = 0; i < set->m; i++) misplaced += ActiveSetMisplaced(set, s, i);
+    if (!misplaced) PetscFunctionReturn(0);
+    left  = misplaced < least ? patience : left - 1;
+    least = PetscMin(least, misplaced);
+    ActiveSetExchange(set, s, (PetscBool)(left >= 0));
+  }
+  *solved = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,127 @@
+/*
+   Where W has a body whole, or a mechanism, K_WW is singular. Unknowns at which a pivot of it vanishes get a
+   companion each, tied to it by a spring and touched by nothing else: with springs it is definite, and as companions
+   go where their unknowns go, nothing is held. What companions move by are coordinates y like those of directions:
+
+     1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + what directions have,   Q_W
+     = -E D, P^T K P = D.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(c->row, c->spring));
+  c->n = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Whether a solve with K by its factors tells that K is singular but for rounding: what a load of all unknowns is
+   worth there, of what it is worth if each was alone */
+PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
+{
+  const PetscReal most  = 1e7;
+  PetscReal       worth = 0.0, alone = 0.0, *x;
+  PetscScalar    *b;
+  PetscRandom     random;
+  Vec             load;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(K, &load, NULL));
+  PetscCall(MatGetDiagonal(K, load));
+  PetscCall(PetscRandomCreate(PETSC_COMM_SELF, &random));
+  PetscCall(PetscMalloc1(compliance->n, &x));
+  PetscCall(VecGetArray(load, &b));
+  for (PetscInt i = 0; i < compliance->n; i++) {
+    PetscReal r;
+
+    PetscCall(PetscRandomGetValueReal(random, &r));
+    b[i] = (r - 0.5) * PetscSqrtReal(PetscAbsScalar(b[i]));
+    alone += PetscSqr(r - 0.5);
+  }
+  PetscCall(IPComplianceSolve(compliance, b, x));
+  for (PetscInt i = 0; i < compliance->n; i++) worth += PetscRealPart(b[i]) * x[i];
+  PetscCall(VecRestoreArray(load, &b));
+  PetscCall(PetscFree(x));
+  PetscCall(PetscRandomDestroy(&random));
+  PetscCall(VecDestroy(&load));
+  *needed = (PetscBool) !(worth >= 0.0 && worth <= most * alone);
+  PetscFunctionReturn(0);
+}
+
+/* Pivots of K scaled to a diagonal of ones, those next to nothing raised by `raise`; in the places of K's rows */
+static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pivots)
+{
+  const PetscReal nothing = 1e-8;
+  MatFactorInfo   info;
+  IS              rows, columns;
+  Mat             S, F;
+  Vec             ordered;
+  VecScatter      back;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  info.shifttype   = (PetscReal)MAT_SHIFT_INBLOCKS;
+  info.shiftamount = raise;
+  info.zeropivot   = nothing;
+  PetscCall(MatDuplicate(K, MAT_COPY_VALUES, &S));
+  PetscCall(MatDiagonalScale(S, scale, scale));
+  PetscCall(MatGetFactor(S, MATSOLVERPETSC, MAT_FACTOR_LU, &F));
+  PetscCall(MatGetOrdering(S, MATORDERINGND, &rows, &columns));
+  PetscCall(MatLUFactorSymbolic(F, S, rows, columns, &info));
+  PetscCall(MatLUFactorNumeric(F, S, &info));
+  PetscCall(VecDuplicate(pivots, &ordered));
+  PetscCall(MatGetDiagonal(F, ordered));
+  PetscCall(VecScatterCreate(ordered, NULL, pivots, rows, &back));
+  PetscCall(VecScatterBegin(back, ordered, pivots, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(back, ordered, pivots, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&back));
+  PetscCall(VecDestroy(&ordered));
+  PetscCall(ISDestroy(&rows));
+  PetscCall(ISDestroy(&columns));
+  PetscCall(MatDestroy(&F));
+  PetscCall(MatDestroy(&S));
+  PetscFunctionReturn(0);
+}
+
+/* Takes them from K's pivots, and adds their springs to K, as stiff as its diagonal is; none where that is not
+   positive */
+PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *c)
+{
+  const PetscReal    raise = 2.0; /* above any pivot of such a matrix, which is 1 at most */
+  Vec                scale, pivots;
+  const PetscScalar *p, *s;
+  PetscReal          least;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(IPCompanionsDestroy(c));
+  PetscCall(MatCreateVecs(K, &scale, &pivots));
+  PetscCall(MatGetDiagonal(K, scale));
+  PetscCall(VecMin(scale, NULL, &least));
+  if (!(least > 0.0)) {
+    PetscCall(VecDestroy(&pivots));
+    PetscCall(VecDestroy(&scale));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecSqrtAbs(scale));
+  PetscCall(VecReciprocal(scale));
+  PetscCall(CompanionsPivots(K, scale, raise, pivots));
+  PetscCall(VecGetLocalSize(pivots, &n));
+  PetscCall(PetscMalloc2(n, &c->row, n, &c->spring));
+  PetscCall(VecGetArrayRead(pivots, &p));
+  PetscCall(VecGetArrayRead(scale, &s));
+  for (PetscInt i = 0; i < n; i++) {
+    if (!(PetscAbsReal(PetscRealPart(p[i]) - raise) < 0.25 * raise)) continue;
+    c->row[c->n]      = i;
+    c->spring[c->n++] = raise / PetscSqr(PetscRealPart(s[i]));
+  }
+  PetscCall(VecRestoreArrayRead(scale, &s));
+  PetscCall(VecRestoreArrayRead(pivots, &p));
+  PetscCall(VecDestroy(&pivots));
+  PetscCall(VecDestroy(&scale));
+  for (PetscInt a = 0; a < c->n; a++) PetscCall(MatSetValue(K, c->row[a], c->row[a], c->spring[a], ADD_VALUES));
+  PetscCall(MatAssemblyBegin(K, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(K, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,137 @@
+/*
+   What the constraints' own unknowns W give way by: C = J_W K_WW^-1 J_W^T, column by column as rows of it are asked
+   for. On the first rank alone, which has all of W.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+#include "pc_amgf/mumps.h"
+
+PetscErrorCode IPComplianceDestroy(IPCompliance *c)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&c->F));
+  PetscCall(MatDestroy(&c->J));
+  PetscCall(VecDestroy(&c->b));
+  PetscCall(VecDestroy(&c->x));
+  PetscCall(PetscFree(c->column));
+  PetscCall(PetscFree(c->C));
+  PetscCall(PetscMemzero(c, sizeof(*c)));
+  PetscFunctionReturn(0);
+}
+
+/* Cholesky of K_WW by MUMPS, or by PETSc where there is none; *factored is false where it is not positive definite */
+static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *factored)
+{
+  MatFactorError error;
+  MatFactorInfo  info;
+  PetscBool      mumps;
+  IS             rows = NULL, columns = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(MatSetOption(K, MAT_SPD, PETSC_TRUE));
+  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
+  PetscCall(MatGetFactor(K, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_CHOLESKY, F));
+  PetscCall(MatFactorInfoInitialize(&info));
+  if (!mumps) PetscCall(MatGetOrdering(K, MATORDERINGND, &rows, &columns));
+  PetscCall(MatCholeskyFactorSymbolic(*F, K, rows, &info));
+  PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
+  PetscCall(ISDestroy(&rows));
+  PetscCall(ISDestroy(&columns));
+  PetscCall(MatFactorGetError(*F, &error));
+  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  PetscFunctionReturn(0);
+}
+
+/* Of sequential K_WW and J_W, of which J_W is kept; *factored is false where K_WW is not positive definite */
+PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, Mat J, PetscBool *factored)
+{
+  PetscFunctionBegin;
+  PetscCall(IPComplianceDestroy(c));
+  PetscCall(ComplianceFactor(K, &c->F, factored));
+  PetscCall(PetscObjectReference((PetscObject)J));
+  c->J = J;
+  PetscCall(MatGetSize(J, &c->m, &c->n));
+  PetscCall(MatCreateVecs(K, &c->x, &c->b));
+  PetscCall(PetscMalloc1(c->m, &c->column));
+  for (PetscInt i = 0; i < c->m; i++) c->column[i] = -1;
+  PetscFunctionReturn(0);
+}
+
+/* x = K_WW^-1 b */
+PetscErrorCode IPComplianceSolve(IPCompliance *c, const PetscReal b[], PetscReal x[])
+{
+  PetscFunctionBegin;
+  PetscCall(VecPlaceArray(c->b, b));
+  PetscCall(VecPlaceArray(c->x, x));
+  PetscCall(MatSolve(c->F, c->b, c->x));
+  PetscCall(VecResetArray(c->x));
+  PetscCall(VecResetArray(c->b));
+  PetscFunctionReturn(0);
+}
+
+/* y = J_W x, or where J is transposed y = J_W^T x */
+PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscBool transposed, const PetscReal x[], PetscReal y[])
+{
+  Vec vx, vy;
+
+  PetscFunctionBegin;
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, transposed ? c->m : c->n, x, &vx));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, transposed ? c->n : c->m, y, &vy));
+  if (transposed) PetscCall(MatMultTranspose(c->J, vx, vy));
+  else PetscCall(MatMult(c->J, vx, vy));
+  PetscCall(VecDestroy(&vx));
+  PetscCall(VecDestroy(&vy));
+  PetscFunctionReturn(0);
+}
+
+/* The columns of the given rows, appended to those that there are */
+static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
+{
+  Mat          B, X;
+  PetscScalar *b;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, n, NULL, &B));
+  PetscCall(MatDuplicate(B, MAT_DO_NOT_COPY_VALUES, &X));
+  PetscCall(MatDenseGetArrayWrite(B, &b));
+  PetscCall(PetscArrayzero(b, c->n * n));
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscScalar *v;
+    const PetscInt    *columns;
+    PetscInt           nc;
+
+    PetscCall(MatGetRow(c->J, rows[k], &nc, &columns, &v));
+    for (PetscInt j = 0; j < nc; j++) b[columns[j] + k * c->n] = v[j];
+    PetscCall(MatRestoreRow(c->J, rows[k], &nc, &columns, &v));
+  }
+  PetscCall(MatDenseRestoreArrayWrite(B, &b));
+  PetscCall(MatMatSolve(c->F, B, X));
+  PetscCall(MatDenseGetArray(X, &b));
+  for (PetscInt k = 0; k < n; k++) {
+    PetscCall(IPComplianceMultiply(c, PETSC_FALSE, b + k * c->n, c->C + (size_t)c->ncolumns * (size_t)c->m));
+    c->column[rows[k]] = c->ncolumns++;
+  }
+  PetscCall(MatDenseRestoreArray(X, &b));
+  PetscCall(MatDestroy(&B));
+  PetscCall(MatDestroy(&X));
+  PetscFunctionReturn(0);
+}
+
+/* Sees to it that there are columns of the given rows */
+PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
+{
+  const PetscInt chunk = 64;
+  PetscInt      *missing, nmissing = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &missing));
+  for (PetscInt k = 0; k < n; k++)
+    if (c->column[rows[k]] < 0) missing[nmissing++] = rows[k];
+  if (c->ncolumns + nmissing > c->maxcolumns) {
+    c->maxcolumns = PetscMin(c->m, c->ncolumns + 2 * nmissing);
+    PetscCall(PetscRealloc((size_t)c->maxcolumns * (size_t)c->m * sizeof(PetscReal), &c->C));
+  }
+  for (PetscInt k = 0; k < nmissing; k += chunk)
+    PetscCall(ComplianceAppend(c, PetscMin(chunk, nmissing - k), missing + k));
+  PetscCall(PetscFree(missing));
+  PetscFunctionReturn(0);
+}

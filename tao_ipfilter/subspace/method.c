@@ -1,0 +1,346 @@
+/*
+   The filtered subspace method, for min f(x), c_I(x) >= 0 with a quadratic f, linear c_I, and constraints that touch
+   few unknowns W.
+
+   V = span{e_i : i in W} + span(P). In turn: the contact problem is solved exactly on V (reduced.c); the residual r =
+   J^T lambda - grad f that is left, zero on W, is made from the caller's own gradient; one application of the
+   preconditioner B of K alone gives the direction B r, made zero on W and K-orthonormal to P (basis.c). With a fixed
+   active set this is CG preconditioned by the `fbf` cycle of PCAMGF; where the set changes nothing is lost, and P
+   serves the next solve with the same K, whatever its constraints and loads.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+/* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which
+   then serves all solves */
+static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, amg));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, factored, PCCHOLESKY, PCLU, ""));
+  PetscFunctionReturn(0);
+}
+
+/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton
+   systems, as tolerances of a Krylov method do */
+static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
+{
+  TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
+  const IPOptions *opt = &ip->opt;
+  PetscBool        amg, factored;
+
+  PetscFunctionBegin;
+  *applies =
+    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
+                !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
+  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms.n) PetscFunctionReturn(0);
+  PetscCall(FilteredIsServed(tao, &amg, &factored));
+  *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
+  if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
+    *applies = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Takes W: the constraints' unknowns with their neighbours, so that what the preconditioner does not know of ends
+   within it, unless that is too much of all, or K may be indefinite there, where constraints do not hold it. Whether
+   the constraints touch few enough unknowns, and some; auto: few against all. */
+static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal fraction = 0.5;
+  PetscInt        n, touched, grown;
+
+  PetscFunctionBegin;
+  PetscCall(IPRowsTake(tao));
+  PetscCall(IPSubspaceUpdate(tao));
+  PetscCall(VecGetSize(tao->solution, &n));
+  PetscCall(ISGetSize(ip->cond.filter, &touched));
+  *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
+  if (!*thin) PetscFunctionReturn(0);
+  PetscCall(ISDestroy(&ip->filtered.W));
+  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &ip->filtered.W));
+  PetscCall(ISGetSize(ip->filtered.W, &grown));
+  if (grown > fraction * n || ip->filtered.newton || ip->terms.n) {
+    PetscCall(PetscObjectReference((PetscObject)ip->cond.filter));
+    PetscCall(ISDestroy(&ip->filtered.W));
+    ip->filtered.W = ip->cond.filter;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Values and derivatives at tao->solution */
+static PetscErrorCode FilteredEvaluate(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     alone;
+
+  PetscFunctionBegin;
+  PetscCall(TaoIsGradientDefined(tao, &alone));
+  if (alone) PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
+  PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscFunctionReturn(0);
+}
+
+/* What rounding makes of f at tao->solution, which may be the difference of much larger terms */
+static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
+{
+  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal eps = 1e4 * PETSC_MACHINE_EPSILON;
+  PetscScalar     terms;
+  Vec             Hx;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
+  PetscCall(VecPointwiseMult(Hx, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecDot(Hx, tao->solution, &terms));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
+  *rounding = eps * (PetscRealPart(terms) + PetscAbsReal(ip->at.f));
+  PetscFunctionReturn(0);
+}
+
+/* The same of c_I, whose terms may be much larger than what they add up to: where a solution is foreseen all rows
+   that are closed are next to zero before and after */
+static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
+{
+  const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
+  PetscReal       row, size;
+
+  PetscFunctionBegin;
+  PetscCall(MatNorm(((TAO_IPFILTER *)tao->data)->jac.inequality, NORM_INFINITY, &row));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *rounding = eps * row * size;
+  PetscFunctionReturn(0);
+}
+
+/* Whether f rises by 1/2 v^T (grad f + grad f at the centre), as a quadratic one does, and c_I by J v */
+static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
+{
+  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
+  const PetscReal tolerance = 1e-6;
+  PetscScalar     work[2];
+  PetscReal       size[2], error, rounding = 0.0;
+  Vec             expected;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(v, ip->filtered.gradient, &work[0]));
+  PetscCall(VecDot(v, tao->gradient, &work[1]));
+  PetscCall(FilteredRounding(tao, &rounding));
+  error      = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
+  *quadratic = (PetscBool)(error <= tolerance * (PetscAbsScalar(work[0]) + PetscAbsScalar(work[1])) + rounding);
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &expected));
+  PetscCall(MatMultAdd(ip->jac.inequality, v, c_centre, expected));
+  PetscCall(VecNorm(expected, NORM_INFINITY, &size[0]));
+  PetscCall(VecNorm(c_centre, NORM_INFINITY, &size[1]));
+  PetscCall(VecAXPY(expected, -1.0, ip->at.c));
+  PetscCall(VecNorm(expected, NORM_INFINITY, &error));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &expected));
+  PetscCall(FilteredConstraintRounding(tao, &rounding));
+  *quadratic = (PetscBool)(*quadratic && error <= tolerance * (size[0] + size[1]) + rounding);
+  PetscFunctionReturn(0);
+}
+
+/* To x = centre + v, with the forces of the constraints there. Back again, and *moved is false, where the problem is
+   not quadratic. */
+static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = &ip->filtered;
+  Vec           x;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
+  PetscCall(VecCopy(tao->solution, x));
+  PetscCall(VecWAXPY(tao->solution, 1.0, f->centre, v));
+  PetscCall(FilteredEvaluate(tao));
+  PetscCall(FilteredIsQuadratic(tao, v, f->f, f->c, moved));
+  if (*moved) {
+    PetscCall(IPFilteredSetPairs(tao, force));
+    PetscCall(VecAXPY(x, -1.0, tao->solution));
+    PetscCall(VecNorm(x, NORM_INFINITY, &ip->dir.norm));
+  } else {
+    PetscCall(PetscInfo(tao, "The objective is not quadratic, or the constraints are not linear\n"));
+    PetscCall(VecCopy(x, tao->solution));
+    PetscCall(FilteredEvaluate(tao));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the reduced problem and moves to its solution */
+static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscBool *solved)
+{
+  Vec v, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPFilteredSolve(tao, basis, v, force, solved));
+  if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  PetscFunctionReturn(0);
+}
+
+/* The reduced problem counts from the present point on */
+static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  ip->filtered.f = ip->at.f;
+  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->solution, tao->gradient, ip->at.c));
+  PetscFunctionReturn(0);
+}
+
+/* A direction from the residual, with room made for it where there is none */
+static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *added)
+{
+  PetscFunctionBegin;
+  if (kept->basis.n == kept->basis.max) {
+    PetscCall(IPFilteredMakeRoom(tao, &kept->basis));
+    PetscCall(FilteredCentreHere(tao, &kept->basis));
+  }
+  PetscCall(IPFilteredExtend(tao, kept, r, added));
+  PetscFunctionReturn(0);
+}
+
+/* -ip->rx without its part on W. *exact is false where the reduced problem has left something that it should have
+   made vanish, by rounding or as the problem is not quadratic: that part, the violation of the constraints, or what
+   holds up the rest for long. */
+static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt for_long = 8;
+  PetscReal      all, off;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPBY(r, -1.0, 0.0, ip->rx));
+  PetscCall(VecNorm(r, NORM_2, &all));
+  PetscCall(VecISSet(r, ip->filtered.W, 0.0));
+  PetscCall(VecNorm(r, NORM_2, &off));
+  *exact = (PetscBool)(off > 0.5 * all &&
+                       PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
+  if (ip->filtered.nfutile && ip->filtered.nfutile % for_long == 0) *exact = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left;
+   twice as many as so far until a digit is gained, as the rate says nothing while the active set is looked for */
+static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+{
+  TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
+  const PetscInt  n = ip->rec.napplications, every = 8;
+  const PetscReal error = IPBothErrors(ip), least = 1.0;
+  PetscReal       gained, left;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  if (n == 0) ip->filtered.begin = error;
+  if (n == 0 || n % every) PetscFunctionReturn(0);
+  gained = PetscLog10Real(ip->filtered.begin / error);
+  left   = PetscLog10Real(PetscMax(error / ip->tol, 1.0));
+  PetscCall(IPSubspaceStateReconsider(tao, kept, gained < least ? 2.0 * n : n * left / gained, possible));
+  PetscFunctionReturn(0);
+}
+
+/* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it
+   led; *done is false where neither is possible, or helps. With norm terms, whose reduced problem is solved to a
+   tolerance, what is left may lie along directions that there are, none of them new */
+PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;
+  IPFiltered      *f        = &ip->filtered;
+  const PetscInt   in_a_row = 3, patience = 60;
+  PetscBool        exact = PETSC_TRUE;
+  IPSubspaceState *kept;
+  Vec              r;
+
+  PetscFunctionBegin;
+  tao->ksp_its        = 0;
+  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are the method's way */
+  PetscCall(IPFilteredAllows(tao, done));
+  *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
+  PetscCall(FilteredResidual(tao, r, &exact));
+  if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms.n ? &exact : done));
+  f->ncentred = exact ? 0 : f->ncentred + 1;
+  if (f->ncentred > in_a_row) *done = PETSC_FALSE;
+  if (*done && !exact) PetscCall(FilteredCentreHere(tao, &kept->basis));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
+  if (*done) PetscCall(FilteredSolveReduced(tao, &kept->basis, done));
+  if (*done) {
+    tao->niter++;
+    ip->rec.ndirections++;
+  } else PetscCall(IPSubspaceStateReset(kept));
+  PetscFunctionReturn(0);
+}
+
+/* The first point: of a quadratic program the solution of the first reduced problem, else the start with the
+   multipliers there */
+static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = &ip->filtered;
+
+  PetscFunctionBegin;
+  f->nfutile = f->ncentred = 0;
+  f->halved                = PETSC_INFINITY;
+  ip->mu                   = 0.0;
+  if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  else {
+    PetscCall(FilteredCentreHere(tao, basis));
+    PetscCall(FilteredSolveReduced(tao, basis, found));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Begins where the method is wanted and the problem is of its kind */
+PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered      *f  = &ip->filtered;
+  IPSubspaceState *kept;
+
+  PetscFunctionBegin;
+  f->newton = (PetscBool)(f->linear && !f->constant);
+  PetscCall(FilteredApplies(tao, begun));
+  if (*begun) PetscCall(FilteredTakeW(tao, begun));
+  if (!*begun) {
+    if (f->kept) PetscCall(IPSubspaceStateGet(tao, &kept));
+    if (f->kept) PetscCall(IPSubspaceStateReset(kept));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
+  if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
+  f->on = *begun;
+  if (f->on) PetscCall(IPKrylovRecord(tao, 0));
+  else {
+    PetscCall(IPSubspaceStateReset(kept));
+    PetscCall(IPFilteredDestroy(f));
+    ip->rec.fallbacks.subspaces++;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the
+   constraints is not */
+PetscErrorCode IPFilteredEnd(Tao tao)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  IPSubspaceState *kept;
+
+  PetscFunctionBegin;
+  if (ip->filtered.on) {
+    PetscCall(IPSubspaceStateGet(tao, &kept));
+    kept->napplications = ip->rec.napplications;
+  }
+  PetscCall(IPFilteredDestroy(&((TAO_IPFILTER *)tao->data)->filtered));
+  PetscFunctionReturn(0);
+}

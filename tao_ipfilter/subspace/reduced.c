@@ -1,0 +1,546 @@
+/*
+   The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w +
+   P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
+   as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+/* A matrix of rows of A, its columns those of W, on the first rank; half: A has its upper triangle only */
+typedef struct {
+  PetscInt        nrows, M;
+  const PetscInt *rows, *place; /* rows of A that this rank owns, and where they stand in the result of M rows */
+  PetscInt        nw;
+  const PetscInt *w;
+  PetscBool       half;
+  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a
+                                symmetric pattern */
+} ReducedGather;
+
+/* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
+   diagonal lack nothing. */
+static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt i[], PetscInt j[],
+  PetscScalar v[], PetscCount *n)
+{
+  const PetscInt    *columns;
+  const PetscScalar *values;
+  PetscInt           nc, place;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(A, g->rows[r], &nc, &columns, &values));
+  for (PetscInt k = 0; k < nc; k++) {
+    PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
+    if (place < 0 || (values[k] == 0.0 && !g->symmetric) || (g->half && columns[k] < g->rows[r])) continue;
+    for (PetscInt mirror = 0; mirror <= (g->half && place != g->place[r]); mirror++) {
+      if (i) {
+        i[*n] = mirror ? place : g->place[r];
+        j[*n] = mirror ? g->place[r] : place;
+        v[*n] = values[k];
+      }
+      (*n)++;
+    }
+  }
+  PetscCall(MatRestoreRow(A, g->rows[r], &nc, &columns, &values));
+  PetscFunctionReturn(0);
+}
+
+/* The part of the first rank, which is all of a matrix whose rows it owns; NULL on the others */
+static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
+{
+  Mat diagonal;
+
+  PetscFunctionBegin;
+  *S = NULL;
+  PetscCall(MatGetDiagonalBlock(all, &diagonal));
+  if (first) {
+    PetscCall(PetscObjectReference((PetscObject)diagonal));
+    *S = diagonal;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBool first, Mat *S)
+{
+  PetscInt    *i, *j;
+  PetscScalar *v;
+  PetscCount   n = 0;
+  Mat          all;
+
+  PetscFunctionBegin;
+  if (g->half) PetscCall(MatGetRowUpperTriangular(A));
+  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, NULL, NULL, NULL, &n));
+  PetscCall(PetscMalloc3(n, &i, n, &j, n, &v));
+  n = 0;
+  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, i, j, v, &n));
+  if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
+  PetscCall(MatCreate(PetscObjectComm((PetscObject)A), &all));
+  PetscCall(MatSetSizes(all, first ? g->M : 0, first ? g->nw : 0, g->M, g->nw));
+  PetscCall(MatSetType(all, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(all, n, i, j));
+  PetscCall(MatSetValuesCOO(all, v, ADD_VALUES));
+  PetscCall(PetscFree3(i, j, v));
+  PetscCall(ReducedTakeFirst(all, first, S));
+  PetscCall(MatDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/* K_WW of what this rank owns of W, `own`, and of all ranks, w */
+static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+{
+  ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
+  PetscInt     *place, start;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &g.half, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(ISGetLocalSize(own, &g.nrows));
+  PetscCall(ISGetIndices(own, &g.rows));
+  PetscCall(PetscMalloc1(g.nrows, &place));
+  PetscCallMPI(MPI_Scan(&g.nrows, &start, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)K)));
+  for (PetscInt r = 0; r < g.nrows; r++) place[r] = start - g.nrows + r;
+  g.place = place;
+  PetscCall(ReducedGatherMatrix(K, &g, first, S));
+  PetscCall(PetscFree(place));
+  PetscCall(ISRestoreIndices(own, &g.rows));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+{
+  ReducedGather g = {.nw = nw, .w = w};
+  PetscInt     *rows, start, end;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(J, &start, &end));
+  PetscCall(MatGetSize(J, &g.M, NULL));
+  g.nrows = end - start;
+  PetscCall(PetscMalloc1(g.nrows, &rows));
+  for (PetscInt r = 0; r < g.nrows; r++) rows[r] = start + r;
+  g.rows = g.place = rows;
+  PetscCall(ReducedGatherMatrix(J, &g, first, S));
+  PetscCall(PetscFree(rows));
+  PetscFunctionReturn(0);
+}
+
+/* The rows of both, one below the other */
+static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
+{
+  const Mat parts[2] = {upper, lower};
+  PetscInt  m[2], n, *counts;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(upper, &m[0], &n));
+  PetscCall(MatGetSize(lower, &m[1], NULL));
+  PetscCall(PetscMalloc1(m[0] + m[1], &counts));
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    if (pass) PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, m[0] + m[1], n, 0, counts, both));
+    for (PetscInt r = 0; r < m[0] + m[1]; r++) {
+      const PetscInt     b = r >= m[0];
+      const PetscInt    *columns;
+      const PetscScalar *values;
+      PetscInt           nc;
+
+      PetscCall(MatGetRow(parts[b], r - b * m[0], &nc, &columns, &values));
+      counts[r] = nc;
+      if (pass) PetscCall(MatSetValues(*both, 1, &r, nc, columns, values, INSERT_VALUES));
+      PetscCall(MatRestoreRow(parts[b], r - b * m[0], &nc, &columns, &values));
+    }
+  }
+  PetscCall(MatAssemblyBegin(*both, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*both, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(0);
+}
+
+/* J_W, and T_W below it where there are norm terms */
+static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
+  PetscBool first, Mat *S)
+{
+  Mat JW, TW;
+
+  PetscFunctionBegin;
+  if (!terms->n) {
+    PetscCall(ReducedGatherRows(J, nw, w, first, S));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(ReducedGatherRows(J, nw, w, first, &JW));
+  PetscCall(ReducedGatherRows(terms->T, nw, w, first, &TW));
+  *S = NULL;
+  if (first) PetscCall(ReducedStackRows(JW, TW, S));
+  PetscCall(MatDestroy(&TW));
+  PetscCall(MatDestroy(&JW));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedFreeSystem(IPReducedSystem *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree4(s->JZ, s->T, s->t, s->G));
+  PetscCall(PetscFree4(s->h, s->lambda, s->gap, s->y));
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPReducedDestroy(IPReduced *r)
+{
+  PetscFunctionBegin;
+  PetscCall(VecScatterDestroy(&r->to_W));
+  PetscCall(VecScatterDestroy(&r->to_rows));
+  PetscCall(VecDestroy(&r->on_W));
+  PetscCall(VecDestroy(&r->on_rows));
+  PetscCall(VecScatterDestroy(&r->to_terms));
+  PetscCall(VecDestroy(&r->on_terms));
+  PetscCall(IPTermLawsDestroy(&r->terms));
+  PetscCall(IPComplianceDestroy(&r->compliance));
+  PetscCall(IPCompanionsDestroy(&r->companions));
+  PetscCall(IPActiveSetDestroy(&r->set));
+  PetscCall(ReducedFreeSystem(&r->system));
+  PetscCall(PetscFree4(r->Q, r->g, r->x, r->z));
+  PetscCall(PetscMemzero(r, sizeof(*r)));
+  PetscFunctionReturn(0);
+}
+
+/* Entries of W, constraints and norm terms of vectors of all ranks */
+static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, const IPTerms *terms, IS w)
+{
+  IS places;
+
+  PetscFunctionBegin;
+  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)x), r->n, PETSC_DETERMINE, &r->on_W));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, r->n, 0, 1, &places));
+  PetscCall(VecScatterCreate(x, w, r->on_W, places, &r->to_W));
+  PetscCall(ISDestroy(&places));
+  PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
+  if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  s->m    = r->m + 2 * r->nterms;
+  s->kmax = r->companions.n + basis->max;
+  PetscCall(
+    PetscMalloc4((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
+  PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
+  PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
+  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
+  PetscFunctionReturn(0);
+}
+
+/* What one rank has found, on all of them */
+static PetscErrorCode ReducedTell(const IPReduced *r, PetscBool *verdict)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(verdict, 1, MPI_PETSCBOOL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
+static PetscErrorCode ReducedFactor(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+{
+  PetscBool singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (r->first) {
+    PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+    if (*definite) PetscCall(IPCompanionsAreNeeded(KWW, &r->compliance, &singular));
+    if (!*definite || singular) PetscCall(IPCompanionsTake(KWW, &r->companions));
+    if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  }
+  PetscCall(ReducedTell(r, definite));
+  PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* One more of what y moves, whose forces on W stand in its column of Q, with its energies with those before it */
+static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
+{
+  IPReducedSystem *s = &r->system;
+  const PetscInt   j = s->k;
+  const PetscReal *q = &r->Q[(size_t)j * (size_t)r->n];
+
+  PetscFunctionBegin;
+  PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
+  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
+  for (PetscInt i = 0; i <= j; i++)
+    s->T[i + j * s->kmax] = s->T[j + i * s->kmax] =
+      energies[i] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
+  s->G[j] = energies[j];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
+{
+  const IPCompanions *c = &r->companions;
+  IPReducedSystem    *s = &r->system;
+  PetscReal          *energies;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(c->n, &energies));
+  for (; s->k < c->n; s->k++) {
+    if (!r->first) continue;
+    PetscCall(PetscArrayzero(&r->Q[(size_t)s->k * (size_t)r->n], r->n));
+    r->Q[c->row[s->k] + (size_t)s->k * (size_t)r->n] = -c->spring[s->k];
+    energies[s->k]                                   = c->spring[s->k];
+    PetscCall(ReducedAppendColumn(r, energies));
+    energies[s->k] = 0.0;
+  }
+  PetscCall(PetscFree(energies));
+  PetscFunctionReturn(0);
+}
+
+/* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, IS W, Vec x, Vec c,
+  const IPBasis *basis, PetscBool *definite)
+{
+  PetscMPIInt     rank;
+  IS              all, mine;
+  Mat             KWW, JW;
+  const PetscInt *w;
+  PetscInt        nw;
+
+  PetscFunctionBegin;
+  PetscCall(IPReducedDestroy(r));
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)x), &rank));
+  r->first = (PetscBool)!rank;
+  PetscCall(ISAllGather(W, &all));
+  PetscCall(ISGetSize(all, &nw));
+  PetscCall(ISGetIndices(all, &w));
+  if (r->first) {
+    r->n = nw;
+    PetscCall(VecGetSize(c, &r->m));
+    r->nterms = terms->n;
+  }
+  PetscCall(ReducedGatherStiffness(K, W, nw, w, r->first, &KWW));
+  PetscCall(ReducedGatherJacobian(J, terms, nw, w, r->first, &JW));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
+  PetscCall(ISRestoreIndices(all, &w));
+  PetscCall(ISDestroy(&all));
+  PetscCall(ReducedCreateScatters(r, x, c, terms, mine));
+  PetscCall(ISDestroy(&mine));
+  PetscCall(ReducedFactor(r, KWW, JW, definite));
+  PetscCall(ReducedCreateSystem(r, basis));
+  if (*definite) PetscCall(ReducedAppendCompanions(r));
+  if (r->nterms) PetscCall(IPTermLawsCreate(r->m, r->nterms, r->system.kmax, KWW, JW, &r->terms));
+  PetscCall(MatDestroy(&KWW));
+  PetscCall(MatDestroy(&JW));
+  PetscFunctionReturn(0);
+}
+
+/* Entries of v on the first rank's array a of n */
+static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, PetscInt n, PetscReal a[])
+{
+  const PetscScalar *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecScatterBegin(scatter, v, on_first, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, v, on_first, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGetArrayRead(on_first, &values));
+  PetscCall(PetscArraycpy(a, values, n));
+  PetscCall(VecRestoreArrayRead(on_first, &values));
+  PetscFunctionReturn(0);
+}
+
+/* The other way round; what is not in a stays */
+static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscReal a[], Vec on_first, Vec v)
+{
+  PetscScalar *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(on_first, &values));
+  PetscCall(PetscArraycpy(values, a, n));
+  PetscCall(VecRestoreArrayWrite(on_first, &values));
+  PetscCall(VecScatterBegin(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(VecScatterEnd(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
+  PetscFunctionReturn(0);
+}
+
+/* Limits, coefficients and dead directions of the norm terms; scale: of the rows of c_I, NULL: 1 */
+PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
+{
+  const Vec  given[2] = {terms->limit, terms->coefficient};
+  PetscReal *values[2];
+  Vec        scaled;
+
+  PetscFunctionBegin;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(ReducedFetch(r->to_terms, terms->dead, r->on_terms, 2 * r->nterms, r->terms.dead));
+  values[0] = r->terms.limit;
+  values[1] = r->terms.coefficient;
+  for (PetscInt i = 0; i < r->nterms; i++) {
+    r->terms.limit[i]       = PETSC_INFINITY;
+    r->terms.coefficient[i] = -1.0;
+  }
+  for (PetscInt k = 0; k < 2; k++) {
+    VecScatter scatter;
+    Vec        on_first;
+
+    if (!given[k]) continue;
+    PetscCall(VecDuplicate(given[k], &scaled));
+    PetscCall(VecCopy(given[k], scaled));
+    if (k && scale) PetscCall(VecPointwiseMult(scaled, scaled, scale));
+    PetscCall(VecScatterCreateToZero(scaled, &scatter, &on_first));
+    PetscCall(ReducedFetch(scatter, scaled, on_first, r->nterms, values[k]));
+    PetscCall(VecScatterDestroy(&scatter));
+    PetscCall(VecDestroy(&on_first));
+    PetscCall(VecDestroy(&scaled));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Begins with the rows active, or closed, whose entry is positive; with norm terms from these forces */
+PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
+  for (PetscInt i = 0; i < r->m; i++) {
+    PetscBool *active = r->nterms ? r->terms.closed : r->set.active;
+
+    active[i] = (PetscBool)(s->gap[i] > 0.0);
+  }
+  r->set.factored = r->terms.listed = PETSC_FALSE;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(ReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
+  PetscCall(ReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
+  PetscFunctionReturn(0);
+}
+
+/* Counts v from a point with this gradient g, P^T g, constraints c, and value of the norm terms, if there are any */
+PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
+  PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
+  if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
+  if (!r->first) PetscFunctionReturn(0);
+  PetscCall(IPComplianceSolve(&r->compliance, r->g, r->x));
+  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->x, s->h));
+  s->length = 0.0;
+  for (PetscInt i = 0; i < s->m; i++) {
+    s->h[i] -= s->gap[i];
+    s->length = PetscMax(s->length, PetscMax(PetscAbsReal(s->gap[i]), PetscAbsReal(s->h[i])));
+  }
+  PetscCall(PetscArrayzero(s->y, s->kmax));
+  for (PetscInt j = 0; j < s->k; j++)
+    s->t[j] =
+      ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - (j < r->companions.n ? 0.0 : pg[j - r->companions.n]);
+  PetscFunctionReturn(0);
+}
+
+/* Takes in the directions of the basis that it does not have, with P^T g of all of them */
+PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
+{
+  IPReducedSystem *s        = &r->system;
+  const PetscInt   before   = r->companions.n;
+  PetscReal       *energies = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(before + basis->n, &energies));
+  for (; s->k < before + basis->n; s->k++) {
+    const PetscInt j = s->k - before;
+    PetscReal     *q = &r->Q[(size_t)s->k * (size_t)r->n];
+
+    PetscCall(ReducedFetch(r->to_W, basis->q[j], r->on_W, r->n, q));
+    if (!r->first) continue;
+    PetscCall(PetscArraycpy(energies + before, &basis->gram[j * basis->max], j + 1));
+    PetscCall(ReducedAppendColumn(r, energies));
+    s->t[s->k] = ReducedDot(r->n, q, r->x) - pg[j];
+  }
+  PetscCall(PetscFree(energies));
+  PetscFunctionReturn(0);
+}
+
+/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the
+   directions' energy */
+PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
+{
+  const IPReducedSystem *s      = &r->system;
+  const PetscInt         before = r->companions.n, n = basis->max * basis->max;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(E, n));
+  if (r->first) {
+    for (PetscInt j = 0; j < basis->n; j++) {
+      for (PetscInt i = 0; i < basis->n; i++)
+        E[i + j * basis->max] = basis->gram[i + j * basis->max] - s->T[before + i + (before + j) * s->kmax];
+    }
+  }
+  PetscCallMPI(MPI_Bcast(E, (PetscMPIInt)n, MPIU_REAL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the directions; the active set stays */
+PetscErrorCode IPReducedForget(IPReduced *r)
+{
+  PetscFunctionBegin;
+  r->system.k = r->companions.n;
+  r->set.k = r->terms.system.k = 0;
+  if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
+  PetscFunctionReturn(0);
+}
+
+/* w = K_WW^-1 (J_W^T lambda - g - Q_W y) */
+static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
+{
+  const IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_TRUE, s->lambda, r->z));
+  for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];
+  for (PetscInt j = 0; j < s->k; j++) {
+    for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->Q[i + (size_t)j * (size_t)r->n] * s->y[j];
+  }
+  PetscCall(IPComplianceSolve(&r->compliance, r->z, w));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  if (r->nterms) PetscCall(IPTermSetSolve(&r->terms, &r->system, &r->nsteps, solved));
+  else PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
+  r->nactive = r->nterms ? r->terms.na : r->set.n;
+  PetscFunctionReturn(0);
+}
+
+/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
+   there are any. r->nactive, r->nsteps: of this solve. */
+PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
+{
+  IPReducedSystem *s    = &r->system;
+  MPI_Comm         comm = PetscObjectComm((PetscObject)v);
+  PetscInt         counts[2];
+  PetscReal       *w = NULL;
+
+  PetscFunctionBegin;
+  if (r->first) PetscCall(ReducedSolveFirst(r, solved));
+  PetscCall(ReducedTell(r, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(r->n, &w));
+  if (r->first) PetscCall(ReducedRecover(r, w));
+  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
+  PetscCall(PetscFree(w));
+  PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
+  if (terms) PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
+  PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
+  PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
+  counts[0] = r->nsteps;
+  counts[1] = r->nactive;
+  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));
+  r->nsteps  = counts[0];
+  r->nactive = counts[1];
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,366 @@
+/* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner
+   and directions of K. */
+#include "tao_ipfilter/ipfilterimpl.h"
+
+/* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */
+PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
+{
+  PetscFunctionBegin;
+  if (kept->pc) PetscCall(PCSetReusePreconditioner(kept->pc, PETSC_FALSE));
+  PetscCall(PCDestroy(&kept->pc));
+  PetscCall(IPBasisDestroy(&kept->basis));
+  kept->K_id = 0;
+  kept->held = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode KeptDestroy(void *argument)
+{
+  IPSubspaceState *kept = (IPSubspaceState *)AMGFDestroyed(argument);
+
+  PetscFunctionBegin;
+  PetscCall(IPSubspaceStateReset(kept));
+  PetscCall(PetscFree(kept));
+  PetscFunctionReturn(0);
+}
+
+/* Made where there is none yet */
+PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
+{
+  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+
+  PetscFunctionBegin;
+  if (!f->kept) {
+    PetscCall(PetscNew(kept));
+    PetscCall(PetscContainerCreate(PetscObjectComm((PetscObject)tao), &f->kept));
+    PetscCall(PetscContainerSetPointer(f->kept, *kept));
+    PetscCall(PetscContainerSetCtxDestroy(f->kept, (PetscCtxDestroyFn *)KeptDestroy));
+  }
+  PetscCall(PetscContainerGetPointer(f->kept, (void **)kept));
+  PetscFunctionReturn(0);
+}
+
+/* K with whole rows, where the preconditioner reads rows and K is half of a matrix */
+static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
+{
+  MatNullSpace modes;
+  PetscBool    half;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)K, MATSEQSBAIJ, &half));
+  if (half && rows) {
+    PetscCall(MatConvert(K, MATBAIJ, MAT_INITIAL_MATRIX, whole));
+    PetscCall(MatGetNearNullSpace(K, &modes));
+    PetscCall(MatSetNearNullSpace(*whole, modes));
+  } else {
+    PetscCall(PetscObjectReference((PetscObject)K));
+    *whole = K;
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tells PCAMGF, which has K for its operator, how often it will be applied: in this solve so often beyond what it
+   was, and in those that are to come with the same K. Nothing is known before the first one.
+*/
+static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal later    = 0.7,
+                  factored = 10.0; /* applications of a later solve against a first one's, and solves with factors */
+  const PetscReal n        = ip->rec.napplications + left,
+                  solves   = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
+
+  PetscFunctionBegin;
+  PetscCall(
+    PCAMGFExpect(kept->pc, left + later * n * solves, PetscMin(factored, left) + PetscMin(factored, n) * solves));
+  PetscFunctionReturn(0);
+}
+
+/* Said once a solve, not with every Newton step */
+static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     factored;
+  const char   *why;
+
+  PetscFunctionBegin;
+  PetscCall(PCAMGFGetFactored(pc, &factored, &why));
+  if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0)))
+    PetscFunctionReturn(0);
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
+    factored ? "direct (MUMPS)" : "CG with AMG", why));
+  PetscFunctionReturn(0);
+}
+
+/* B: the Krylov method's preconditioner of A without a filter. It then knows A as K, so that A takes no memory. */
+static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, PetscBool *possible)
+{
+  PC             pc = kept->pc, amg;
+  PetscBool      amgf;
+  PCFailedReason failed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (amgf) PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
+  PetscCall(PCSetOperators(pc, A, A));
+  PetscCall(PCSetUp(pc));
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
+  if (amgf) {
+    PetscCall(PCAMGFGetAMGPC(pc, &amg));
+    PetscCall(PCSetOperators(amg, K, K));
+    PetscCall(KeptSayChoice(tao, pc));
+  }
+  PetscCall(PCSetOperators(pc, K, K));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  *possible = (PetscBool)!failed;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, possible, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)K)));
+  PetscFunctionReturn(0);
+}
+
+/* B of K alone */
+static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
+{
+  const PetscReal usual = 35.0;
+  PetscBool       amgf, factored = PETSC_TRUE;
+  Mat             whole;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
+  PetscCall(PCSetOperators(kept->pc, K, K));
+  PetscCall(KeptExpect(tao, kept, usual));
+  if (amgf) PetscCall(PCAMGFGetFactored(kept->pc, &factored, NULL));
+  PetscCall(KeptGetWhole(K, (PetscBool)!factored, &whole));
+  PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
+  PetscCall(MatDestroy(&whole));
+  kept->held = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Changes from the AMG to a factorization where so many applications are still to come in this solve that it pays; no
+   directions are lost */
+PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscReal left, PetscBool *possible)
+{
+  PetscBool amgf, before, after;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
+  if (!amgf || kept->held) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFactored(kept->pc, &before, NULL));
+  PetscCall(KeptExpect(tao, kept, left));
+  PetscCall(PCAMGFGetFactored(kept->pc, &after, NULL));
+  if (after != before)
+    PetscCall(
+      KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess.H, ((TAO_IPFILTER *)tao->data)->hess.H, possible));
+  PetscFunctionReturn(0);
+}
+
+/* B of K + J^T D J, D as stiff as the bodies are: for bodies that nothing but the constraints holds */
+PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+{
+  TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscInt systems = ip->rec.nsystems, filtered = ip->rec.nfiltered;
+  Vec            D;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The Hessian is singular: its preconditioner is made with the constraints in it\n"));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(IPCondenseMatrix(tao, D));
+  ip->rec.nsystems  = systems; /* none of Newton's */
+  ip->rec.nfiltered = filtered;
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(KeptSetUpPC(tao, kept, ip->cond.A, ip->hess.H, possible));
+  PetscCall(MatDestroy(&ip->cond.A));
+  kept->held = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides
+   what no machine is short of; more than the AMG itself costs so many projections a direction. Newton's steps cost a
+   product with the new K a direction, and their Gram matrix. */
+static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
+{
+  const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
+                  direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
+  const PetscReal fewest = 80.0, limit = 160.0;
+  const PetscInt  newton = 48;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  *max = ip->opt.subspace_max;
+  if (!*max && ip->filtered.newton) *max = newton;
+  if (*max) PetscFunctionReturn(0);
+  PetscCall(VecGetSize(tao->solution, &n));
+  *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
+  PetscFunctionReturn(0);
+}
+
+/* Brings it up to date with K, the constraints' unknowns and the fixed variables; *possible is false where the
+   preconditioner cannot be */
+PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  Mat              K  = ip->hess.H;
+  PC               pc;
+  PetscObjectState state;
+  PetscInt         max;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  PetscCall(KeptRoom(tao, &max));
+  PetscCall(PetscObjectStateGet((PetscObject)K, &state));
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  if (kept->K_id != ((PetscObject)K)->id || kept->pc != pc || kept->basis.max != max) {
+    PetscCall(IPSubspaceStateReset(kept));
+    PetscCall(PetscObjectReference((PetscObject)pc));
+    kept->pc = pc;
+    PetscCall(IPBasisCreate(max, &kept->basis));
+  }
+  if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
+    kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
+    if (!kept->held) PetscCall(KeptSetUpFree(tao, kept, K, possible));
+    if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));
+    PetscCall(IPBasisMultiply(&kept->basis, K));
+  } else PetscCall(IPSubspaceStateReconsider(tao, kept, kept->napplications, possible));
+  kept->K_id    = ((PetscObject)K)->id;
+  kept->K_state = state;
+  if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
+  PetscCall(IPBasisRestrict(&kept->basis, K, ip->filtered.W));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
+{
+  IPSubspaceState *kept;
+
+  PetscFunctionBegin;
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  *space = ((TAO_IPFILTER *)tao->data)->filtered.kept;
+  PetscFunctionReturn(0);
+}
+
+/* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of
+   another kind keeps its own */
+PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
+{
+  IPFiltered      *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPSubspaceState *kept;
+  const char      *own, *theirs;
+  PC               pc;
+  PetscBool        type, prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)space));
+  PetscCall(PetscContainerDestroy(&f->kept));
+  f->kept = space;
+  PetscCall(PetscContainerGetPointer(space, (void **)&kept));
+  if (!kept->pc) PetscFunctionReturn(0);
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, ((PetscObject)kept->pc)->type_name, &type));
+  PetscCall(PCGetOptionsPrefix(pc, &own));
+  PetscCall(PCGetOptionsPrefix(kept->pc, &theirs));
+  PetscCall(PetscStrcmp(own, theirs, &prefix));
+  if (type && prefix) PetscCall(KSPSetPC(tao->ksp, kept->pc));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "There is one solve to come at least, not %" PetscInt_FMT, n);
+  ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterSetSubspace - Hands on what the filtered subspace method of another solver has kept
+
+  Logically Collective
+
+  Input Parameters:
++ tao   - the `TAOIPFILTER`, after `TaoSetFromOptions()`
+- space - what `TaoIPFilterGetSubspace()` of a solver with the same Hessian has given
+
+  Level: advanced
+
+  Notes:
+  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
+  that Hessian,
+  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by
+  this call. Directions are multiplied anew where
+  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
+
+  The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidHeaderSpecific(space, PETSC_CONTAINER_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetSubspace_C", (Tao, PetscContainer), (tao, space));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterGetSubspace - Gets what the filtered subspace method keeps for later solves
+
+  Not Collective
+
+  Input Parameter:
+. tao - the `TAOIPFILTER`
+
+  Output Parameter:
+. space - preconditioner and directions, owned by `tao`: reference it to have it outlive the solver
+
+  Options Database Keys:
++ -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many
+                                                     as 64 MB and 15 % of an AMG's memory hold, 48 where the objective
+                                                     is not quadratic
+
+  Level: advanced
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscAssertPointer(space, 2);
+  PetscUseMethod(tao, "TaoIPFilterGetSubspace_C", (Tao, PetscContainer *), (tao, space));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace
+  method can choose its preconditioner
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+- n   - their number, the next one included; 1 without this call
+
+  Level: advanced
+
+  Note:
+  A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is
+  `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
+@*/
+PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidLogicalCollectiveInt(tao, n, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
+  PetscFunctionReturn(0);
+}

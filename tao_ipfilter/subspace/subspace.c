@@ -1,0 +1,275 @@
+/*
+   The space of the filtered subspace method within one solve, which method.c and newton.c lead: V =
+   span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
+   of the preconditioner B of K alone to what the problem on V leaves of the residual.
+*/
+#include "tao_ipfilter/ipfilterimpl.h"
+
+PetscErrorCode IPFilteredDestroy(IPFiltered *f)
+{
+  PetscFunctionBegin;
+  PetscCall(IPReducedDestroy(&f->reduced));
+  PetscCall(ISDestroy(&f->W));
+  PetscCall(VecDestroy(&f->centre));
+  PetscCall(VecDestroy(&f->gradient));
+  PetscCall(VecDestroy(&f->c));
+  PetscCall(PetscFree2(f->pg, f->y));
+  f->on = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Slacks and multipliers that the caller has given, or without them those of a penalty as stiff as the objective is */
+static PetscErrorCode FilteredStartPairs(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+
+  PetscFunctionBegin;
+  if (ip->given.warm_s) {
+    PetscCall(VecCopy(ip->given.warm_s, slack->t));
+    PetscCall(VecCopy(ip->given.warm_z, slack->z));
+    PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
+  } else {
+    PetscCall(VecSet(slack->t, 0.0));
+    PetscCall(VecPointwiseMax(slack->t, slack->t, ip->at.c));
+    PetscCall(VecWAXPY(slack->z, -1.0, ip->at.c, slack->t));
+    PetscCall(VecPointwiseMult(slack->z, slack->z, ip->stiff.rho));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The rows that begin as active: where multipliers outweigh the slacks */
+static PetscErrorCode FilteredGuess(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  Vec           closer, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, slack->z, slack->w));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
+  PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
+  PetscCall(VecAXPY(closer, -1.0, slack->t));
+  PetscCall(IPReducedGuess(&ip->filtered.reduced, closer, force, &ip->terms));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
+  PetscFunctionReturn(0);
+}
+
+/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and
+   these constraints, with all directions there are */
+PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f     = &ip->filtered;
+  Vec           value = NULL;
+
+  PetscFunctionBegin;
+  if (ip->terms.n) PetscCall(VecDuplicate(ip->terms.t, &value));
+  if (ip->terms.n) PetscCall(IPTermsValue(tao, x, value));
+  PetscCall(VecCopy(centre, f->centre));
+  PetscCall(VecCopy(gradient, f->gradient));
+  PetscCall(VecCopy(c, f->c));
+  if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, value, f->pg));
+  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(VecDestroy(&value));
+  PetscFunctionReturn(0);
+}
+
+/* The reduced problem's solution, v from the centre, and the forces of the constraints there */
+PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = &ip->filtered;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(v, 0.0));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  if (!*solved) PetscFunctionReturn(0);
+  ip->rec.nreduced++;
+  ip->rec.npivots += f->reduced.nsteps;
+  if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers force / M, and the slacks that the constraints have */
+PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+  PetscScalar  *s, *z;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
+  PetscCall(VecCopy(slack->z, ip->at.lambda));
+  PetscCall(VecCopy(ip->at.c, slack->t));
+  PetscCall(VecGetLocalSize(slack->t, &n));
+  PetscCall(VecGetArray(slack->t, &s));
+  PetscCall(VecGetArray(slack->z, &z));
+  for (PetscInt i = 0; i < n; i++) s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
+  PetscCall(VecRestoreArray(slack->z, &z));
+  PetscCall(VecRestoreArray(slack->t, &s));
+  PetscFunctionReturn(0);
+}
+
+/* d = B r for a residual that is zero on W; *definite is false where B is not */
+static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   rd;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterApply, tao, r, d, NULL));
+  PetscCall(PCApply(pc, r, d));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterApply, tao, r, d, NULL));
+  PetscCall(IPFixedZero(tao, d));
+  PetscCall(VecDot(r, d, &rd));
+  *definite = (PetscBool)(PetscRealPart(rd) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(rd)));
+  ip->rec.napplications++;
+  ip->rec.ksp_iterations[ip->rec.nksp - 1]++;
+  tao->ksp_its++;
+  tao->ksp_tot_its++;
+  PetscFunctionReturn(0);
+}
+
+/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so
+   answers most to other constraints and gaps. The reduced problem is to be centred anew, at its solution, so that
+   nothing of that is lost. */
+PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+{
+  IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
+  const PetscInt last = basis->max / 8, best = basis->max / 2;
+  PetscReal     *E;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
+  PetscCall(IPReducedCoupling(&f->reduced, basis, E));
+  PetscCall(IPBasisCompress(basis, best, last, E));
+  PetscCall(PetscFree(E));
+  PetscCall(IPReducedForget(&f->reduced));
+  PetscFunctionReturn(0);
+}
+
+/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program,
+   where it is negative, too: with the constraints in it it may not be */
+static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal rounding = 1e-11;
+  PetscScalar     energy, size;
+  Vec             Kd;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
+  PetscCall(MatMult(ip->hess.H, d, Kd));
+  PetscCall(VecDot(d, Kd, &energy));
+  PetscCall(VecPointwiseMult(Kd, d, ip->stiff.hdiag));
+  PetscCall(VecDot(d, Kd, &size));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
+  *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
+  if (ip->filtered.newton && PetscRealPart(energy) < -rounding * PetscRealPart(size)) *singular = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a
+   solve, and where it fails */
+static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
+{
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  PetscBool     singular = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
+  PetscCall(FilteredIsSingular(tao, d, &singular));
+  if (!singular) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceStateHold(tao, kept, definite));
+  if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the KKT error still falls: by half in so many steps */
+PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
+{
+  f->nfutile++;
+  if (error <= 0.5 * f->halved) {
+    f->halved  = error;
+    f->nfutile = 0;
+  }
+  return (PetscBool)(f->nfutile <= patience);
+}
+
+/* Whether the Krylov method's limit allows another direction */
+PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
+{
+  PetscInt limit;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, NULL, &limit));
+  *allows = (PetscBool)(((TAO_IPFILTER *)tao->data)->rec.napplications < limit);
+  PetscFunctionReturn(0);
+}
+
+/* A direction from the residual r, zero on W; there is room for it */
+PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f     = &ip->filtered;
+  IPBasis      *basis = &kept->basis;
+  Vec           d;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
+  PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
+  PetscCall(VecISSet(d, f->W, 0.0));
+  if (*extended) {
+    PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
+    PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterAppend, tao, d, NULL, NULL));
+  }
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
+  if (!*extended) PetscFunctionReturn(0);
+  PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
+{
+  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(tao->solution, &f->centre));
+  PetscCall(VecDuplicate(tao->solution, &f->gradient));
+  PetscCall(VecDuplicate(((TAO_IPFILTER *)tao->data)->at.c, &f->c));
+  PetscCall(PetscMalloc2(basis->max, &f->pg, basis->max, &f->y));
+  PetscCall(FilteredStartPairs(tao));
+  PetscFunctionReturn(0);
+}
+
+/* What the present Hessian has, with the active rows that slacks and multipliers tell; in the beginning also what
+   this solve alone has. *possible is false where K_WW is not positive definite. */
+PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = &ip->filtered;
+
+  PetscFunctionBegin;
+  if (!f->centre) PetscCall(FilteredCreate(tao, basis));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c,
+    basis, possible));
+  PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  if (*possible) PetscCall(FilteredGuess(tao));
+  PetscFunctionReturn(0);
+}

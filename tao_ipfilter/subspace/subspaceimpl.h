@@ -1,0 +1,203 @@
+/*
+   The map of tao_ipfilter/subspace: the filtered subspace: directions, the reduced problem, its active sets and the
+   laws of norm terms. Every file builds on those before it, and on the folders below.
+*/
+#ifndef IPFILTER_SUBSPACEIMPL_H
+#define IPFILTER_SUBSPACEIMPL_H
+
+#include "tao_ipfilter/step/stepimpl.h"
+
+/* Directions P of the filtered subspace, zero on the constraints' unknowns W; the oldest first */
+typedef struct {
+  PetscInt   n, max;
+  Vec       *p, *q;         /* p_j, and K p_j; NULL where not yet needed */
+  PetscReal *gram, *factor; /* P^T K P, columns of length max, and its Cholesky factor, the lower triangle */
+} IPBasis;
+
+/* C = J_W K_WW^-1 J_W^T, on the first rank */
+typedef struct {
+  PetscInt   m, n;
+  Mat        F, J; /* K_WW factored; J_W */
+  Vec        b, x; /* of W, without arrays of their own use */
+  PetscInt   ncolumns, maxcolumns;
+  PetscInt  *column; /* where the column of a row stands; negative: nowhere yet */
+  PetscReal *C;      /* the columns */
+} IPCompliance;
+
+/* Unknowns on W, by their places in it, that have a companion, and the springs between them; on the first rank but
+   for n: companions.c */
+typedef struct {
+  PetscInt   n, *row;
+  PetscReal *spring;
+} IPCompanions;
+
+static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
+{
+  return c->C + (size_t)c->column[row] * (size_t)c->m;
+}
+
+/* The contact problem with w eliminated, as active_set.c and laws.c state it: constraints, and below them two rows
+   a norm term */
+typedef struct {
+  PetscInt   m, k, kmax;       /* rows; companions and directions, and room for them */
+  PetscReal *JZ, *T, *h, *t;   /* columns of length m and kmax */
+  PetscReal *G;                /* the diagonal of P^T K P */
+  PetscReal *lambda, *gap, *y; /* forces and motions of the rows */
+  PetscReal  length;           /* size of the terms of a gap */
+} IPReducedSystem;
+
+/* The constraints that are active, and the factors that belong to them */
+typedef struct {
+  PetscInt   m, n, k; /* constraints; the active ones that something gives way to; directions in V */
+  PetscBool *active, factored;
+  PetscInt  *rows;
+  PetscReal *L, *V, *H, *r;
+} IPActiveSet;
+
+/* The system of a Newton step on the laws of constraints and norm terms: system.c */
+typedef struct {
+  PetscInt      m, k;        /* rows, directions in V */
+  Mat           K, FK;       /* K_WW, and its factors */
+  Mat           R, RD, G;    /* R, R D and R D R^T */
+  Mat           Bv, Bf;      /* what the rows' equations take of v and f */
+  Mat           A, F;        /* B_v R D R^T + B_f in the rows' scale, and its factors, */
+  Mat           Pv, Pf;      /* and the B_v and B_f that they are of */
+  PetscReal    *gives;       /* what rows give way by, by D */
+  PetscReal    *scale;       /* force of a row over the root of its energy */
+  PetscReal    *V, *ZV, *H;  /* columns of length m; of length kmax; of length k */
+  PetscBLASInt *pivots;      /* of H */
+  Vec           S;           /* and the scale that A has */
+  PetscReal    *f, *v;       /* scratch, of rows */
+  Vec           r, z, w, Kw; /* of rows and of W */
+  PetscInt      fresh;       /* iterations that GMRES took with the factors when they were new */
+  PetscBool     stale;       /* they no longer serve */
+  PetscReal    *C;           /* C, where GMRES has given up: dense.c; NULL: it has not */
+} IPTermSystem;
+
+/* What is closed and slips of constraints and norm terms: laws.c */
+typedef struct {
+  PetscInt     m, n;                /* constraints and terms */
+  PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
+  PetscReal   *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
+  PetscReal   *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
+  PetscReal   *dead;                /* along which nothing gives way, two a term */
+  PetscReal    length;              /* size of the terms of a motion */
+  PetscBool   *closed, *slips;
+  PetscBool   *takes, listed; /* the rows that take part, once they are known */
+  PetscInt     na;            /* and their number */
+  PetscReal   *F, *Fy;
+  IPTermSystem system;
+} IPTermSet;
+
+/* The contact problem on the subspace; n and m are zero on all ranks but the first */
+typedef struct {
+  PetscBool       first;
+  PetscInt        n, m, nterms; /* unknowns W, constraints, norm terms */
+  VecScatter      to_W, to_rows, to_terms;
+  Vec             on_W, on_rows, on_terms;
+  IPTermSet       terms;
+  IPCompliance    compliance;
+  IPCompanions    companions; /* the first of what y moves */
+  IPReducedSystem system;
+  IPActiveSet     set;
+  PetscReal      *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
+  PetscInt        nsteps, nactive;
+} IPReduced;
+
+/* What a filtered subspace keeps from one solve to the next */
+typedef struct {
+  PC               pc;            /* the Krylov method's, set up with K alone, */
+  PetscBool        held;          /* or with K + J^T D J, for bodies that only the constraints hold */
+  PetscBool        changing;      /* K has changed since it was first seen */
+  PetscInt         napplications; /* of the preconditioner in the last solve */
+  PetscObjectId    K_id;
+  PetscObjectState K_state;
+  IPBasis          basis;
+} IPSubspaceState;
+
+/* The filtered subspace method, while it is on */
+typedef struct {
+  PetscBool      linear;   /* the routine of the Jacobian has left its matrix alone: linear constraints, */
+  PetscBool      constant; /* and that of the Hessian too: a quadratic program */
+  PetscBool      on;
+  PetscBool      newton; /* by Newton's method, as the objective is not quadratic */
+  PetscContainer kept;   /* an IPSubspaceState */
+  IS             W;      /* the unknowns that V has all of: those of the constraints, and their neighbours */
+  IPReduced      reduced;
+  Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
+  PetscReal      f;                   /* and f there */
+  PetscReal     *pg, *y;              /* P^T grad f there; coefficients of the directions */
+  PetscInt       ncentred;            /* steps in a row without a new direction */
+  PetscInt       nfutile;             /* steps since the KKT error has last been halved, */
+  PetscReal      halved;              /* and what it was then */
+  PetscReal      begin;               /* KKT error of the first reduced problem's solution */
+} IPFiltered;
+
+/* basis.c */
+PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);
+PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
+PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
+PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
+PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
+
+/* compliance.c */
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, Mat J, PetscBool *factored);
+PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
+PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscBool transposed, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceColumns(IPCompliance *, PetscInt n, const PetscInt rows[]);
+
+/* companions.c */
+PETSC_INTERN PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *, PetscBool *needed);
+PETSC_INTERN PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *);
+PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
+
+/* active_set.c */
+PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
+PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
+PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps,
+  PetscBool *solved);
+
+/* reduced.c */
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c,
+  const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
+PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
+PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
+
+/* state.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
+PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
+PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao, PetscInt);
+PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
+PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);
+
+/* subspace.c */
+PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, const IPBasis *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
+PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
+PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
+PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
+PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPSubspaceState *, Vec r, PetscBool *extended);
+
+/* method.c */
+PETSC_INTERN PetscErrorCode IPFilteredBegin(Tao, PetscBool *begun);
+PETSC_INTERN PetscErrorCode IPFilteredStep(Tao, PetscBool *done);
+PETSC_INTERN PetscErrorCode IPFilteredEnd(Tao);
+
+/* newton.c */
+PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
+
+#endif
