@@ -50,6 +50,7 @@ PETSC_EXTERN PetscErrorCode CheckpointNamePairField(const SceneContactPair *, Ch
 PETSC_EXTERN PetscErrorCode CheckpointAddField(Checkpoint, const char name[], PetscInt components, PetscInt nvertices,
   PetscReal **values);
 PETSC_EXTERN PetscErrorCode CheckpointGetField(Checkpoint, const char name[], const PetscReal **values);
+PETSC_EXTERN PetscErrorCode CheckpointCheck(MPI_Comm, Checkpoint);
 PETSC_EXTERN PetscErrorCode CheckpointDestroy(Checkpoint *);
 
 /* Writes states of one simulation to one file. Atomically: that which was there stays until the next is safe on the

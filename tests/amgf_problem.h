@@ -103,7 +103,7 @@ static inline PetscErrorCode ProblemFill(const Problem *p, PetscBool penalty, Ma
   PetscFunctionReturn(0);
 }
 
-/* The node blocks are distributed out so that, with more ranks than one, some own no stiff unknown */
+/* The node blocks are distributed so that, with more ranks than one, some own no stiff unknown */
 static inline PetscErrorCode ProblemCreate(MPI_Comm comm, const Problem *p, MatType type, PetscBool penalty, Mat *A)
 {
   PetscInt  nodes = PETSC_DECIDE, N = p->n * p->n, *most;

@@ -153,7 +153,7 @@ static PetscErrorCode TestMemory(void)
   PetscFunctionReturn(0);
 }
 
-/* As many cubes as it takes for a file to be distributed out to three ranks */
+/* As many cubes as it takes for a file to be distributed to three ranks */
 static PetscErrorCode WriteBricks(const char file[])
 {
   enum {

@@ -113,6 +113,48 @@ head -c 3000 press.h5 > torn.h5
 try press.yaml -restart torn.h5 | sed "s/of its $(stat -c %s press.h5) bytes/of all its bytes/"
 try press.yaml -restart press.h5 -accuracy 0.1
 try press.yaml -checkpoint_every 1 -checkpoint nowhere/press.h5
+# Numbers and sizes of a file that is damaged, on the mesh that it is of and on a refined one
+"$PYTHON" - <<'PY'
+import shutil
+import h5py
+import numpy as np
+
+def damage(name, change):
+    shutil.copy("press.h5", name + ".h5")
+    with h5py.File(name + ".h5", "r+") as file:
+        change(file)
+
+def number(key, value):
+    damage("bad_" + key, lambda file: file.attrs.modify(key, np.array(value, file.attrs[key].dtype)))
+
+def data(name, field, values):
+    def replace(file):
+        old = file[field]
+        new = values(old[...])
+        del file[field]
+        file.create_dataset(field, data=new, dtype=old.dtype)
+    damage(name, replace)
+
+def put(index, value):
+    def change(a):
+        a[index] = value
+        return a
+    return change
+
+number("step", 7), number("time", np.nan), number("previous_time", 100.0), number("increment", -1.0), number("work", np.inf)
+data("bad_cells", "cells", lambda a: a[:-1])
+data("bad_body", "body", lambda a: np.concatenate((a, a)))
+data("bad_vertex", "cells", put((0, 3), 100000))
+data("bad_field", "displacement", lambda a: a[:-1])
+data("bad_value", "displacement", put((3, 1), np.nan))
+data("bad_place", "vertices", put((3, 1), np.nan))
+PY
+for name in step time previous_time increment work field value; do try press.yaml -restart bad_$name.h5; done
+for name in cells body vertex field value place; do
+  try press.yaml -restart bad_$name.h5 -refine 1
+  timeout 200 mpiexec --oversubscribe -n 2 "$contact" press.yaml -restart bad_$name.h5 -refine 1 -quiet > err 2>&1
+  echo "two ranks: exit $?, $(grep -ac 'contact: error' err) sentence"
+done
 # Nothing that a run refuses touches the results of an earlier one, nor does a run before it has solved a load step
 earlier="-output earlier -checkpoint_every 1 -checkpoint earlier_state.h5 -summary earlier.json"
 "$contact" press.yaml -quiet $earlier

@@ -102,6 +102,49 @@ PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], cons
 }
 
 /*@C
+   CheckpointCheck - Whether the numbers of a checkpoint can be those of a state
+
+   Not Collective
+
+   Input Parameters:
++  comm       - where the error is raised; every rank has the same numbers
+-  checkpoint - the checkpoint
+
+   Level: developer
+
+   Note:
+   Error: PETSC_ERR_FILE_UNEXPECTED.
+
+.seealso: `CheckpointRead()`, `SimulationSetCheckpoint()`
+@*/
+PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
+{
+  const struct {
+    const char *name;
+    PetscReal   value, least;
+  } numbers[] = {
+    {"time", checkpoint->time, 0},
+    {"previous_time", checkpoint->previous_time, 0},
+    {"increment", checkpoint->increment, 0},
+    {"largest_increment", checkpoint->largest_increment, 0},
+    {"work", checkpoint->work, PETSC_NINFINITY},
+    {"contact_work", checkpoint->contact_work, PETSC_NINFINITY},
+  };
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(numbers); ++i)
+    PetscCheck(!PetscIsInfOrNanReal(numbers[i].value) && numbers[i].value >= numbers[i].least, comm,
+      PETSC_ERR_FILE_UNEXPECTED, "the state is damaged: its %s is %g", numbers[i].name, (double)numbers[i].value);
+  PetscCheck(checkpoint->previous_time <= checkpoint->time, comm, PETSC_ERR_FILE_UNEXPECTED,
+    "the state is damaged: its previous_time %g is later than its time %g", (double)checkpoint->previous_time,
+    (double)checkpoint->time);
+  PetscCheck((PetscReal)checkpoint->step == PetscFloorReal(checkpoint->time), comm, PETSC_ERR_FILE_UNEXPECTED,
+    "the state is damaged: its step %" PetscInt_FMT " does not go with its time %g", checkpoint->step,
+    (double)checkpoint->time);
+  PetscFunctionReturn(0);
+}
+
+/*@C
    CheckpointDestroy - Frees a checkpoint
 
    Not Collective

@@ -23,7 +23,7 @@ PetscReal *CheckpointNumber(Checkpoint checkpoint, size_t i)
 
 /* The mesh of the file, all of it on every rank */
 typedef struct {
-  PetscInt           ncells;
+  PetscInt           ncells, nvertices;
   Vec                vertices;
   IS                 cells, body;
   const PetscScalar *x;
@@ -73,6 +73,18 @@ static PetscErrorCode RestartLoadAll(Restart *r, const char name[], PetscInt com
   PetscFunctionReturn(0);
 }
 
+/* Collective over the vector */
+static PetscErrorCode RestartCheckNumbers(Restart *r, const char name[], Vec v)
+{
+  PetscReal sum;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(v, NORM_1, &sum));
+  PetscCheck(!PetscIsInfOrNanReal(sum), r->comm, PETSC_ERR_FILE_UNEXPECTED,
+    "the state is damaged: its %s has values that are not numbers", name);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode RestartLoadIndices(Restart *r, const char name[], IS *all)
 {
   IS is;
@@ -117,6 +129,7 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
   for (size_t i = 0; CheckpointNumbers[i].name; ++i)
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL,
       CheckpointNumber(checkpoint, i)));
+  PetscCall(CheckpointCheck(r->comm, checkpoint));
   for (PetscInt k = 0; k < r->scene->nramps; ++k) {
     const char *ramp = r->scene->ramps[k].name;
     char        name[256];
@@ -166,7 +179,8 @@ static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt
   return mesh->c[mesh->first[cell] + (mesh->nnodes[cell] == 8 ? vtk[a] : a)];
 }
 
-/* Where the nodes of each cell begin, and how many there are: 8, or as its kind says, which is before them */
+/* Where the nodes of each cell begin, and how many there are: 8, or as its kind says, which is before them. Each has
+   all its nodes, and they are vertices of the file */
 static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nindices)
 {
   RestartMesh *mesh = &r->mesh;
@@ -174,15 +188,23 @@ static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nin
   PetscBool    sound;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(mesh->ncells, &mesh->first, mesh->ncells, &mesh->nnodes));
+  PetscCall(PetscCalloc2(mesh->ncells, &mesh->first, mesh->ncells, &mesh->nnodes));
   for (PetscInt c = 0; c < mesh->ncells && at < nindices; ++c) {
-    mesh->nnodes[c] = mixed ? OutputKindNodes(mesh->c[at++]) : 8;
+    const PetscInt n = mixed ? OutputKindNodes(mesh->c[at++]) : 8;
+
+    if (!n || n > nindices - at) break;
+    mesh->nnodes[c] = n;
     mesh->first[c]  = at;
-    at += mesh->nnodes[c] ? mesh->nnodes[c] : nindices;
+    for (PetscInt i = at; i < at + n; ++i) {
+      PetscCheck(mesh->c[i] >= 0 && mesh->c[i] < mesh->nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT ", and there are %" PetscInt_FMT,
+        c, mesh->c[i], mesh->nvertices);
+    }
+    at += n;
   }
-  sound = (PetscBool)(at == nindices);
+  sound = (PetscBool)(at == nindices && (!mesh->ncells || mesh->nnodes[mesh->ncells - 1]));
   PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+    "the state is damaged: its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
   PetscFunctionReturn(0);
 }
 
@@ -194,10 +216,13 @@ static PetscErrorCode RestartLoadMesh(Restart *r)
 
   PetscFunctionBegin;
   PetscCall(RestartLoadAll(r, "vertices", 3, &mesh->vertices));
+  PetscCall(RestartCheckNumbers(r, "vertices", mesh->vertices));
   PetscCall(PetscViewerHDF5HasDataset(r->viewer, "mixed_cells", &mixed));
   PetscCall(RestartLoadIndices(r, mixed ? "mixed_cells" : "cells", &mesh->cells));
   PetscCall(RestartLoadIndices(r, "body", &mesh->body));
   PetscCall(ISGetLocalSize(mesh->body, &mesh->ncells));
+  PetscCall(VecGetLocalSize(mesh->vertices, &mesh->nvertices));
+  mesh->nvertices /= 3;
   PetscCall(VecGetArrayRead(mesh->vertices, &mesh->x));
   PetscCall(ISGetIndices(mesh->cells, &mesh->c));
   PetscCall(ISGetIndices(mesh->body, &mesh->b));
@@ -246,11 +271,17 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
   const PetscScalar *s;
   const MeshPlace   *places;
   PetscReal         *values;
+  PetscInt           size;
 
   PetscFunctionBegin;
   PetscCall(CheckpointAddField(checkpoint, name, components, r->output->nowned, &values));
   if (r->locator) PetscCall(RestartLoadAll(r, name, components, &stored));
   else PetscCall(RestartLoad(r, name, r->output->nowned, components, &stored));
+  PetscCall(RestartCheckNumbers(r, name, stored));
+  PetscCall(VecGetSize(stored, &size));
+  PetscCheck(!r->locator || size == components * r->mesh.nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+    "the state is damaged: its %s has %" PetscInt_FMT " values for %" PetscInt_FMT " vertices", name, size,
+    r->mesh.nvertices);
   PetscCall(VecGetArrayRead(stored, &s));
   if (r->locator) {
     PetscCall(MeshLocatorGetPlaces(r->locator, &places));
@@ -293,26 +324,30 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Is it HDF5, and all of it? The library would print a page of its own. The file's end stands at byte 40 of a
-   superblock of version 0 */
-static PetscErrorCode RestartCheckFile(const char file[])
+/* Is it HDF5, and all of it, as the first rank sees it? The library would print a page of its own. The file's end
+   stands at byte 40 of a superblock of version 0 */
+static PetscErrorCode RestartCheckFile(const Restart *r)
 {
-  unsigned char head[48] = {0};
-  FILE         *stream   = fopen(file, "rb");
-  PetscInt64    length = 0, end = 0;
-  size_t        n = 0;
+  unsigned char head[48]  = {0};
+  PetscInt64    length[2] = {0, 0}; /* of the file, and what it ought to be; negative: it is another one */
+  PetscMPIInt   rank;
+  FILE         *stream = NULL;
 
   PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(r->comm, &rank));
+  if (rank == 0) stream = fopen(r->file, "rb");
   if (stream) {
-    n = fread(head, 1, sizeof(head), stream);
-    for (int i = 47; i >= 40 && !head[8]; --i) end = 256 * end + head[i];
-    if (!fseek(stream, 0, SEEK_END)) length = ftell(stream);
+    const size_t n = fread(head, 1, sizeof(head), stream);
+
+    for (int i = 47; i >= 40 && !head[8]; --i) length[1] = 256 * length[1] + head[i];
+    if (!fseek(stream, 0, SEEK_END)) length[0] = ftell(stream);
+    if (n < sizeof(head) || memcmp(head, "\211HDF\r\n\032\n", 8)) length[0] = -1;
     (void)fclose(stream);
   }
-  PetscCheck(n == sizeof(head) && !memcmp(head, "\211HDF\r\n\032\n", 8), PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
-    "it is no HDF5 file");
-  PetscCheck(length >= end, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
-    "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", end, length);
+  PetscCallMPI(MPI_Bcast(length, 2, MPIU_INT64, 0, r->comm));
+  PetscCheck(length[0] >= 0, r->comm, PETSC_ERR_FILE_READ, "it is no HDF5 file");
+  PetscCheck(length[0] >= length[1], r->comm, PETSC_ERR_FILE_READ,
+    "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", length[1], length[0]);
   PetscFunctionReturn(0);
 }
 
@@ -321,7 +356,7 @@ static PetscErrorCode RestartReadFile(Restart *r, Checkpoint checkpoint, PetscBo
   PetscBool has;
 
   PetscFunctionBegin;
-  PetscCall(RestartCheckFile(r->file));
+  PetscCall(RestartCheckFile(r));
   PetscCall(PetscViewerHDF5Open(r->comm, r->file, FILE_MODE_READ, &r->viewer));
   PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, "largest_increment", &has));
   PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED, "it holds other results");

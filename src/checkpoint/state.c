@@ -137,6 +137,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   LoadPath *path = &sim->path;
 
   PetscFunctionBegin;
+  PetscCall(CheckpointCheck(sim->comm, checkpoint));
   PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
     "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
     ": the analysis is already complete",

@@ -1,5 +1,5 @@
 /*
-   The grids of all bodies, distributed out from the first rank to all before any of it is a DMPlex: no rank ever
+   The grids of all bodies, distributed from the first rank to all before any of it is a DMPlex: no rank ever
    holds more of that, which takes several times the memory of the grids, than its own part. METIS parts the cells of
    the first rank by their dual graph; each part goes out with its vertices, facets and curves.
 */
@@ -402,7 +402,7 @@ PetscErrorCode MeshDistributeGrids(MPI_Comm comm, PetscInt nbodies, MeshBody mes
   PetscCall(RankErrorBegin(&error));
   ierr = DistributeExchange(&deal, owners);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be distributed out to the ranks: %s",
+  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be distributed to the ranks: %s",
     error.message);
   PetscCall(PetscFree3(deal.part, deal.count, deal.facetpart));
   PetscCall(PetscFree3(deal.owner, deal.place, deal.here));

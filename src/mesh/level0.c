@@ -163,7 +163,7 @@ static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners
   PetscFunctionReturn(0);
 }
 
-/* The other ranks' parts are empty, unless the grids were distributed out */
+/* The other ranks' parts are empty, unless the grids were distributed */
 PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
   const MeshOwners *owners, DM *dm)
 {

@@ -361,7 +361,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode MeshDistributeGrids(MPI_Comm, PetscInt nbodies, MeshBody[], MeshOwners *);
 PETSC_INTERN PetscErrorCode MeshOwnersDestroy(MeshOwners *);
 
-/* level0.c: all bodies at level 0 with their labels, on rank 0 or distributed out; the first cell of each, tetrahedra
+/* level0.c: all bodies at level 0 with their labels, on rank 0 or distributed; the first cell of each, tetrahedra
    before hexahedra as DMPlex wants them */
 PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[],

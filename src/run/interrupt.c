@@ -22,6 +22,8 @@ static void InterruptHandle(int sig)
    A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves
    them alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
 
+   A signal ends every simulation of the process until this function is called again.
+
 .seealso: `SimulationStep()`
 @*/
 PetscErrorCode SimulationCatchSignals(void)
@@ -29,6 +31,7 @@ PetscErrorCode SimulationCatchSignals(void)
   static const int signals[] = {SIGINT, SIGTERM, SIGUSR1};
 
   PetscFunctionBegin;
+  caught = 0;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(signals); ++i)
     PetscCheck(signal(signals[i], InterruptHandle) != SIG_ERR, PETSC_COMM_SELF, PETSC_ERR_SYS,
       "signal() failed for signal %d", signals[i]);

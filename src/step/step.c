@@ -44,6 +44,20 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscFunctionReturn(0);
 }
 
+/* A load step that is the next one: the path ends where it begins, or within it where it was tried in vain */
+static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
+{
+  const PetscInt next = (PetscInt)PetscFloorReal(sim->path.time);
+
+  PetscFunctionBegin;
+  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "SimulationSetUp() comes before SimulationStep()");
+  PetscCheck(step >= 0 && step < sim->scene->nsteps, sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, sim->scene->nsteps - 1);
+  PetscCheck(step == next, sim->comm, PETSC_ERR_ORDER,
+    "load step %" PetscInt_FMT " is not the next one, which is %" PetscInt_FMT, step, next);
+  PetscFunctionReturn(0);
+}
+
 /* Half of what was tried; false when the step has been cut often enough */
 static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
 {
@@ -67,7 +81,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 
    Input Parameters:
 +  sim  - the simulation
--  step - number of the step, from 0; steps are taken in order
+-  step - number of the step, from 0; steps are taken in order, each once
 
    Output Parameter:
 .  state - what the step left, borrowed until the next step. Look at state->report->converged: where it is false the
@@ -84,17 +98,22 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 
    A step that fails is halved, tried again from the last good state, and doubled after each success.
 
+   Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE
+   for one that the scene does not have.
+
 .seealso: `SimulationCreate()`, `SimulationGetReport()`, `TAOIPFILTER`
 @*/
 PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
-  StepReport     *report    = &sim->report.steps[step - sim->first_step];
   const PetscReal end       = (PetscReal)(step + 1);
   PetscReal       increment = sim->increment > 0.0 ? sim->increment : end - sim->path.time;
   PetscBool       again     = PETSC_TRUE, anew, stop;
+  StepReport     *report;
   PetscLogDouble  t0, t1;
 
   PetscFunctionBegin;
+  PetscCall(SimulationCheckStep(sim, step));
+  report = &sim->report.steps[step - sim->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
   PetscCall(ProgressBegin(sim));
