@@ -167,6 +167,8 @@ PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
 PETSC_INTERN PetscErrorCode PCAMGFExpect_AMGF(PC, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *, const char *[]);
+/* contrast.c */
+PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */

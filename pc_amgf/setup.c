@@ -91,57 +91,20 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 }
 
 /*
-   The largest over the smallest positive diagonal entry, of all ranks. Rows of the subspace do not count in fbf, which
-   is positive definite and solves for them whatever B is.
-*/
-static PetscErrorCode SetUpFindContrast(PC pc, PetscReal *contrast)
-{
-  PC_AMGF           *amgf = (PC_AMGF *)pc->data;
-  Vec                diagonal;
-  PetscInt           n, start, nrows = 0, k = 0;
-  const PetscInt    *rows     = NULL;
-  PetscReal          range[2] = {0.0, 0.0}; /* largest entry, and largest inverse */
-  const PetscScalar *d;
-
-  PetscFunctionBegin;
-  PetscCall(MatCreateVecs(pc->pmat, &diagonal, NULL));
-  PetscCall(MatGetDiagonal(pc->pmat, diagonal));
-  PetscCall(VecGetLocalSize(diagonal, &n));
-  PetscCall(VecGetOwnershipRange(diagonal, &start, NULL));
-  if (amgf->active && amgf->sub.rows && amgf->cycle == PC_AMGF_FBF) {
-    PetscCall(ISGetLocalSize(amgf->sub.rows, &nrows));
-    PetscCall(ISGetIndices(amgf->sub.rows, &rows));
-  }
-  PetscCall(VecGetArrayRead(diagonal, &d));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal entry = PetscRealPart(d[i]);
-
-    if (k < nrows && rows[k] == start + i) k++;
-    else if (entry > 0.0) {
-      range[0] = PetscMax(range[0], entry);
-      range[1] = PetscMax(range[1], 1.0 / entry);
-    }
-  }
-  PetscCall(VecRestoreArrayRead(diagonal, &d));
-  if (rows) PetscCall(ISRestoreIndices(amgf->sub.rows, &rows));
-  PetscCall(VecDestroy(&diagonal));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)pc)));
-  *contrast = range[0] * range[1];
-  PetscFunctionReturn(0);
-}
-
-/*
    Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries, which is to be little
-   beside soft rows: CG with PCBLOCKAMG by itself meets an indefinite preconditioner at a contrast of 1e9
+   beside soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2 B^-1: of stiff ties, with
+   which A < B^-1 in exact arithmetic, a contrast of 1e4 allows A < 1.001 B^-1, one of 1e5 A < 1.6 B^-1.
 */
 static PetscErrorCode SetUpChooseAMG(PC pc)
 {
-  const PetscReal largest = 1e7;
+  const PC_AMGF  *amgf    = (PC_AMGF *)pc->data;
+  const PetscReal largest = amgf->cycle == PC_AMGF_BFB ? 1e4 : 1e7;
   PetscReal       contrast;
 
   PetscFunctionBegin;
-  if (!((PC_AMGF *)pc->data)->bydefault) PetscFunctionReturn(0);
-  PetscCall(SetUpFindContrast(pc, &contrast));
+  if (!amgf->bydefault) PetscFunctionReturn(0);
+  PetscCall(PCAMGFFindContrast_Private(pc->pmat, PETSC_FALSE, &contrast));
+  if (contrast > largest) PetscCall(PCAMGFFindContrast_Private(pc->pmat, PETSC_TRUE, &contrast));
   PetscCall(PCAMGFSetBlockAMG_Private(pc, (PetscBool)(contrast <= largest)));
   PetscFunctionReturn(0);
 }
