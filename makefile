@@ -13,13 +13,13 @@ include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
-plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
+plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c pc_amgf/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
 library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c))
 programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard apps/*.c)))
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo check stress scene-stress clean help dependencies FORCE
+.PHONY: all complex demo demo-published check stress scene-stress clean help dependencies FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -32,6 +32,9 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 	@mkdir -p $(@D)
 	$(call say,CC,$<)
 	$(Q)$(COMPILE) $< -o $@
+
+# Which Python makes the page of a run
+build/src/output/page.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
@@ -62,10 +65,19 @@ bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 dependencies:
 	@./share/install-deps.sh
 
-# A second make sees what the first one installed
+# A second make sees what the first one installed. Compiler lines go to a file, whose end is shown when something fails
+BUILD_LOG := build/demo/build.log
+quiet_build = mkdir -p build/demo; \
+  [ -x bin/contact ] || echo 'Building, a minute or two the first time (messages: $(BUILD_LOG))'; \
+  $(MAKE) --no-print-directory $(PARALLEL) all > $(BUILD_LOG) 2>&1 || { tail -n 20 $(BUILD_LOG) >&2; exit 1; }
+
 demo: dependencies
-	@$(MAKE) --no-print-directory $(PARALLEL) all
-	@mkdir -p build/demo
+	@$(quiet_build)
+	@$(PYTHON) -B share/demo/hertz.py build/demo
+
+# The two-block problem of the publication
+demo-published: dependencies
+	@$(quiet_build)
 	bin/contact share/scenes/two_block.yaml -output build/demo/two_block
 
 check: dependencies
@@ -91,7 +103,8 @@ clean:
 
 help:
 	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'
-	@echo 'make demo            installs what is missing, builds, and solves share/scenes/two_block.yaml'
+	@echo 'make demo            installs what is missing, builds, solves a problem whose exact answer is known, and compares'
+	@echo 'make demo-published  the same with the two-block problem of the publication'
 	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'

@@ -10,6 +10,8 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -restart FILE        go on from such a state, also on other ranks, with -refine, with a load program that\n\
                         goes on otherwise\n\
   -summary FILE.json   write the run's report\n\
+  -report FILE.html    write one page of the run for people: scene, pictures, curves, forces, accuracy, time; also\n\
+                        writes -output FILE and -summary FILE.json unless these are given\n\
   -contact_free        also solve the first step without contact, for comparison\n\
   -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in\n\
                         energy and contact force\n\
@@ -54,9 +56,9 @@ Exit code:\n\
 
 typedef struct {
   char scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN],
-    checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN];
+    checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
   PetscInt  checkpoint_every; /* load steps; 0: only where a signal ends the run */
-  PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet;
+  PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
 } AppOptions;
 
 /* What is known of an error by the time it reaches main() */
@@ -167,24 +169,53 @@ static PetscBool AppAsksForText(int argc, char **argv)
                      (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version")));
 }
 
-static PetscErrorCode AppSayText(const char word[])
+static PetscErrorCode AppGetVersions(char text[], size_t length)
 {
-  char version[256];
+  char plugin[256], petsc[256];
 
   PetscFunctionBeginUser;
-  if (!strcmp(word, "--help")) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", help));
-  else {
-    PetscCall(PetscAMGFGetVersion(version, sizeof(version)));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "contact %d.%d.%d\n%s\n", PETSCAMGF_VERSION_MAJOR, PETSCAMGF_VERSION_MINOR,
-      PETSCAMGF_VERSION_SUBMINOR, version));
-    PetscCall(PetscGetVersion(version, sizeof(version)));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "running %s\n", version));
-  }
+  PetscCall(PetscAMGFGetVersion(plugin, sizeof(plugin)));
+  PetscCall(PetscGetVersion(petsc, sizeof(petsc)));
+  PetscCall(PetscSNPrintf(text, length, "contact %d.%d.%d\n%s\nrunning %s\n", PETSCAMGF_VERSION_MAJOR,
+    PETSCAMGF_VERSION_MINOR, PETSCAMGF_VERSION_SUBMINOR, plugin, petsc));
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode AppSayText(const char word[])
+{
+  char versions[512];
+
+  PetscFunctionBeginUser;
+  PetscCall(AppGetVersions(versions, sizeof(versions)));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", !strcmp(word, "--help") ? help : versions));
+  PetscFunctionReturn(0);
+}
+
+/* A page shows fields and is made from the summary: files of its name, where no others are asked for */
+static PetscErrorCode AppCompleteReport(AppOptions *app)
+{
+  char  base[PETSC_MAX_PATH_LEN];
+  char *ending;
+
+  PetscFunctionBeginUser;
+  if (!app->page) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(base, app->report, sizeof(base)));
+  PetscCall(PetscStrendswith(base, ".html", &app->page));
+  PetscCheck(app->page, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-report takes the name of an HTML file, not \"%s\"",
+    app->report);
+  ending  = base + strlen(base) - strlen(".html");
+  *ending = '\0';
+  if (!app->write) PetscCall(PetscStrncpy(app->output, base, sizeof(app->output)));
+  if (!app->summarize) PetscCall(PetscSNPrintf(app->summary, sizeof(app->summary), "%s.json", base));
+  app->write = app->summarize = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Without a scene -help is all that is asked for, and given by then */
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
+  PetscBool helped;
+
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
@@ -200,6 +231,8 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     sizeof(app->restart), &app->restarts));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
     &app->summarize));
+  PetscCall(PetscOptionsString("-report", "Page of the run for people, an HTML file", NULL, app->report, app->report,
+    sizeof(app->report), &app->page));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
     &app->contact_free, NULL));
   PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy,
@@ -210,9 +243,11 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
   PetscOptionsEnd();
-  PetscCheck(argc > 1 && argv[1][0] != '-', PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+  if (argc > 1 && argv[1][0] != '-') PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscCall(PetscOptionsHasHelp(NULL, &helped));
+  PetscCheck(app->scene[0] || helped, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
     "no scene given; usage: contact SCENE.yaml [options], see contact -help");
-  PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscCall(AppCompleteReport(app));
   PetscFunctionReturn(0);
 }
 
@@ -275,6 +310,7 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   for (PetscInt b = 0; b < scene->nbodies; ++b) names[b] = scene->bodies[b].name;
   PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
+  PetscCall(OutputSetUnits(*output, scene->units));
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
@@ -416,6 +452,7 @@ static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
 
   PetscFunctionBeginUser;
   if (app->summarize) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, app->summary));
+  if (app->page) PetscCall(ReportPageCheck(PETSC_COMM_WORLD, app->report));
   PetscCall(AppGetCheckpointFile(app, scene, file));
   if (app->checkpoint_every) PetscCall(OutputCheckWritable(PETSC_COMM_WORLD, file));
   PetscFunctionReturn(0);
@@ -469,26 +506,65 @@ static PetscErrorCode AppLeaveUnusedOptions(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppRun(int argc, char **argv, AppError *error, RunEnd *end)
+/* What the page is made from when all ranks have ended; only the first rank has the name of a file then */
+static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **argv, ReportPage *page)
 {
-  AppOptions app;
-  Scene      scene;
+  PetscMPIInt rank;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
-  PetscCall(PetscPushErrorHandler(AppHandleError, error));
-  PetscCall(AppGetOptions(argc, argv, &app));
-  PetscCall(AppCheckWords(argc, argv));
-  if (!app.quiet) PetscCall(AppShowProgress());
-  PetscCall(SceneLoad(PETSC_COMM_WORLD, app.scene, &scene));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (!app->page || rank > 0) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(page->file, app->report, sizeof(page->file)));
+  PetscCall(PetscStrncpy(page->base, app->output, sizeof(page->base)));
+  PetscCall(PetscStrncpy(page->summary, app->summary, sizeof(page->summary)));
+  PetscCall(PetscStrncpy(page->scene, app->scene, sizeof(page->scene)));
+  for (int i = 0; i < argc; ++i) {
+    if (i) PetscCall(PetscStrlcat(page->command, " ", sizeof(page->command)));
+    PetscCall(PetscStrlcat(page->command, argv[i], sizeof(page->command)));
+  }
+  PetscCall(AppGetVersions(page->versions, sizeof(page->versions)));
+  PetscFunctionReturn(0);
+}
+
+/* The run is over, its exit code stands: a page that cannot be made is said */
+static void AppMakePage(const ReportPage *page)
+{
+  char sentence[512];
+
+  if (page->file[0] && ReportPageMake(page, sentence, sizeof(sentence)))
+    fprintf(stderr, "contact: there is no page %s: %s\n", page->file, sentence);
+}
+
+static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
+{
+  Scene scene;
+
+  PetscFunctionBeginUser;
+  if (!app->quiet) PetscCall(AppShowProgress());
+  PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(AppLeaveUnusedOptions());
-  if (app.check) PetscCall(AppCheckScene(scene));
+  if (app->check) PetscCall(AppCheckScene(scene));
   else {
-    PetscCall(AppSolve(&app, scene, end));
+    PetscCall(AppSolve(app, scene, end));
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
   PetscCall(SceneDestroy(&scene));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage *page, RunEnd *end)
+{
+  AppOptions app;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(AppHandleError, error));
+  PetscCall(OptionsCheckValues(PETSC_COMM_WORLD));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
+  PetscCall(AppGetOptions(argc, argv, &app));
+  PetscCall(AppCheckWords(argc, argv));
+  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
+  if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
@@ -522,8 +598,23 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   _Exit(RUN_BROKEN);
 }
 
+/* Who reads no further wants no more, of -help too, which is printed in here: PETSc's signal handler would say a page
+ * about it */
+static PetscErrorCode AppInitialize(int *argc, char ***argv)
+{
+  static const char option[] = "-no_signal_handler";
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, option, "true"));
+  PetscCall(PetscInitialize(argc, argv, NULL, help));
+  PetscCall(PetscOptionsClearValue(NULL, option));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
+  static ReportPage page; /* none */
+
   RunEnd      end   = RUN_CONVERGED;
   AppError    error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
   const char *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* which PETSc would take for an option of its own */
@@ -531,15 +622,15 @@ int main(int argc, char **argv)
 
   AppLimitHeap();
   if (word) argc = 1;
-  ierr = PetscInitialize(&argc, &argv, NULL, help);
+  ierr = AppInitialize(&argc, &argv);
   if (ierr) return RUN_REFUSED;
   error.said = dup(STDERR_FILENO);
   ierr       = PetscPushSignalHandler(AppCrash, &error);
   if (ierr) return RUN_BROKEN;
-  signal(SIGPIPE, SIG_DFL); /* who reads no further wants no more: PETSc's handler would say a page about it */
+  signal(SIGPIPE, SIG_DFL);
   MPI_Comm_dup(PETSC_COMM_WORLD, &error.meeting);
   ierr = PetscLogDefaultBegin();
-  if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &end);
+  if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &page, &end);
   if (ierr) AppLeave(&error);
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
@@ -547,5 +638,6 @@ int main(int argc, char **argv)
     end = RUN_OUTPUT_LOST;
   }
   ierr = PetscFinalize();
+  AppMakePage(&page);
   return ierr ? RUN_BROKEN : (int)end;
 }

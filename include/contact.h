@@ -24,6 +24,7 @@ typedef struct {
   PetscReal *tangent; /* [6 nlocal] of each row, and */
   PetscReal *covered; /* [nlocal] int phi_A over what the mortar side covers [length^2]; 0 where the pair does not rub.
                          NULL where there is no slip */
+  PetscReal *normal;  /* [3 nlocal] unit normal of each row, out of the nonmortar side */
   PetscInt   nlocal;  /* rows of this rank */
   PetscInt  *vertex;  /* nonmortar vertex (local DMPlex point) of each local row */
   PetscInt  *pair;    /* contact pair of each local row */

@@ -8,6 +8,8 @@
 /* Not collective. The known name with the fewest letters to change; "" of none */
 PETSC_EXTERN PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[],
   const char **nearest);
+/* Collective. An error where an option of ours has a value, not asked for so far, of another kind than it needs */
+PETSC_EXTERN PetscErrorCode OptionsCheckValues(MPI_Comm);
 /* Collective. An error where the options database has a name, not asked for so far, that is neither ours nor of
    PETSc's kinds */
 PETSC_EXTERN PetscErrorCode OptionsCheck(MPI_Comm);

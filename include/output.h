@@ -9,11 +9,22 @@ typedef struct _n_Output *Output;
 
 PETSC_EXTERN PetscErrorCode OutputCreate(DM, PetscInt nbodies, const char *const bodynames[], const char basename[],
   Output *);
+PETSC_EXTERN PetscErrorCode OutputSetUnits(Output, const char units[]);
 PETSC_EXTERN PetscErrorCode OutputContinue(Output, PetscInt step, PetscBool same);
 PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
 PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 
+/* What the page of a run is made from */
+typedef struct {
+  char file[PETSC_MAX_PATH_LEN]; /* the page */
+  char base[PETSC_MAX_PATH_LEN]; /* of the fields' files */
+  char summary[PETSC_MAX_PATH_LEN], scene[PETSC_MAX_PATH_LEN];
+  char command[4096], versions[512];
+} ReportPage;
+
+PETSC_EXTERN PetscErrorCode ReportPageCheck(MPI_Comm, const char file[]);
+PETSC_EXTERN int            ReportPageMake(const ReportPage *, char sentence[], size_t length);
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewAccuracy(const RunReport *, PetscViewer);

@@ -80,17 +80,26 @@ typedef struct {
                      over all solves [force length] */
   PetscReal contact_work; /* what the contacts took up since the start, by the same rule: that of friction, and what
                              normal forces do; 0 where no pair rubs [force length] */
+  PetscReal normal_work;  /* what of it is no friction: of gaps that close in a step, and of what the linearized contact
+                             leaves [force length] */
+  PetscReal imbalance; /* of this load step: work that is neither stored nor taken up by the contacts, over the largest
+                             of the three; NaN: no pair rubs, or bodies expand by heat */
   PetscReal potential; /* what was minimized: energy - work of dead loads; of the quadratic model if there is one [force
                           length] */
   PetscReal
     equilibrium;       /* norm of internal + contact - dead forces on the free rows over that of all internal forces */
   PetscReal kkt_error; /* scaled, dimensionless */
   PetscReal kkt_error_unscaled;
-  PetscReal gap_min;    /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
-  PetscReal gap_true;   /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
-  PetscReal gap_change; /* largest difference of the two where there is pressure, or penetration [length] */
-  PetscBool gap_untrue; /* that is more than the tolerance: the limit on linearizations came first */
-  PetscInt  gap_damped; /* linearizations made short of where they would be, because the solutions got no truer */
+  PetscReal gap_min;      /* smallest linearized gap [length]; negative is penetration, NaN no contact rows */
+  PetscReal gap_true;     /* smallest gap of the deformed bodies [length]; NaN: no faces within reach of each other */
+  PetscReal gap_change;   /* largest difference of the two where there is pressure, or penetration [length] */
+  PetscReal normals_turn; /* what the contact forces stand askew by, over their sizes: the normals of the last
+                             linearization against those of the state; of the pair where it is largest */
+  PetscReal slip_change;  /* largest difference of the linearized slip and that of the state where there is pressure
+                             [length] */
+  PetscReal untruth;      /* largest of gap_change, of slip_change, and of what the turning counts for [length] */
+  PetscBool gap_untrue;   /* that is more than the tolerance: the limit on linearizations came first */
+  PetscInt  gap_damped;   /* linearizations made short of where they would be, because the solutions got no truer */
   PetscReal complementarity; /* max s z [force/length] */
   PetscReal algebraic_error; /* in the energy, relative: what products of gap and pressure, forces out of balance and an
                                 untrue gap are worth */

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what amgf needs and does not find: with apt on Debian and Ubuntu, elsewhere it says what is missing.
-# Silent and quick where nothing is.
+# Silent and quick where nothing is missing. What apt says goes to a file, whose end is shown when it fails.
 set -u
 
 # PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for, and petsc4py is not
@@ -29,6 +29,8 @@ have_fast_blas() {
   return 0
 }
 
+have_module() { $python -c "import importlib.util as u, sys; sys.exit(u.find_spec('$1') is None)" 2>/dev/null; }
+
 # One line for each thing that is missing
 missing() {
   have pkg-config || echo "pkg-config"
@@ -44,38 +46,56 @@ missing() {
   petsc4py=petsc4py
   [ -z "${PETSC_DIR:-}" ] || petsc4py=
   for module in numpy matplotlib h5py yaml $petsc4py; do
-    $python -c "import importlib.util as u, sys; sys.exit(u.find_spec('$module') is None)" 2>/dev/null || echo "Python 3 with $module"
+    have_module $module || echo "Python 3 with $module"
   done
 }
 
-lacking=$(missing)
+# Only pictures need these. Elsewhere than on Debian the rest works without them
+missing_for_pictures() {
+  have_module vtkmodules || echo "VTK 9 for Python 3"
+  have Xvfb || echo "Xvfb"
+}
+
+required=$(missing)
+pictures=$(missing_for_pictures)
+lacking=$(printf '%s\n%s' "$required" "$pictures" | sed '/^$/d')
 [ -n "$lacking" ] || exit 0
 
-if ! have apt-get; then
-  echo "amgf needs, and this machine has not:" >&2
-  echo "$lacking" | sed 's/^/  /' >&2
+# give_up SENTENCE: an error, unless only pictures are missing
+give_up() {
+  if [ -z "$required" ]; then
+    echo "$1: pictures are left out (missing: $(echo "$pictures" | paste -sd, | sed 's/,/, /g'))"
+    exit 0
+  fi
+  echo "$1. Missing:" >&2
+  echo "$required" | sed 's/^/  /' >&2
   exit 1
-fi
+}
 
+have apt-get || give_up "No apt-get here"
 as_root=
 if [ "$(id -u)" -ne 0 ]; then
-  have sudo || { echo "apt-get needs root, and there is no sudo. Missing:" >&2; echo "$lacking" | sed 's/^/  /' >&2; exit 1; }
+  have sudo || give_up "apt-get needs root, and there is no sudo"
   as_root=sudo
 fi
-apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >/dev/null; }
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() {
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >"$log" 2>&1 || { tail -n 5 "$log" >&2; return 1; }
+}
 
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
-apt update || { echo "apt-get update failed" >&2; exit 1; }
+apt update || give_up "apt-get update failed"
 packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libyaml-dev libopenblas0-serial
-          python3 python3-numpy python3-matplotlib python3-h5py python3-yaml"
+          python3 python3-numpy python3-matplotlib python3-h5py python3-yaml python3-vtk9 xvfb"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
   # the complex one is for a test, which is left out where it is missing; the real one stays the default
   packages="$packages libpetsc-real-dev libpetsc-complex-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"
 fi
 # shellcheck disable=SC2086
-apt install --no-install-recommends -y $packages || { echo "apt-get could not install: $packages" | tr -s ' \n' ' ' >&2; exit 1; }
+apt install --no-install-recommends -y $packages || give_up "apt-get could not install the packages"
 
 # A BLAS chosen by hand stays; alternatives in auto mode prefer OpenBLAS
-lacking=$(missing)
-[ -z "$lacking" ] || { echo "Still missing after apt-get:" >&2; echo "$lacking" | sed 's/^/  /' >&2; exit 1; }
+required=$(missing)
+[ -z "$required" ] || give_up "apt-get has not installed all"

@@ -23,6 +23,7 @@ installed = $(call put,755,$(programs),bin) $(call put,755,$(PLUGIN).$(VERSION),
             $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') $(call put,644,include/petscamgf.h,include) \
             $(if $(PETSC_COMPLEX),,$(call put,644,$(LIBRARY),lib) $(call put,644,$(filter-out include/petscamgf.h include/petsccompat.h,$(wildcard include/*.h)),include/contact)) \
             $(foreach kind,scenes materials options gmsh examples,$(call put,644,$(wildcard share/$(kind)/*.* share/$(kind)/makefile),share/amgf/$(kind))) \
+            $(if $(PETSC_COMPLEX),,$(foreach kind,plot report,$(call put,644,$(wildcard share/$(kind)/*.py),share/amgf/$(kind)))) \
             $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
             $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 

@@ -177,10 +177,6 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   PetscCall(
     PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
   PetscCall(
     PetscObjectComposeFunction(o, "TaoIPFilterSetNormTerms_C", attach ? TaoIPFilterSetNormTerms_IPFilter : NULL));
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTermForces_C",

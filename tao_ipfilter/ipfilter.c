@@ -22,10 +22,13 @@ static PetscErrorCode CreateKSP(Tao tao)
 
 static PetscErrorCode DestroyType(Tao tao)
 {
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
   PetscFunctionBegin;
   if (tao->ops->convergencetest == TaoIPFilterDefaultConvergenceTest)
     tao->ops->convergencetest = TaoDefaultConvergenceTest;
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
+  if (ip->method.ops) PetscCall(ip->method.ops->compose(tao, PETSC_FALSE));
   PetscCall(TaoDestroy_IPFilter(tao));
   PetscFunctionReturn(0);
 }
@@ -332,11 +335,14 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   if (!tao->ops->convergencetest || tao->ops->convergencetest == TaoDefaultConvergenceTest)
     tao->ops->convergencetest = TaoIPFilterDefaultConvergenceTest;
   PetscCall(IPOptionsInitialize(&ip->opt));
+  PetscCall(IPRegisterMethods(ip));
+  if (ip->method.ops) PetscCall(ip->method.ops->create(tao));
   PetscObjectParameterSetDefault(tao, max_it, 500);
   PetscObjectParameterSetDefault(tao, gatol, 1e-8);
   PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
   PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);
   PetscCall(CreateKSP(tao));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
+  if (ip->method.ops) PetscCall(ip->method.ops->compose(tao, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

@@ -6,6 +6,7 @@ import re
 import sys
 
 TOP = os.environ["AMGF_DIR"]
+COLUMNS = 100  # of a page
 PAGES = sorted(["README.md", "tests/README.md"] + [os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "share", "*", "*.md"))])
 
 
@@ -40,7 +41,7 @@ def columns():
 
 
 def monitor_columns():
-    for line in re.findall(r'"(iter [^"]*)\\n"', text("tao_ipfilter/driver/monitor.c")):
+    for line in re.findall(r'"(iter [^"]*)\\n"', text("tao_ipfilter/driver/monitor.c") + text("tao_ipfilter/subspace/monitor.c")):
         yield from line.split()
 
 
@@ -56,6 +57,16 @@ def unknown_options():
         for option in re.findall(r"(?<![\w-])-([a-z]\w*)", " ".join(re.findall(r"`([^`]*)`", text(page)))):
             if option not in known and not option.startswith(petsc) and "-" + option not in text("apps/contact.c"):
                 yield f"{page}: -{option}"
+
+
+def wide_lines():
+    """Of prose; a table's row cannot be broken. The bench writes its page, and releases are listed as they come"""
+    for page in PAGES:
+        prose = re.sub(r"^```.*?^```", lambda block: re.sub(".+", "", block[0]), text(page), flags=re.S | re.M)
+        for number, line in enumerate(prose.splitlines(), 1):
+            generated = page.startswith("share/bench/") or page.endswith("changelog.md")
+            if len(line) > COLUMNS and not line.startswith(("|", "    ", "#")) and not generated and " " in line.strip():
+                yield f"{page}:{number}: {len(line)} columns"
 
 
 def missing_pages(folder):
@@ -86,4 +97,5 @@ else:
     say("broken links", broken_links())
     say("columns that the guide does not explain", unexplained())
     say("options that are none", unknown_options())
+    say(f"lines wider than {COLUMNS} columns", wide_lines())
     say("calls without a manual page", missing_pages(sys.argv[1]))

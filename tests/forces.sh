@@ -19,10 +19,4 @@ done
 "$contact" peg.yaml -quiet -output again -load_steps 1
 echo "a run of one step after one of three:" again*
 cp again_0001.h5 again_0002.h5 # as an older run leaves it that was killed
-PYTHONPATH=$AMGF_DIR/share/plot "$PYTHON" - <<'CHECK'
-import types
-
-import draw
-
-print("draw.py takes", draw.step_file(types.SimpleNamespace(base="again", step=0)))
-CHECK
+PYTHONPATH=$AMGF_DIR/share/plot "$PYTHON" -B -c 'import run_files; print("load steps to draw:", run_files.Run("again").files)'

@@ -14,9 +14,14 @@ def code(*patterns):
 
 sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c", "apps/*.c")
 asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"', sources)) | {"tao_ipfilter_" + name for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
+calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList|Viewer)\([^"();]*"-(\w+)"', sources)
 known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]
 listed = re.findall(r'"(\w+)"', known)
 print("options found:", "many" if len(asked) > 80 else len(asked))
 print("the list is sorted, without repetition:", "yes" if listed == sorted(set(listed)) else "NO")
 print("asked for, but not in the list:", ", ".join(sorted(asked - OF_PETSC - set(listed))) or "none")
 print("in the list, but not asked for:", ", ".join(sorted(set(listed) - asked)) or "none")
+lists = {"Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words", "FList": "Words", "Viewer": "Viewers"}
+kinds = {kind: re.findall(r'"(\w+)"', re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1]) for kind in set(lists.values())}
+print("of another kind than asked for:", ", ".join(sorted({name for call, name in calls if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
+print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name for _, name in calls})) or "none")

@@ -28,3 +28,21 @@ try -refine 0
 unset PETSC_OPTIONS
 try -elasticity_ksp_rtoll 1e-8 -options_left 0 -elasticity_pc_amgf_cycle fbf -tao_ipfilter_amgf_amg_pc_hypre_boomeramg_agg_nl 0 -no_effects_view -malloc_dump 0 -Refine 0
 mpiexec --oversubscribe -n 3 "$contact" "$scene" -quiet -outptu results 2>&1 | grep '^contact'
+# Options of ours without the value that they need, or with one of another kind
+for option in refine output restart summary accuracy model contact_gap_tol tao_ipfilter_tol checkpoint_every; do
+  try -$option
+  try -$option -quiet
+done
+try -refine abc
+try -refine 1.5
+try -tao_ipfilter_tol small
+try -tao_ipfilter_pc_amgf_filter_ranks many
+try -quiet nofile
+try -tao_ipfilter_monitor 3x
+try -contact_gap wide
+try -elasticity_mat_type xyz
+try -load_steps 1 -traceback maybe
+sed 's/^solver:.*//' "$scene" > solver.yaml
+echo 'solver: {tao_ipfilter_tol: tight}' >> solver.yaml
+scene=solver.yaml
+try -refine 0

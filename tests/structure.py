@@ -10,7 +10,26 @@ TOP = os.environ["AMGF_DIR"]
 FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "src/*/*", "apps")
 COLUMNS = 120  # of a line of code
 FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
-LAYERS = (*(f"tao_ipfilter/{folder}" for folder in ("problem", "measure", "system", "linear", "step", "friction", "subspace", "driver")), "tao_ipfilter")  # of the optimizer, the lowest first
+FILES = 20  # of a folder, C sources
+# The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
+LAYERS = """
+pc_amgf pc_amgf/blockamg
+tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear tao_ipfilter/step tao_ipfilter/driver
+tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
+pc_amgf/plugin
+src/error src/options src/files src/material src/model src/report
+src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
+src/scene/format src/scene/sections src/scene
+src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
+src/contact/geometry src/contact/surface src/contact/search src/contact/smooth src/contact/assembly src/contact/gaps src/contact
+src/loads src/constraints src/state src/measure src/step src/run
+src/output src/checkpoint
+apps
+""".split()
+# Public headers, by the lowest folder that defines what they declare
+PUBLIC = {"rankerror.h": "src/error", "options.h": "src/options", "material.h": "src/material", "formulation.h": "src/model", "model.h": "src/model",
+          "report.h": "src/report", "mesh.h": "src/mesh/shapes", "scene.h": "src/scene", "elasticity.h": "src/elasticity/elements",
+          "contact.h": "src/contact/geometry", "step.h": "src/state", "accuracy.h": "src/run", "output.h": "src/output", "checkpoint.h": "src/state"}
 
 DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n", re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
@@ -80,11 +99,28 @@ def circles(graph):
 
 
 def calls_upwards(graph):
-    """Calls from a layer of the optimizer to one above it, and files of it in none"""
+    """Calls from a folder to one above it, and files in no layer"""
     layer = {path: LAYERS.index(os.path.dirname(path)) for path in graph if os.path.dirname(path) in LAYERS}
-    yield from (f"{path} is in no layer" for path in sorted(graph) if path.startswith("tao_ipfilter/") and path not in layer)
+    yield from (f"{path} is in no layer" for path in sorted(graph) if path not in layer)
     for path in sorted(layer):
         yield from (f"{path} -> {other}: {', '.join(sorted(names))}" for other, names in graph[path].items() if layer.get(other, -1) > layer[path])
+
+
+def includes_upwards():
+    """A file includes its own folder's header and those of folders before it, by their path from the top, and public headers of these"""
+    for path in sources("c") + sources("h"):
+        folder = os.path.dirname(path)
+        if folder not in LAYERS:
+            continue
+        for mark, name in re.findall(r'#\s*include ([<"])([^>"]+)', text(path)):
+            home = PUBLIC.get(name) if mark == "<" else os.path.dirname(name) or folder
+            if home and (home not in LAYERS or LAYERS.index(home) > LAYERS.index(folder)):
+                yield f"{path} includes {name}"
+
+
+def crowded_folders():
+    count = collections.Counter(os.path.dirname(path) for path in sources("c"))
+    yield from (f"{folder} has {n} source files, more than {FILES}" for folder, n in sorted(count.items()) if n > FILES)
 
 
 def wide_lines():
@@ -143,7 +179,9 @@ def main():
     graph = calls(defined, taken)
     rules = {
         "no files call each other in a circle": circles(graph),
-        "no layer of the optimizer calls one above it": calls_upwards(graph),
+        "no folder calls one above it": calls_upwards(graph),
+        "no folder includes a header of one above it": includes_upwards(),
+        f"no folder has more than {FILES} source files": crowded_folders(),
         f"no line is wider than {COLUMNS} columns": wide_lines(),
         "the sources are as `make format` writes them": unformatted(),
         "no two static functions have one name": repeated_statics(),

@@ -10,4 +10,10 @@ for word in -version --version --help; do
     sed -e "s/$version/VERSION/g" -e '/^petscamgf/ s/PETSc [0-9].*/PETSc .../' -e 's/^running .*/running .../' out | grep -E 'VERSION|running|^Quasi|^  -refine|^  7'
   done
 done
+# -help alone, also for one who reads a line of it and no more
+"$contact" -help > out 2> err
+echo "-help: exit $?, $(grep -c . err) lines of errors, $(grep -c '^  -refine N' out) line of -refine, its last: $(tail -n 1 out | cut -d: -f1)"
+"$contact" -help 2> err | sed q
+code=${PIPESTATUS[0]}
+echo "-help | sed q: $([ $code -eq 0 ] || [ $code -eq 141 ] && echo well || echo "exit $code"), $(grep -c . err) lines of errors"
 readelf -d "$AMGF_DIR/lib/libpetscamgf.so" | sed -n "s/.*soname: \[\(.*\)\]/soname \1/p" | sed "s/${version%.*}/MAJOR.MINOR/"

@@ -1,165 +1,470 @@
 #!/usr/bin/env python3
-"""Draws the deformed bodies of a finished run from the files contact -output BASE wrote, without a display.
+"""Draws the deformed bodies of a run from the files that contact -output BASE wrote. No display is needed.
 
-    share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises|contact_pressure|contact_gap|contact_status|displacement|body]
-                       [--scale 1] [--view ELEVATION AZIMUTH] [--up x|y|z] [--only BODY,...] [--hide AXIS<VALUE] [--title TEXT]
+    share/plot/draw.py BASE PICTURE.png [--step N] [--field von_mises] [--scale FACTOR|auto] [--only BODY,...] ...
 
-Only faces that look at the viewer are drawn, coloured by the mean of the field, shaded by their normal. Fields of contact colour the faces
-all of whose vertices are in a contact pair. The last step is that of BASE.xmf, not of an older run.
+The field is one that the files hold (von_mises, nodal_von_mises, contact_pressure, contact_gap, contact_status,
+displacement, ...), a component of one (displacement_z, stress_xx), or body. Grey lines are the outline of the
+undeformed bodies. Contact fields colour only the faces of contact pairs.
 """
 import argparse
 import os
 import sys
-import xml.etree.ElementTree as ElementTree
 
-import h5py
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-# quadrilaterals of a VTK/XDMF hexahedron, outward; triangles of tetrahedra, with the last corner twice, of 10 nodes cut into four at these
-HEXAHEDRON = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-TETRAHEDRON = [[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [0, 3, 2, 2]]
-EDGES = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
-KINDS = {6: 4, 38: 10, 9: 8}  # nodes of XDMF's kinds of cells
-LABELS = {"von_mises": "von Mises stress", "contact_pressure": "contact pressure", "contact_gap": "gap", "contact_status": "contact", "displacement": "displacement, norm", "body": "body"}
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from run_files import Run, stop
+from screen import open_screen
+
+try:
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+    import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
+    from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+    from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkWarpVector
+    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+    from vtkmodules.vtkRenderingCore import (
+        vtkActor,
+        vtkPolyDataMapper,
+        vtkRenderer,
+        vtkRenderWindow,
+        vtkTextActor,
+        vtkWindowToImageFilter,
+    )
+except ImportError:
+    sys.exit("draw.py: Python has no VTK 9: install python3-vtk9 (Debian), or vtk from PyPI")
+
+KINDS = {4: 10, 8: 12, 10: 24}  # VTK's cells by number of nodes
+LABELS = {
+    "von_mises": "von Mises stress",
+    "nodal_von_mises": "von Mises stress",
+    "contact_pressure": "contact pressure",
+    "contact_gap": "contact gap",
+    "displacement": "displacement",
+    "contact_area": "area of the vertex",
+    "contact_slip_path": "slip path",
+}
+STATUS = ["open", "closed", "slipping"]
+STATUS_COLOURS = [(0.62, 0.75, 0.89), (0.80, 0.15, 0.15), (0.98, 0.75, 0.20)]
+BODY_COLOURS = [
+    (0.30, 0.47, 0.66),
+    (0.95, 0.56, 0.17),
+    (0.35, 0.63, 0.31),
+    (0.88, 0.34, 0.35),
+    (0.46, 0.72, 0.70),
+    (0.69, 0.48, 0.63),
+    (0.61, 0.46, 0.37),
+]
+GREY = (0.80, 0.80, 0.80)
+VIRIDIS = [
+    (0.267, 0.005, 0.329),
+    (0.283, 0.141, 0.458),
+    (0.254, 0.265, 0.530),
+    (0.207, 0.372, 0.553),
+    (0.164, 0.471, 0.558),
+    (0.128, 0.567, 0.551),
+    (0.135, 0.659, 0.518),
+    (0.267, 0.749, 0.441),
+    (0.478, 0.821, 0.318),
+    (0.741, 0.873, 0.150),
+    (0.993, 0.906, 0.144),
+]
+WIDTH, LOWEST, HIGHEST = 1100, 420, 800  # of the picture [pixels]
+BODIES = 0.82  # of the width, left of the colour bar
+CAPTION = 44  # below the bodies [pixels]
 
 
-def arguments():
+def arguments(words=None):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("base")
-    parser.add_argument("picture")
-    parser.add_argument("--step", type=int, default=0, help="load step; the last one by default")
-    parser.add_argument("--field", choices=LABELS, default="von_mises")
-    parser.add_argument("--scale", type=float, default=1.0, help="factor of the displacement")
-    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=("ELEVATION", "AZIMUTH"))
+    parser.add_argument("base", help="what contact -output named")
+    parser.add_argument("picture", help="a PNG file")
+    parser.add_argument("--step", type=int, help="load step; the last one by default")
+    parser.add_argument("--field", default="von_mises")
+    parser.add_argument("--scale", default="1", help="factor of the displacement; auto draws a tenth of the size")
+    view = ("ELEVATION", "AZIMUTH")
+    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view, help="[degrees]")
     parser.add_argument("--up", choices="xyz", default="z")
-    parser.add_argument("--only", help="numbers of the bodies to draw, e.g. 0,2")
+    parser.add_argument("--only", help="names of the bodies to draw, e.g. slab,die")
     parser.add_argument("--hide", default="", help="leave out the cells whose centre is on this side, e.g. 'y<0'")
-    parser.add_argument("--title", default="")
+    parser.add_argument("--mirror", default="", help="draw also what the planes x = 0, y = 0 or z = 0 mirror, e.g. xy")
+    zoom = "show only as much as FACTOR times the size of the contact"
+    parser.add_argument("--around-contact", type=float, metavar="FACTOR", help=zoom)
+    parser.add_argument("--contact-only", action="store_true", help="of a contact field: only the faces that have it")
     parser.add_argument("--limit", type=float, help="upper end of the colours")
-    return parser.parse_args()
+    parser.add_argument("--title", default="")
+    parser.add_argument("--no-edges", action="store_true", help="do not draw the cells' edges")
+    return parser.parse_args(words)
 
 
-def step_file(args):
-    """The step's that is asked for; else the last that the run lists and that exists"""
-    if args.step:
-        return "%s_%04d.h5" % (args.base, args.step)
-    try:
-        items = ElementTree.parse(args.base + ".xmf").getroot().iterfind(".//Attribute[@Name='displacement']/DataItem")
-    except OSError:
-        items = []
-    folder = os.path.dirname(args.base)
-    steps = [name for name in (os.path.join(folder, item.text.rsplit(":", 1)[0]) for item in items) if os.path.exists(name)]
-    if not steps:
-        sys.exit("draw.py: no step in %s.xmf; run contact with -output %s" % (args.base, args.base))
-    return steps[-1]
-
-
-def cut(triangle):
-    """The four triangles that the middles of its edges cut a triangle into"""
-    a, b, c = triangle[:3]
-    ab, bc, ca = (EDGES[tuple(sorted(edge))] for edge in ((a, b), (b, c), (c, a)))
-    return [[a, ab, ca, ca], [b, bc, ab, ab], [c, ca, bc, bc], [ab, bc, ca, ca]]
-
-
-FACES = {8: HEXAHEDRON, 4: TETRAHEDRON, 10: [piece for triangle in TETRAHEDRON for piece in cut(triangle)]}
-
-
-def read_cells(mesh):
-    """The nodes of each cell"""
-    if "cells" in mesh:
-        return list(mesh["cells"][:])
-    numbers, cells, at = mesh["mixed_cells"][:].ravel(), [], 0
-    while at < len(numbers):
-        n = KINDS[numbers[at]]
-        cells.append(numbers[at + 1 : at + 1 + n])
-        at += 1 + n
-    return cells
-
-
-def load(args):
-    """Cells, reference vertices, displacement, a field by cell or by vertex, and which vertices are in contact pairs."""
-    name = step_file(args)
-    with h5py.File(args.base + ".h5") as mesh, h5py.File(name) as step:
-        cells, vertices, body = read_cells(mesh), mesh["vertices"][:], mesh["body"][:].ravel()
-        displacement = step["displacement"][:]
-        if args.field == "body":
-            field = body.astype(float)
-        elif args.field == "displacement":
-            field = np.linalg.norm(displacement, axis=1)
-        elif args.field in step:
-            field = step[args.field][:]
-        else:
-            sys.exit("draw.py: %s has no field %s" % (name, args.field))
-        paired = ~np.isnan(step["contact_gap"][:])
-    return cells, vertices, body, displacement, field, paired
-
-
-def colours(args, quads, owner, ncells, field, paired):
-    """Mean over the vertices; a field of contact is none of a face beside it, though some vertices are the contact's too"""
-    if len(field) == ncells:
-        return field[owner]
-    if not args.field.startswith("contact_"):
-        return field[quads].mean(axis=1)
-    return np.where(paired[quads].all(axis=1), field[quads].mean(axis=1), 0.0)
-
-
-def selected(args, cells, vertices, body):
-    keep = np.ones(len(cells), bool)
+def chosen_cells(args, run):
+    """Numbers of the cells to draw"""
+    keep = np.ones(len(run.cells), bool)
     if args.only:
-        keep &= np.isin(body, [int(b) for b in args.only.split(",")])
+        keep &= np.isin(run.body, run.body_numbers(args.only))
     if args.hide:
-        axis, side, value = args.hide[0], args.hide[1], float(args.hide[2:])
-        centre = np.array([vertices[cell, "xyz".index(axis)].mean() for cell in cells])
-        keep &= ~((centre < value) if side == "<" else (centre > value))
+        try:
+            axis, side, value = "xyz".index(args.hide[0]), "<>".index(args.hide[1]), float(args.hide[2:])
+        except (ValueError, IndexError):
+            stop(f"--hide takes an axis, < or >, and a number, as 'y<0', not '{args.hide}'")
+        centre = np.array([run.vertices[cell, axis].mean() for cell in run.cells])
+        keep &= ~((centre > value) if side else (centre < value))
+    if not keep.any():
+        stop("no cell is left to draw")
     return np.flatnonzero(keep)
 
 
-def boundary(cells, chosen):
-    """Quadrilaterals of the chosen cells that no second chosen cell shares, and the cell of each."""
-    quads = np.concatenate([cells[c][FACES[len(cells[c])]] for c in chosen])
-    owner = np.repeat(chosen, [len(FACES[len(cells[c])]) for c in chosen])
-    key = np.where((quads[:, 2] == quads[:, 3])[:, None] & (np.arange(4) == 3), -1, quads)
-    _, first, count = np.unique(np.sort(key, axis=1), axis=0, return_index=True, return_counts=True)
-    alone = first[count == 1]
-    return quads[alone], owner[alone]
+def ids(numbers):
+    return numpy_to_vtkIdTypeArray(np.asarray(numbers).astype(np.int64), deep=True)
 
 
-def main():
-    args = arguments()
-    cells, vertices, body, displacement, field, paired = load(args)
-    quads, owner = boundary(cells, selected(args, cells, vertices, body))
-    colour = colours(args, quads, owner, len(cells), field, paired)
-    order = {"z": [0, 1, 2], "x": [1, 2, 0], "y": [2, 0, 1]}[args.up]
-    corners = (vertices + args.scale * displacement)[quads][:, :, order]
+def body_grid(run, cells):
+    """VTK's grid of some cells, undeformed"""
+    grid, array, points = vtkUnstructuredGrid(), vtkCellArray(), vtkPoints()
+    nodes = [run.cells[c] for c in cells]
+    offsets = np.concatenate([[0], np.cumsum([len(cell) for cell in nodes])])
+    array.SetData(ids(offsets), ids(np.concatenate(nodes)))
+    points.SetData(numpy_to_vtk(run.vertices, deep=True))
+    grid.SetPoints(points)
+    grid.SetCells(numpy_to_vtk(np.array([KINDS[len(cell)] for cell in nodes], np.uint8), deep=True), array)
+    return grid
 
-    normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+
+def add(data, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values, float), deep=True)
+    array.SetName(name)
+    data.AddArray(array)
+
+
+def surface(grid):
+    """Its outer faces; those of ten nodes are cut into triangles"""
+    skin = vtkDataSetSurfaceFilter()
+    skin.SetInputData(grid)
+    skin.SetNonlinearSubdivisionLevel(1)
+    skin.Update()
+    return skin.GetOutput()
+
+
+def mirrored(args, data):
+    """The same beside what mirror planes add"""
+    for axis in args.mirror:
+        mirror = vtkReflectionFilter()
+        mirror.SetInputData(data)
+        mirror.SetPlane({"x": 6, "y": 7, "z": 8}[axis])  # planes at a centre
+        mirror.SetCenter(0.0)
+        mirror.CopyInputOn()
+        faces = vtkGeometryFilter()
+        faces.SetInputConnection(mirror.GetOutputPort())
+        faces.Update()
+        data = faces.GetOutput()
+    return data
+
+
+def warped(grid, scale):
+    warp = vtkWarpVector()
+    grid.GetPointData().SetActiveVectors("displacement")
+    warp.SetInputData(grid)
+    warp.SetScaleFactor(scale)
+    warp.Update()
+    return warp.GetOutput()
+
+
+def faces_of(skin):
+    """Where the vertices of each face begin and end, and the vertices"""
+    polygons = skin.GetPolys()
+    return vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
+
+
+def face_status(skin):
+    """The status of a face: the middle one of its vertices'"""
+    status, (ends, nodes) = vtk_to_numpy(skin.GetPointData().GetArray("colour")), faces_of(skin)
+    add(skin.GetCellData(), "colour", [np.round(np.median(status[nodes[a:b]])) for a, b in zip(ends[:-1], ends[1:])])
+
+
+def parted(skin):
+    """The faces all of whose vertices have a value, and the others"""
+    valued, (ends, nodes) = np.isfinite(vtk_to_numpy(skin.GetPointData().GetArray("colour"))), faces_of(skin)
+    whole = np.logical_and.reduceat(valued[nodes], ends[:-1])
+    parts = []
+    for keep in (whole, ~whole):
+        part, array, faces = vtkPolyData(), vtkCellArray(), np.flatnonzero(keep)
+        sizes = np.diff(ends)[faces]
+        chosen = np.concatenate([nodes[ends[f] : ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
+        array.SetData(ids(np.concatenate([[0], np.cumsum(sizes)])), ids(chosen))
+        part.SetPoints(skin.GetPoints())
+        part.SetPolys(array)
+        part.GetPointData().AddArray(skin.GetPointData().GetArray("colour"))
+        parts.append(part)
+    return parts
+
+
+def continuous_table(low, high):
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    for i in range(256):
+        place = i / 255 * (len(VIRIDIS) - 1)
+        k = min(int(place), len(VIRIDIS) - 2)
+        table.SetTableValue(i, *(a + (place - k) * (b - a) for a, b in zip(VIRIDIS[k], VIRIDIS[k + 1])), 1.0)
+    table.SetTableRange(low, high if high > low else low + 1.0)
+    return table
+
+
+def discrete_table(names, colours):
+    """One colour for each name"""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(names))
+    table.SetTableRange(0, len(names) - 1)
+    table.IndexedLookupOn()
+    for i, name in enumerate(names):
+        table.SetAnnotation(i, name)
+        table.SetTableValue(i, *colours[i % len(colours)], 1.0)
+    return table
+
+
+def field_values(args, run, step):
+    """Values by vertex or by cell of the run; nothing where a vertex is in no contact pair"""
+    if args.field == "body":
+        return run.body.astype(float)
+    values = run.field(step, args.field).astype(float)
+    if args.field.startswith("contact_") and len(values) == len(run.vertices):
+        values[~run.paired(step)] = np.nan
+    return values
+
+
+def colour_table(args, run, values):
+    if args.field == "body":
+        return discrete_table(run.bodies, BODY_COLOURS)
+    if args.field.startswith("contact_status"):
+        return discrete_table(STATUS, STATUS_COLOURS)
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        stop(f"no vertex of these bodies has the field {args.field}")
+    return continuous_table(min(0.0, finite.min()), finite.max() if args.limit is None else args.limit)
+
+
+def displacement_scale(args, run, cells, displacement):
+    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    if args.scale == "auto":
+        largest = np.linalg.norm(displacement[nodes], axis=1).max()
+        return 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest if largest > 0 else 1.0
+    try:
+        return float(args.scale)
+    except ValueError:
+        stop(f"--scale takes a number or auto, not '{args.scale}'")
+
+
+def actor_of(data, colour, width, table=None):
+    """Faces coloured by a table, or lines of one colour"""
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(data)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    if table:
+        of_cells = data.GetCellData().GetArray("colour") is not None
+        mapper.SetScalarModeToUseCellFieldData() if of_cells else mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray("colour")
+        mapper.SetLookupTable(table)
+        mapper.UseLookupTableScalarRangeOn()
+    else:
+        mapper.ScalarVisibilityOff()
+        actor.GetProperty().SetColor(*colour)
+        actor.GetProperty().SetLineWidth(width)
+    actor.SetMapper(mapper)
+    return actor
+
+
+def faces_actor(args, part, table):
+    actor = actor_of(part, GREY, 0.5, table)
+    actor.GetProperty().SetAmbient(0.45)
+    actor.GetProperty().SetDiffuse(0.6)
+    if not args.no_edges:
+        actor.GetProperty().EdgeVisibilityOn()
+        actor.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
+        actor.GetProperty().SetLineWidth(0.5)
+    return actor
+
+
+def sharp_edges(skin):
+    """Edges at which faces make more than 30 degrees, and rims"""
+    edges = vtkFeatureEdges()
+    edges.SetInputData(skin)
+    edges.SetFeatureAngle(30)
+    edges.ColoringOff()
+    edges.NonManifoldEdgesOff()
+    edges.Update()
+    return edges.GetOutput()
+
+
+def colour_bar(title, table):
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title.replace(" [", "\n[") + "\n ")
+    bar.SetNumberOfLabels(6)
+    bar.SetLabelFormat("%-#.3g")
+    bar.SetUnconstrainedFontSize(True)
+    for text, size in ((bar.GetTitleTextProperty(), 17), (bar.GetLabelTextProperty(), 15)):
+        text.SetColor(0, 0, 0)
+        text.SetFontSize(size)
+        text.ItalicOff()
+        text.BoldOff()
+        text.ShadowOff()
+    bar.SetPosition(0.84, 0.15)
+    bar.SetWidth(0.14)
+    bar.SetHeight(0.7)
+    return [bar]
+
+
+def colour_names(title, table, pixels):
+    """A line for each colour, on that colour"""
+    lines = [text_at(title, BODIES * WIDTH + 20, pixels // 2 + 50, 17)]
+    names = [table.GetAnnotation(i) for i in range(table.GetNumberOfTableValues())]
+    colours = [table.GetTableValue(i)[:3] for i in range(len(names))]
+    for i, (name, colour) in enumerate(zip(names, colours)):
+        line = text_at(f"  {name}  ", BODIES * WIDTH + 20, pixels // 2 + 14 - 32 * i, 17)
+        line.GetTextProperty().SetBackgroundColor(*colour)
+        line.GetTextProperty().SetBackgroundOpacity(1)
+        lines.append(line)
+    return lines
+
+
+def legend(args, run, table, pixels):
+    if table.GetIndexedLookup():
+        actors = colour_names(args.field.replace("_", " "), table, pixels)
+    else:
+        actors = colour_bar(f"{LABELS.get(args.field, args.field)} [{run.unit(args.field)}]", table)
+    if args.field.startswith("contact_"):
+        actors.append(text_at("grey: not in a pair", BODIES * WIDTH + 12, 14, 14))
+    return actors
+
+
+def text_at(text, x, y, size):
+    actor = vtkTextActor()
+    actor.SetInput(text)
+    actor.SetPosition(x, y)
+    actor.GetTextProperty().SetColor(0, 0, 0)
+    actor.GetTextProperty().SetFontSize(size)
+    return actor
+
+
+def caption(args, run, step, scale, cells, displacement):
+    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    largest = np.linalg.norm(displacement[nodes], axis=1).max()
+    size = f"largest {largest:.3g} [{run.unit('displacement')}]"
+    return f"load step {step}, displacement drawn x {scale:.3g} ({size}); grey lines: undeformed"
+
+
+def contact_box(args, run, step, cells, points):
+    """Corners of a box about the vertices in contact, grown by a factor; with their mirror images"""
+    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    closed = points[nodes[run.in_contact(step)[nodes]]]
+    if not len(closed):
+        stop(f"no vertex of these bodies is in contact in load step {step}")
+    for axis in args.mirror:
+        closed = np.concatenate([closed, closed * np.where(np.arange(3) == "xyz".index(axis), -1, 1)])
+    low, high = closed.min(axis=0), closed.max(axis=0)
+    return (low + high) / 2, args.around_contact * np.linalg.norm(high - low) / 2
+
+
+def place_camera(args, renderer, centre, radius):
+    """Parallel projection from an elevation and an azimuth, as of a map whose normal is up"""
     elevation, azimuth = np.radians(args.view)
-    towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
-    front = normal @ towards > -0.05
-    corners, colour, shade = corners[front], colour[front], 0.75 + 0.25 * np.abs(normal[front] @ towards)
+    order = {"z": [0, 1, 2], "x": [1, 2, 0], "y": [2, 0, 1]}[args.up]
+    towards, up = np.zeros(3), np.zeros(3)
+    towards[order] = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)
+    up[order] = -np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*centre)
+    camera.SetPosition(*(np.asarray(centre) + 100 * radius * towards))
+    camera.SetViewUp(*up)
+    right = np.cross(up, towards)
+    return camera, right, up
 
-    norm = plt.Normalize(min(0.0, colour.min()), args.limit or colour.max())
-    rgba = plt.get_cmap("viridis")(norm(colour))
-    rgba[:, :3] *= shade[:, None]
-    figure = plt.figure(figsize=(8, 6))
-    axes = figure.add_subplot(projection="3d", proj_type="ortho")
-    axes.add_collection3d(Poly3DCollection(corners, facecolors=rgba, edgecolors=(0, 0, 0, 0.25), linewidths=0.2))
-    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.0)
-    axes.view_init(*args.view)
-    axes.set_axis_off()
-    figure.colorbar(plt.cm.ScalarMappable(norm, "viridis"), ax=axes, shrink=0.6, label=LABELS[args.field])
+
+def fit(camera, right, up, corners, heading):
+    """Lets the corners fill the projection; returns the height of the picture and the bodies' part of it"""
+    across, along = corners @ right, corners @ up
+    width, height = 1.06 * np.ptp(across), 1.06 * np.ptp(along)
+    pixels = int(min(max(height / width * BODIES * WIDTH, LOWEST), HIGHEST))
+    focal, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
+    move = ((across.max() + across.min()) / 2 - focal @ right) * right
+    move += ((along.max() + along.min()) / 2 - focal @ up) * up
+    camera.SetFocalPoint(*(focal + move))
+    camera.SetPosition(*(place + move))
+    camera.SetParallelScale(max(width / (BODIES * WIDTH) * pixels, height) / 2)
+    total = CAPTION + pixels + heading
+    return total, (0, CAPTION / total, BODIES, 1 - heading / total)
+
+
+def write(renderers, pixels, picture):
+    window, image, writer = vtkRenderWindow(), vtkWindowToImageFilter(), vtkPNGWriter()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(WIDTH, pixels)
+    for renderer in renderers:
+        window.AddRenderer(renderer)
+        renderer.ResetCameraClippingRange()
+    window.Render()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    image.Update()
+    writer.SetCompressionLevel(9)
+    writer.SetFileName(picture)
+    writer.SetInputData(image.GetOutput())
+    writer.Write()
+    window.Finalize()
+
+
+def scene_of(args, run):
+    """What is drawn, as VTK's renderers, and the height of its picture"""
+    step, cells = run.step(args.step), chosen_cells(args, run)
+    values, displacement = field_values(args, run, step), run.displacement(step)
+    scale = displacement_scale(args, run, cells, displacement)
+    grid = body_grid(run, cells)
+    add(grid.GetPointData(), "displacement", displacement)
+    outline = mirrored(args, sharp_edges(surface(grid)))
+    by_cell = len(values) == len(run.cells)
+    shown = values[cells] if by_cell else values[np.unique(np.concatenate([run.cells[c] for c in cells]))]
+    table = colour_table(args, run, shown)
+    add(grid.GetCellData() if by_cell else grid.GetPointData(), "colour", values[cells] if by_cell else values)
+    skin = surface(warped(grid, scale))
+    bodies, page = vtkRenderer(), vtkRenderer()
+    coloured, plain = (skin, None) if by_cell else parted(skin)
+    if args.field.startswith("contact_status"):
+        face_status(coloured)
+    for part, colours in ((coloured, table), (plain, None)):
+        if part and part.GetNumberOfCells() and (colours or not args.contact_only):
+            bodies.AddActor(faces_actor(args, mirrored(args, part), colours))
+    skin = mirrored(args, skin)
+    for renderer in (bodies, page):
+        renderer.SetBackground(1, 1, 1)
+    bodies.AddActor(actor_of(outline, (0.55, 0.55, 0.55), 1.2))
+    bodies.AddActor(actor_of(sharp_edges(skin), (0.1, 0.1, 0.1), 1.4))
+    corners = np.concatenate([vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline)])
+    if args.around_contact:
+        centre, radius = contact_box(args, run, step, cells, run.vertices + scale * displacement)
+        corners = centre + radius * (2.0 * np.array(list(np.ndindex(2, 2, 2))) - 1.0) / 3**0.5
+    camera, right, up = place_camera(args, bodies, corners.mean(axis=0), np.ptp(corners, axis=0).max())
+    pixels, part = fit(camera, right, up, corners, 50 if args.title else 0)
+    bodies.SetViewport(*part)
+    for actor in legend(args, run, table, pixels):
+        page.AddActor2D(actor)
+    page.AddActor2D(text_at(caption(args, run, step, scale, cells, displacement), 20, 14, 16))
     if args.title:
-        axes.set_title(args.title)
-    figure.savefig(args.picture, dpi=110, bbox_inches="tight")
+        page.AddActor2D(text_at(args.title, 20, pixels - 36, 22))
+    return (page, bodies), pixels
+
+
+def draw(words=None):
+    args = arguments(words)
+    run = Run(args.base)
+    renderers, pixels = scene_of(args, run)
+    open_screen()
+    write(renderers, pixels, args.picture)
 
 
 if __name__ == "__main__":
-    main()
+    draw()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures of the README: solves the three benchmarks, writes their fields, draws them. No display needed.
+# Makes the pictures of the README: solves scenes, writes their fields, draws them. No display is needed.
 # usage: share/plot/pictures.sh [FOLDER], from the top folder, after make
 set -e
 folder=${1:-share/pictures}
@@ -9,15 +9,17 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 
-picture() { # scene, name, options of draw.py
-  bin/contact "share/scenes/$1.yaml" -quiet -output "$work/$2"
-  base=$2
-  shift 2
-  $python share/plot/draw.py "$work/$base" "$folder/$base.png" "$@"
-  echo "$folder/$base.png"
+picture() { # scene, options of draw.py
+  scene=$1
+  shift
+  bin/contact "share/scenes/$scene.yaml" -quiet -output "$work/$scene"
+  $python -B share/plot/draw.py "$work/$scene" "$folder/$scene.png" "$@"
+  echo "$folder/$scene.png"
 }
 
-picture two_block two_block --limit 8
-picture ironing ironing --limit 1
-picture beam_sphere_linear beam_sphere_linear --view 25 200 --up x
-picture beam_sphere_neo_hookean beam_sphere_neo_hookean --view 25 200 --up x
+picture two_block --limit 8
+picture ironing --limit 1
+picture beam_sphere_linear --view 25 200 --up x
+picture beam_sphere_neo_hookean --view 25 200 --up x
+picture hertz_cylinder --mirror x --around-contact 6 --view 0 -90 --field nodal_von_mises
+picture lug --view 50 -60 --scale 100 --limit 100 --field nodal_von_mises --no-edges

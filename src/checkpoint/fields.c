@@ -1,11 +1,12 @@
 /* The fields of a checkpoint. */
-#include "src/step/stepimpl.h"
+#include <checkpoint.h>
 #include <string.h>
 
 const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
   [CHECKPOINT_PRESSURE]   = {"pressure", 1, PETSC_FALSE, PETSC_FALSE},
   [CHECKPOINT_SLACK]      = {"slack", 1, PETSC_FALSE, PETSC_FALSE},
   [CHECKPOINT_SHEAR]      = {"shear", 3, PETSC_TRUE, PETSC_TRUE},
+  [CHECKPOINT_FRICTION]   = {"friction", 3, PETSC_TRUE, PETSC_TRUE},
   [CHECKPOINT_SLIP_PATH]  = {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
   [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
 };

@@ -1,6 +1,5 @@
 /* The way back from a checkpoint: to the mesh that it was taken on, or to another one of the same bodies. */
-#include "src/output/outputimpl.h"
-#include <scene.h>
+#include "checkpointimpl.h"
 #include <mesh.h>
 #include <stdio.h>
 #include <string.h>

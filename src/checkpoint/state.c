@@ -1,5 +1,6 @@
 /* The state of a simulation, to go on from: the path, and what the contact remembers. */
-#include "src/step/stepimpl.h"
+#include <checkpoint.h>
+#include "src/measure/measureimpl.h"
 
 /* A field of a global vector; NULL: zero */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
@@ -48,6 +49,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
     [CHECKPOINT_PRESSURE]   = sim->history.pressure,
     [CHECKPOINT_SLACK]      = sim->history.slack,
     [CHECKPOINT_SHEAR]      = sim->history.settled,
+    [CHECKPOINT_FRICTION]   = sim->history.friction,
     [CHECKPOINT_SLIP_PATH]  = sim->history.slip_path,
     [CHECKPOINT_DISSIPATED] = sim->history.dissipated,
   };
@@ -154,6 +156,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,5 @@
 /* A run's state on disk: a file that is whole or not there. */
-#include "src/output/outputimpl.h"
-#include <scene.h>
+#include "checkpointimpl.h"
 #include <string.h>
 
 struct _n_CheckpointWriter {

@@ -1,19 +1,19 @@
 /* Ties between faces: the displacements of one face's nodes as means of the other's, as rows of a matrix. */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 
 /* Adds up the ties; tied: which one owns a node, -1 none */
-static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
+static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tied[])
 {
-  MPI_Comm comm = sim->comm;
+  MPI_Comm comm = c->bodies.comm;
 
   PetscFunctionBegin;
   *all = NULL;
-  for (PetscInt t = 0; t < sim->scene->nties; ++t) {
-    const SceneTie *tie = &sim->scene->ties[t];
+  for (PetscInt t = 0; t < c->bodies.scene->nties; ++t) {
+    const SceneTie *tie = &c->bodies.scene->ties[t];
     PetscInt        start, end, twice = -1;
     Mat             rows;
 
-    PetscCall(ContactTieCreate(sim->dm, "tie", tie, &rows));
+    PetscCall(ContactTieCreate(c->bodies.dm, "tie", tie, &rows));
     PetscCall(MatGetOwnershipRange(rows, &start, &end));
     for (PetscInt i = start; i < end; ++i) {
       PetscInt n;
@@ -26,7 +26,7 @@ static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
     PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
       "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them",
-      sim->scene->ties[twice].name, tie->name);
+      c->bodies.scene->ties[twice].name, tie->name);
     if (*all) {
       PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
       PetscCall(MatDestroy(&rows));
@@ -36,7 +36,7 @@ static PetscErrorCode JointsCollect(Simulation sim, Mat *all, PetscInt tied[])
 }
 
 /* A node that others are tied to must not be tied itself */
-static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt tied[])
+static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const PetscInt tied[])
 {
   Vec                is_tied, held;
   PetscScalar       *a;
@@ -55,23 +55,23 @@ static PetscErrorCode JointsCheckChains(Simulation sim, Mat all, const PetscInt 
     if (PetscAbsScalar(h[i]) > 1e-12) chained = tied[i];
   }
   PetscCall(VecRestoreArrayRead(held, &h));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(chained < 0, sim->comm, PETSC_ERR_USER_INPUT,
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
+  PetscCheck(chained < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
     "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties",
-    sim->scene->ties[PetscMax(chained, 0)].name, sim->scene->ties[PetscMax(chained, 0)].mortar);
+    c->bodies.scene->ties[PetscMax(chained, 0)].name, c->bodies.scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
   PetscCall(VecDestroy(&held));
   PetscFunctionReturn(0);
 }
 
 /* Nor hang: the forces that it ties would not be those of a uniform stress */
-static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
+static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt tied[])
 {
   PetscInt start, end, hangs = -1;
   Mat      means;
 
   PetscFunctionBegin;
-  PetscCall(MeshGetHanging(sim->dm, &means));
+  PetscCall(MeshGetHanging(c->bodies.dm, &means));
   if (!means) PetscFunctionReturn(0);
   PetscCall(MatGetOwnershipRange(means, &start, &end));
   for (PetscInt i = start; i < end; ++i) {
@@ -81,11 +81,11 @@ static PetscErrorCode JointsCheckHanging(Simulation sim, const PetscInt tied[])
     if (n && tied[i - start] >= 0) hangs = tied[i - start];
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, sim->comm));
-  PetscCheck(hangs < 0, sim->comm, PETSC_ERR_USER_INPUT,
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
+  PetscCheck(hangs < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
     "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange "
     "the two faces",
-    sim->scene->ties[PetscMax(hangs, 0)].name, sim->scene->ties[PetscMax(hangs, 0)].nonmortar);
+    c->bodies.scene->ties[PetscMax(hangs, 0)].name, c->bodies.scene->ties[PetscMax(hangs, 0)].nonmortar);
   PetscFunctionReturn(0);
 }
 
@@ -106,17 +106,18 @@ static PetscErrorCode JointsLongestRow(Mat all, PetscInt *longest)
 }
 
 /* The matrix of the ties alone, and its rows that follow others; all: of nodes */
-PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
+PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
   PetscBool follows[])
 {
   PetscInt nlocal, rstart, start, longest;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(c->bodies.mass, &nlocal));
+  PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(MatGetOwnershipRange(all, &start, NULL));
   PetscCall(JointsLongestRow(all, &longest));
-  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
+  PetscCall(
+    MatCreateAIJ(c->bodies.comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
   for (PetscInt i = 0; i < nlocal; ++i) {
     const PetscInt     row = rstart + i, node = i / 3;
     PetscInt           n;
@@ -141,21 +142,21 @@ PetscErrorCode JointsExpand(Simulation sim, Mat all, const PetscInt tied[], cons
 }
 
 /* NULL where no faces are tied */
-PetscErrorCode JointsCreate(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+PetscErrorCode JointsCreate(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt n, *tied;
   Mat      all;
 
   PetscFunctionBegin;
   *C = NULL;
-  if (!sim->scene->nties) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
+  if (!c->bodies.scene->nties) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
   PetscCall(PetscMalloc1(n / 3, &tied));
   for (PetscInt i = 0; i < n / 3; ++i) tied[i] = -1;
-  PetscCall(JointsCollect(sim, &all, tied));
-  PetscCall(JointsCheckChains(sim, all, tied));
-  PetscCall(JointsCheckHanging(sim, tied));
-  PetscCall(JointsExpand(sim, all, tied, prescribed, C, follows));
+  PetscCall(JointsCollect(c, &all, tied));
+  PetscCall(JointsCheckChains(c, all, tied));
+  PetscCall(JointsCheckHanging(c, tied));
+  PetscCall(JointsExpand(c, all, tied, prescribed, C, follows));
   PetscCall(MatDestroy(&all));
   PetscCall(PetscFree(tied));
   PetscFunctionReturn(0);

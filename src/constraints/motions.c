@@ -2,7 +2,7 @@
    Rigid motions of faces and bodies: u = t + (R - 1) (X - c), with t and the rotation vector of R the sums over the
    scene's entries of the same face or body, each times the factor of its ramp.
 */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 #include <string.h>
 
 /* The first entry of the same face or body, which stands for all of them */

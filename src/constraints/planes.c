@@ -2,18 +2,18 @@
    Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
    the others, by Gauss-Jordan elimination; those with the largest coefficients, and none that is prescribed.
 */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 
 typedef struct {
   PetscInt  n; /* planes through the node */
   PetscReal a[3][3];
 } NodePlanes;
 
-static PetscErrorCode PlanesCollect(Simulation sim, PetscInt rstart, NodePlanes nodes[])
+static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rstart, NodePlanes nodes[])
 {
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d) {
-    const SceneDisplacement *plane = &sim->scene->displacements[d];
+  for (PetscInt d = 0; d < constraints->bodies.scene->ndisplacements; ++d) {
+    const SceneDisplacement *plane = &constraints->bodies.scene->displacements[d];
     IS                       is;
     const PetscInt          *rows;
     const PetscReal         *m      = plane->normal;
@@ -21,7 +21,7 @@ static PetscErrorCode PlanesCollect(Simulation sim, PetscInt rstart, NodePlanes 
     PetscInt                 n;
 
     if (!plane->inclined) continue;
-    PetscCall(MeshGetFaceDofs(sim->dm, plane->face, 0, &is));
+    PetscCall(MeshGetFaceDofs(constraints->bodies.dm, plane->face, 0, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
     for (PetscInt k = 0; k < n; ++k) {
@@ -68,8 +68,8 @@ static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], Pet
 
 /* The matrix u = C x of the planes alone, and its rows that follow others; given: prescribed displacements at the end
    of the load program */
-static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const PetscBool prescribed[], Vec given, Mat *C,
-  PetscBool follows[])
+static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes nodes[], const PetscBool prescribed[],
+  Vec given, Mat *C, PetscBool follows[])
 {
   PetscInt           nlocal, rstart;
   PetscReal          worst = 0.0, size;
@@ -80,7 +80,8 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
   PetscCall(VecGetOwnershipRange(given, &rstart, NULL));
   PetscCall(VecNorm(given, NORM_INFINITY, &size));
   PetscCall(VecGetArrayRead(given, &u));
-  PetscCall(MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, C));
+  PetscCall(
+    MatCreateAIJ(constraints->bodies.comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, C));
   for (PetscInt i = 0; i < nlocal; i += 3) {
     PetscInt pivot[3] = {-1, -1, -1};
 
@@ -101,8 +102,8 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
     }
   }
   PetscCall(VecRestoreArrayRead(given, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, sim->comm));
-  PetscCheck(worst <= 1e-9 * size, sim->comm, PETSC_ERR_USER_INPUT,
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, constraints->bodies.comm));
+  PetscCheck(worst <= 1e-9 * size, constraints->bodies.comm, PETSC_ERR_USER_INPUT,
     "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
   PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
@@ -110,7 +111,7 @@ static PetscErrorCode PlanesExpand(Simulation sim, NodePlanes nodes[], const Pet
 }
 
 /* C NULL where there are none; prescribed and follows: of this rank's rows */
-PetscErrorCode PlanesCreate(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+PetscErrorCode PlanesCreate(const Constraints *constraints, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt    n, rstart;
   PetscBool   any = PETSC_FALSE;
@@ -119,17 +120,17 @@ PetscErrorCode PlanesCreate(Simulation sim, const PetscBool prescribed[], Mat *C
 
   PetscFunctionBegin;
   *C = NULL;
-  for (PetscInt d = 0; d < sim->scene->ndisplacements; ++d)
-    any = (PetscBool)(any || sim->scene->displacements[d].inclined);
+  for (PetscInt d = 0; d < constraints->bodies.scene->ndisplacements; ++d)
+    any = (PetscBool)(any || constraints->bodies.scene->displacements[d].inclined);
   if (!any) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(constraints->bodies.mass, &n));
+  PetscCall(VecGetOwnershipRange(constraints->bodies.mass, &rstart, NULL));
   PetscCall(PetscCalloc1(n / 3, &nodes));
-  PetscCall(PlanesCollect(sim, rstart, nodes));
-  PetscCall(VecDuplicate(sim->path.u, &given));
+  PetscCall(PlanesCollect(constraints, rstart, nodes));
+  PetscCall(VecDuplicate(constraints->bodies.mass, &given));
   PetscCall(VecZeroEntries(given));
-  PetscCall(PrescribedApply(&sim->prescribed, (PetscReal)sim->scene->nsteps, given));
-  PetscCall(PlanesExpand(sim, nodes, prescribed, given, C, follows));
+  PetscCall(PrescribedApply(constraints->prescribed, (PetscReal)constraints->bodies.scene->nsteps, given));
+  PetscCall(PlanesExpand(constraints, nodes, prescribed, given, C, follows));
   PetscCall(VecDestroy(&given));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);

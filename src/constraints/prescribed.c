@@ -1,5 +1,5 @@
 /* Prescribed displacements: from faces and components of the scene to owned global rows and values. */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 
 /* At factor 1 of its ramp, or of a motion so that it leads to its factors */
 static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt component)

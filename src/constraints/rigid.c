@@ -3,7 +3,7 @@
    as there are free motions: u = R x + o, o being what is prescribed of the other motions. Free rotations are those
    of small angles, u = r x (X - center).
 */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 
 /* Where the displacements of a rotation are off by 6e-4 of its arm */
 static const PetscReal largest_angle = 2.0; /* [degrees] */
@@ -30,28 +30,28 @@ static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const
 }
 
 /* Global rows of the first component of the nodes that this rank owns */
-static PetscErrorCode RigidGetNodes(Simulation sim, const RigidBody *body, IS *nodes)
+static PetscErrorCode RigidGetNodes(const Constraints *c, const RigidBody *body, IS *nodes)
 {
   PetscFunctionBegin;
-  PetscCall(MeshGetFaceDofs(sim->dm, sim->scene->displacements[body->leader].face, 0, nodes));
+  PetscCall(MeshGetFaceDofs(c->bodies.dm, c->bodies.scene->displacements[body->leader].face, 0, nodes));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidMeasure(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+static PetscErrorCode RigidMeasure(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], RigidBody *body)
 {
-  const PetscReal *center = sim->scene->displacements[body->leader].center;
+  const PetscReal *center = c->bodies.scene->displacements[body->leader].center;
 
   PetscFunctionBegin;
   body->size = 0.0;
   for (PetscInt i = 0; i < 3 * n; ++i)
     body->size = PetscMax(body->size, PetscAbsReal(PetscRealPart(x[nodes[i / 3] - rstart + i % 3]) - center[i % 3]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &body->size, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &body->size, 1, MPIU_REAL, MPIU_MAX, c->bodies.comm));
   PetscFunctionReturn(0);
 }
 
 /* The row with the largest component across those that carry motions already, unit[]; which becomes the next of them */
-static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const PetscScalar x[], PetscInt n,
+static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
 {
   struct {
@@ -65,7 +65,7 @@ static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const Pe
   for (PetscInt i = 0; i < 3 * n; ++i) {
     PetscReal square = 0.0;
 
-    RigidGetRow(&sim->scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, row);
+    RigidGetRow(&c->bodies.scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, row);
     PetscCall(PetscArraycpy(across, row, 6));
     for (PetscInt k = 0; k < 2 * found; ++k) {
       PetscReal dot = 0.0;
@@ -81,12 +81,12 @@ static PetscErrorCode RigidFindCarrier(Simulation sim, PetscInt rstart, const Pe
       unit[found][m] = across[m] / PetscSqrtReal(PetscMax(square, PETSC_MACHINE_EPSILON));
     PetscCall(PetscArraycpy(carriers[found], row, 6));
   }
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(c->bodies.comm, &rank));
   best.rank = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, sim->comm));
-  PetscCallMPI(MPI_Bcast(&body->row[found], 1, MPIU_INT, best.rank, sim->comm));
-  PetscCallMPI(MPI_Bcast(unit[found], 6, MPIU_REAL, best.rank, sim->comm));
-  PetscCallMPI(MPI_Bcast(carriers[found], 6, MPIU_REAL, best.rank, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, c->bodies.comm));
+  PetscCallMPI(MPI_Bcast(&body->row[found], 1, MPIU_INT, best.rank, c->bodies.comm));
+  PetscCallMPI(MPI_Bcast(unit[found], 6, MPIU_REAL, best.rank, c->bodies.comm));
+  PetscCallMPI(MPI_Bcast(carriers[found], 6, MPIU_REAL, best.rank, c->bodies.comm));
   PetscFunctionReturn(0);
 }
 
@@ -124,7 +124,7 @@ static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
 }
 
 /* Rows of R: those that carry the motions have a 1, which is put there exactly */
-static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
+static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
   PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
 {
   PetscFunctionBegin;
@@ -138,21 +138,21 @@ static PetscErrorCode RigidSetRows(Simulation sim, const RigidBody *body, PetscI
     for (PetscInt k = 0; k < body->n; ++k) carries = (PetscBool)(carries || body->row[k] == row);
     if (carries) continue;
     follows[local] = PETSC_TRUE;
-    RigidGetRow(&sim->scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, motion);
+    RigidGetRow(&c->bodies.scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, motion);
     for (PetscInt k = 0; k < body->n; ++k) {
       PetscReal share = 0.0;
 
       for (PetscInt m = 0; m < body->n; ++m) share += motion[m] * body->inverse[m][k];
-      if (PetscAbsReal(share) > 1e-14) PetscCall(MatSetValue(sim->rigid.R, row, body->row[k], share, INSERT_VALUES));
+      if (PetscAbsReal(share) > 1e-14) PetscCall(MatSetValue(c->rigid->R, row, body->row[k], share, INSERT_VALUES));
     }
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidCreateBody(Simulation sim, PetscInt leader, const PetscBool prescribed[], PetscBool mine[],
-  PetscBool follows[], RigidBody *body)
+static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, const PetscBool prescribed[],
+  PetscBool mine[], PetscBool follows[], RigidBody *body)
 {
-  const SceneDisplacement *d = &sim->scene->displacements[leader];
+  const SceneDisplacement *d = &c->bodies.scene->displacements[leader];
   IS                       is;
   const PetscInt          *nodes;
   const PetscScalar       *x;
@@ -165,26 +165,26 @@ static PetscErrorCode RigidCreateBody(Simulation sim, PetscInt leader, const Pet
   for (PetscInt m = 0; m < 6; ++m) {
     if (d->released[m]) body->motion[body->n++] = m;
   }
-  PetscCall(RigidGetNodes(sim, body, &is));
+  PetscCall(RigidGetNodes(c, body, &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &nodes));
-  PetscCall(VecGetOwnershipRange(sim->places.x, &rstart, NULL));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
-  PetscCall(RigidMeasure(sim, rstart, x, n, nodes, body));
-  for (PetscInt k = 0; k < body->n; ++k) PetscCall(RigidFindCarrier(sim, rstart, x, n, nodes, k, unit, carriers, body));
+  PetscCall(VecGetOwnershipRange(c->bodies.places.x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  PetscCall(RigidMeasure(c, rstart, x, n, nodes, body));
+  for (PetscInt k = 0; k < body->n; ++k) PetscCall(RigidFindCarrier(c, rstart, x, n, nodes, k, unit, carriers, body));
   RigidInvert(body->n, carriers, body->inverse);
-  PetscCall(RigidSetRows(sim, body, rstart, x, n, nodes, prescribed, mine, follows));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(RigidSetRows(c, body, rstart, x, n, nodes, prescribed, mine, follows));
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
   PetscCall(ISRestoreIndices(is, &nodes));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
 
 /* After the prescribed rows. prescribed and follows: of this rank's rows; without such bodies nothing is created */
-PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBool follows[])
+PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
 {
-  RigidBodies *rigid = &sim->rigid;
-  Scene        scene = sim->scene;
+  RigidBodies *rigid = c->rigid;
+  Scene        scene = c->bodies.scene;
   PetscInt     n, rstart;
   PetscBool   *mine;
   PetscScalar *elastic;
@@ -194,17 +194,17 @@ PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBo
     rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
   if (!rigid->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
-  PetscCall(VecDuplicate(sim->path.u, &rigid->elastic));
-  PetscCall(VecDuplicate(sim->path.u, &rigid->given));
-  PetscCall(VecDuplicate(sim->path.u, &rigid->held));
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->elastic));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->given));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->held));
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+  PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(PetscCalloc1(n, &mine));
-  PetscCall(MatCreateAIJ(sim->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 6, NULL, 6, NULL, &rigid->R));
+  PetscCall(MatCreateAIJ(c->bodies.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 6, NULL, 6, NULL, &rigid->R));
   rigid->n = 0;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     if (RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d)
-      PetscCall(RigidCreateBody(sim, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
+      PetscCall(RigidCreateBody(c, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
   }
   PetscCall(VecGetArrayWrite(rigid->elastic, &elastic));
   for (PetscInt i = 0; i < n; ++i) {
@@ -219,9 +219,9 @@ PetscErrorCode RigidCreate(Simulation sim, const PetscBool prescribed[], PetscBo
 }
 
 /* o, what the motions that are prescribed displace the rows that follow by */
-PetscErrorCode RigidMove(Simulation sim, PetscReal time, Vec o)
+PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
 {
-  RigidBodies       *rigid = &sim->rigid;
+  RigidBodies       *rigid = c->rigid;
   const PetscScalar *x;
   PetscScalar       *a;
   PetscInt           rstart;
@@ -229,19 +229,20 @@ PetscErrorCode RigidMove(Simulation sim, PetscReal time, Vec o)
   RigidMotion        motion;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(sim->scene->nramps, &factor));
-  for (PetscInt r = 0; r < sim->scene->nramps; ++r) PetscCall(SceneGetFactor(sim->scene, r, time, &factor[r]));
+  PetscCall(PetscMalloc1(c->bodies.scene->nramps, &factor));
+  for (PetscInt r = 0; r < c->bodies.scene->nramps; ++r)
+    PetscCall(SceneGetFactor(c->bodies.scene, r, time, &factor[r]));
   PetscCall(VecZeroEntries(rigid->given));
   PetscCall(VecGetOwnershipRange(rigid->given, &rstart, NULL));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
   PetscCall(VecGetArray(rigid->given, &a));
   for (PetscInt b = 0; b < rigid->n; ++b) {
     IS              is;
     const PetscInt *nodes;
     PetscInt        n;
 
-    MotionGet(sim->scene, rigid->bodies[b].leader, factor, &motion);
-    PetscCall(RigidGetNodes(sim, &rigid->bodies[b], &is));
+    MotionGet(c->bodies.scene, rigid->bodies[b].leader, factor, &motion);
+    PetscCall(RigidGetNodes(c, &rigid->bodies[b], &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &nodes));
     for (PetscInt i = 0; i < 3 * n; ++i)
@@ -250,28 +251,28 @@ PetscErrorCode RigidMove(Simulation sim, PetscReal time, Vec o)
     PetscCall(ISDestroy(&is));
   }
   PetscCall(VecRestoreArray(rigid->given, &a));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
   PetscCall(PetscFree(factor));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, rigid->given));
+  PetscCall(PrescribedSet(c->prescribed, 0.0, rigid->given));
   PetscCall(MatMult(rigid->R, rigid->given, o));
   PetscCall(VecAYPX(o, -1.0, rigid->given));
   PetscFunctionReturn(0);
 }
 
 /* Springs on rigid bodies, the only stiffness that their own rows have: of the motions by C, u = C x */
-static PetscErrorCode RigidAddSprings(Simulation sim, Mat C, Mat stiffness)
+static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness)
 {
   PetscInt n;
   Mat      springs, product;
   Vec      own;
 
   PetscFunctionBegin;
-  if (!sim->springs.stiffness) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(sim->springs.stiffness, &own));
-  PetscCall(VecPointwiseMult(own, sim->springs.stiffness, sim->rigid.elastic));
-  PetscCall(VecAYPX(own, -1.0, sim->springs.stiffness));
+  if (!c->springs->stiffness) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(c->springs->stiffness, &own));
+  PetscCall(VecPointwiseMult(own, c->springs->stiffness, c->rigid->elastic));
+  PetscCall(VecAYPX(own, -1.0, c->springs->stiffness));
   PetscCall(VecGetLocalSize(own, &n));
-  PetscCall(MatCreateAIJ(sim->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &springs));
+  PetscCall(MatCreateAIJ(c->bodies.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, &springs));
   PetscCall(MatDiagonalSet(springs, own, INSERT_VALUES));
   PetscCall(MatPtAP(springs, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
   PetscCall(MatAXPY(stiffness, 1.0, product, DIFFERENT_NONZERO_PATTERN));
@@ -283,7 +284,7 @@ static PetscErrorCode RigidAddSprings(Simulation sim, Mat C, Mat stiffness)
 
 /* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions to the centre of
    proximal.c */
-PetscErrorCode RigidAddStiffness(Simulation sim, Mat C, Vec diagonal, Mat stiffness)
+PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
   const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
   const PetscScalar *d;
@@ -291,37 +292,37 @@ PetscErrorCode RigidAddStiffness(Simulation sim, Mat C, Vec diagonal, Mat stiffn
   PetscInt           first, end;
 
   PetscFunctionBegin;
-  PetscCall(RigidAddSprings(sim, C, stiffness));
-  PetscCall(VecZeroEntries(sim->rigid.held));
+  PetscCall(RigidAddSprings(c, C, stiffness));
+  PetscCall(VecZeroEntries(c->rigid->held));
   PetscCall(VecGetOwnershipRange(diagonal, &first, &end));
   PetscCall(VecGetArrayRead(diagonal, &d));
-  PetscCall(VecGetArray(sim->rigid.held, &held));
-  for (PetscInt b = 0; b < sim->rigid.n; ++b) {
-    const RigidBody *body = &sim->rigid.bodies[b];
+  PetscCall(VecGetArray(c->rigid->held, &held));
+  for (PetscInt b = 0; b < c->rigid->n; ++b) {
+    const RigidBody *body = &c->rigid->bodies[b];
 
     for (PetscInt k = 0; k < body->n; ++k) {
       if (body->row[k] >= first && body->row[k] < end) held[body->row[k] - first] = share * d[body->row[k] - first];
     }
   }
-  PetscCall(VecRestoreArray(sim->rigid.held, &held));
+  PetscCall(VecRestoreArray(c->rigid->held, &held));
   PetscCall(VecRestoreArrayRead(diagonal, &d));
-  PetscCall(MatDiagonalSet(stiffness, sim->rigid.held, ADD_VALUES));
+  PetscCall(MatDiagonalSet(stiffness, c->rigid->held, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
 /* A solve has not converged where a free rotation is no small one */
-PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
+PetscErrorCode RigidTest(const Constraints *c, Vec u, StepReport *report)
 {
   const PetscScalar *a, *given;
   PetscInt           first, end;
 
   PetscFunctionBegin;
-  if (!sim->rigid.n || !report->converged) PetscFunctionReturn(0);
+  if (!c->rigid->n || !report->converged) PetscFunctionReturn(0);
   PetscCall(VecGetOwnershipRange(u, &first, &end));
   PetscCall(VecGetArrayRead(u, &a));
-  PetscCall(VecGetArrayRead(sim->rigid.given, &given));
-  for (PetscInt b = 0; b < sim->rigid.n; ++b) {
-    const RigidBody *body     = &sim->rigid.bodies[b];
+  PetscCall(VecGetArrayRead(c->rigid->given, &given));
+  for (PetscInt b = 0; b < c->rigid->n; ++b) {
+    const RigidBody *body     = &c->rigid->bodies[b];
     PetscReal        moved[6] = {0.0}, square = 0.0, degrees;
     char             reason[256];
 
@@ -329,7 +330,7 @@ PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
       moved[k] = body->row[k] >= first && body->row[k] < end
                    ? PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first])
                    : 0.0;
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, sim->comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, c->bodies.comm));
     for (PetscInt k = 0; k < body->n; ++k) {
       PetscReal angle = 0.0;
 
@@ -341,10 +342,10 @@ PetscErrorCode RigidTest(Simulation sim, Vec u, StepReport *report)
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at "
       "most: prescribe the rotation, or let more hold the body",
-      sim->scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
+      c->bodies.scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
-  PetscCall(VecRestoreArrayRead(sim->rigid.given, &given));
+  PetscCall(VecRestoreArrayRead(c->rigid->given, &given));
   PetscCall(VecRestoreArrayRead(u, &a));
   PetscFunctionReturn(0);
 }

@@ -4,25 +4,25 @@
    nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in those
    rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
 */
-#include "src/step/stepimpl.h"
+#include "constraintsimpl.h"
 
 /* Whether a local row is prescribed */
-static PetscErrorCode TiesMarkPrescribed(Simulation sim, PetscInt rstart, PetscBool prescribed[])
+static PetscErrorCode TiesMarkPrescribed(const Constraints *c, PetscInt rstart, PetscBool prescribed[])
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < sim->prescribed.n; ++k) prescribed[sim->prescribed.rows[k] - rstart] = PETSC_TRUE;
+  for (PetscInt k = 0; k < c->prescribed->n; ++k) prescribed[c->prescribed->rows[k] - rstart] = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
 /* NULL where no vertex hangs; those of faces with prescribed displacements have theirs */
-static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescribed[], Mat *C, PetscBool follows[])
+static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt start, end, *hangs;
   Mat      means;
 
   PetscFunctionBegin;
   *C = NULL;
-  PetscCall(MeshGetHanging(sim->dm, &means));
+  PetscCall(MeshGetHanging(c->bodies.dm, &means));
   if (!means) PetscFunctionReturn(0);
   PetscCall(MatGetOwnershipRange(means, &start, &end));
   PetscCall(PetscMalloc1(end - start, &hangs));
@@ -33,7 +33,7 @@ static PetscErrorCode TiesCreateHanging(Simulation sim, const PetscBool prescrib
     hangs[i - start] = n ? 0 : -1;
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
-  PetscCall(JointsExpand(sim, means, hangs, prescribed, C, follows));
+  PetscCall(JointsExpand(c, means, hangs, prescribed, C, follows));
   PetscCall(PetscFree(hangs));
   PetscFunctionReturn(0);
 }
@@ -89,65 +89,65 @@ static PetscErrorCode TiesCreateIdentity(Vec layout, Mat *identity)
 }
 
 /* C, of all but rigid bodies, is the second factor to R, if there are any that forces drive */
-static PetscErrorCode TiesJoinRigid(Simulation sim)
+static PetscErrorCode TiesJoinRigid(const Constraints *c)
 {
-  Ties *ties = &sim->ties;
+  Ties *ties = c->ties;
   Mat   C    = NULL;
 
   PetscFunctionBegin;
-  if (!sim->rigid.R) PetscFunctionReturn(0);
+  if (!c->rigid->R) PetscFunctionReturn(0);
   ties->joined = ties->C;
-  PetscCall(TiesApplyNext(sim->rigid.R, &C));
+  PetscCall(TiesApplyNext(c->rigid->R, &C));
   PetscCall(TiesApplyNext(ties->joined, &C));
   ties->C = C;
   PetscCall(MatDuplicate(C, MAT_COPY_VALUES, &ties->elastic));
-  PetscCall(MatDiagonalScale(ties->elastic, sim->rigid.elastic, NULL));
-  PetscCall(VecDuplicate(sim->path.u, &ties->o));
+  PetscCall(MatDiagonalScale(ties->elastic, c->rigid->elastic, NULL));
+  PetscCall(VecDuplicate(c->bodies.mass, &ties->o));
   PetscCall(VecZeroEntries(ties->o));
   PetscFunctionReturn(0);
 }
 
 /* After the prescribed rows, before the stiffness */
-PetscErrorCode TiesCreate(Simulation sim)
+PetscErrorCode TiesCreate(const Constraints *c)
 {
-  Ties      *ties = &sim->ties;
+  Ties      *ties = c->ties;
   PetscInt   n, rstart;
   PetscBool *prescribed, *follows;
   Mat        joints, planes;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+  PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(PetscCalloc2(n, &prescribed, n, &follows));
-  PetscCall(TiesMarkPrescribed(sim, rstart, prescribed));
-  PetscCall(PlanesCreate(sim, prescribed, &planes, follows));
-  PetscCall(JointsCreate(sim, prescribed, &joints, follows));
-  PetscCall(TiesCreateHanging(sim, prescribed, &ties->hanging, follows));
-  PetscCall(RigidCreate(sim, prescribed, follows));
-  if (planes || joints || ties->hanging || sim->rigid.R || sim->springs.between) {
+  PetscCall(TiesMarkPrescribed(c, rstart, prescribed));
+  PetscCall(PlanesCreate(c, prescribed, &planes, follows));
+  PetscCall(JointsCreate(c, prescribed, &joints, follows));
+  PetscCall(TiesCreateHanging(c, prescribed, &ties->hanging, follows));
+  PetscCall(RigidCreate(c, prescribed, follows));
+  if (planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
     PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
-    PetscCall(TiesJoinRigid(sim));
-    if (!ties->C) PetscCall(TiesCreateIdentity(sim->path.u, &ties->C));
+    PetscCall(TiesJoinRigid(c));
+    if (!ties->C) PetscCall(TiesCreateIdentity(c->bodies.mass, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));
     PetscCall(PetscMalloc1(n, &ties->rows));
     for (PetscInt i = 0; i < n; ++i) {
       if (follows[i]) ties->rows[ties->n++] = rstart + i;
     }
-    PetscCall(VecDuplicate(sim->path.u, &ties->work));
-    PetscCall(ElasticitySetMatType(sim->elasticity, MATAIJ));
+    PetscCall(VecDuplicate(c->bodies.mass, &ties->work));
+    PetscCall(ElasticitySetMatType(c->bodies.elasticity, MATAIJ));
   }
   PetscCall(PetscFree2(prescribed, follows));
   PetscFunctionReturn(0);
 }
 
 /* To what is prescribed at a time */
-PetscErrorCode TiesMove(Simulation sim, PetscReal time)
+PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
 {
-  Ties *ties = &sim->ties;
+  Ties *ties = c->ties;
 
   PetscFunctionBegin;
   if (!ties->o) PetscFunctionReturn(0);
-  PetscCall(RigidMove(sim, time, ties->joined ? ties->work : ties->o));
+  PetscCall(RigidMove(c, time, ties->joined ? ties->work : ties->o));
   if (ties->joined) PetscCall(MatMult(ties->joined, ties->work, ties->o));
   PetscFunctionReturn(0);
 }
@@ -178,9 +178,9 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
    between hanging vertices and the cells that they hang on; rigid: on rigid bodies that forces drive, what keeps them
    rigid and to the motions that are prescribed. NULL where nothing follows
 */
-PetscErrorCode TiesGetForces(Simulation sim, Vec force, Vec *ties, Vec *rigid)
+PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *rigid)
 {
-  const Ties *t = &sim->ties;
+  const Ties *t = c->ties;
 
   PetscFunctionBegin;
   *ties = *rigid = NULL;
@@ -188,12 +188,12 @@ PetscErrorCode TiesGetForces(Simulation sim, Vec force, Vec *ties, Vec *rigid)
   PetscCall(VecDuplicate(force, ties));
   if (t->hanging) PetscCall(MatMultTranspose(t->hanging, force, *ties));
   else PetscCall(VecCopy(force, *ties));
-  if (sim->rigid.R) {
+  if (c->rigid->R) {
     PetscCall(VecDuplicate(force, rigid));
     if (t->joined) PetscCall(MatMultTranspose(t->joined, force, *rigid));
     else PetscCall(VecCopy(force, *rigid));
     PetscCall(VecAXPY(*ties, -1.0, *rigid));
-    PetscCall(MatMultTranspose(sim->rigid.R, *rigid, force));
+    PetscCall(MatMultTranspose(c->rigid->R, *rigid, force));
     PetscCall(VecAXPY(*rigid, -1.0, force));
     PetscFunctionReturn(0);
   }
@@ -216,23 +216,23 @@ PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
 }
 
 /* Prescribed and tied rows and columns hold nothing but the diagonal that they had */
-static PetscErrorCode TiesClearRows(Simulation sim, Vec diagonal, Mat tied)
+static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied)
 {
-  const Ties        *ties = &sim->ties;
+  const Ties        *ties = c->ties;
   PetscInt           rstart;
   Vec                now;
   PetscScalar       *d;
   const PetscScalar *old;
 
   PetscFunctionBegin;
-  PetscCall(MatZeroRowsColumns(tied, sim->prescribed.n, sim->prescribed.rows, 0.0, NULL, NULL));
+  PetscCall(MatZeroRowsColumns(tied, c->prescribed->n, c->prescribed->rows, 0.0, NULL, NULL));
   PetscCall(VecDuplicate(diagonal, &now));
   PetscCall(MatGetDiagonal(tied, now));
   PetscCall(VecGetOwnershipRange(now, &rstart, NULL));
   PetscCall(VecGetArray(now, &d));
   PetscCall(VecGetArrayRead(diagonal, &old));
-  for (PetscInt k = 0; k < sim->prescribed.n; ++k)
-    d[sim->prescribed.rows[k] - rstart] = old[sim->prescribed.rows[k] - rstart];
+  for (PetscInt k = 0; k < c->prescribed->n; ++k)
+    d[c->prescribed->rows[k] - rstart] = old[c->prescribed->rows[k] - rstart];
   for (PetscInt k = 0; k < ties->n; ++k) d[ties->rows[k] - rstart] = old[ties->rows[k] - rstart];
   PetscCall(VecRestoreArrayRead(diagonal, &old));
   PetscCall(VecRestoreArray(now, &d));
@@ -260,26 +260,26 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
 }
 
 /* The bodies' stiffness at u less the slope of loads that follow, of the tied displacements where faces are tied */
-PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
+PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
 {
-  Ties *ties = &sim->ties;
+  Ties *ties = c->ties;
   Vec   diagonal;
   Mat   tied;
 
   PetscFunctionBegin;
   if (!ties->C) {
-    PetscCall(ElasticityTangent(sim->elasticity, u, K));
-    if (sim->follows) PetscCall(MatAXPY(K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
+    PetscCall(ElasticityTangent(c->bodies.elasticity, u, K));
+    if (*c->follows) PetscCall(MatAXPY(K, -1.0, *c->follows, SAME_NONZERO_PATTERN));
     PetscFunctionReturn(0);
   }
-  PetscCall(ElasticityTangent(sim->elasticity, u, ties->K));
-  if (sim->follows) PetscCall(MatAXPY(ties->K, -1.0, sim->follows, SAME_NONZERO_PATTERN));
+  PetscCall(ElasticityTangent(c->bodies.elasticity, u, ties->K));
+  if (*c->follows) PetscCall(MatAXPY(ties->K, -1.0, *c->follows, SAME_NONZERO_PATTERN));
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
   PetscCall(TiesMultiply(ties, diagonal, &tied));
-  PetscCall(CouplingsAddStiffness(sim, ties->C, tied));
-  if (sim->rigid.R) PetscCall(RigidAddStiffness(sim, ties->C, diagonal, tied));
-  PetscCall(TiesClearRows(sim, diagonal, tied));
+  PetscCall(CouplingsAddStiffness(c->springs, ties->C, tied));
+  if (c->rigid->R) PetscCall(RigidAddStiffness(c, ties->C, diagonal, tied));
+  PetscCall(TiesClearRows(c, diagonal, tied));
   PetscCall(MatSetBlockSize(tied, 3));
   PetscCall(MatSetOption(tied, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatSetOption(tied, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
@@ -289,18 +289,18 @@ PetscErrorCode TiesTangent(Simulation sim, Vec u, Mat K)
 }
 
 /* The stiffness that solvers have, AIJ where faces are tied; that of the bodies as they are is in ties.K then */
-PetscErrorCode TiesCreateTangent(Simulation sim, Mat *K)
+PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
 {
   PetscFunctionBegin;
-  PetscCall(ElasticityCreateTangent(sim->elasticity, K));
-  if (!sim->ties.C) PetscFunctionReturn(0);
-  sim->ties.K = *K;
-  PetscCall(MatDuplicate(sim->ties.K, MAT_DO_NOT_COPY_VALUES, K));
+  PetscCall(ElasticityCreateTangent(c->bodies.elasticity, K));
+  if (!c->ties->C) PetscFunctionReturn(0);
+  c->ties->K = *K;
+  PetscCall(MatDuplicate(c->ties->K, MAT_DO_NOT_COPY_VALUES, K));
   PetscFunctionReturn(0);
 }
 
 /* Adds forces at this rank's rows, 3 numbers a body, and over the ranks */
-PetscErrorCode TiesMeasure(Simulation sim, Vec forces, PetscReal bodies[])
+PetscErrorCode TiesMeasure(const Constraints *c, Vec forces, PetscReal bodies[])
 {
   const PetscScalar *a;
   PetscInt           n;
@@ -308,10 +308,10 @@ PetscErrorCode TiesMeasure(Simulation sim, Vec forces, PetscReal bodies[])
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(forces, &n));
   PetscCall(VecGetArrayRead(forces, &a));
-  for (PetscInt i = 0; i < n; ++i) bodies[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  for (PetscInt i = 0; i < n; ++i) bodies[3 * c->bodies.places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
   PetscCall(VecRestoreArrayRead(forces, &a));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * c->bodies.scene->nbodies), MPIU_REAL, MPIU_SUM,
+    c->bodies.comm));
   PetscFunctionReturn(0);
 }
 

@@ -179,6 +179,7 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(MatDestroy(&(*lin)->derivative));
   PetscCall(MatDestroy(&(*lin)->cover));
   PetscCall(MatDestroy(&(*lin)->slip));
+  PetscCall(PetscFree((*lin)->normal));
   PetscCall(PetscFree((*lin)->tangent));
   PetscCall(PetscFree((*lin)->covered));
   PetscCall(PetscFree((*lin)->vertex));

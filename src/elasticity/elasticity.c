@@ -16,6 +16,8 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscOptionsEnd();
   PetscCheck(e->quadrature == 2 || e->quadrature == 3, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE,
     "A hexahedron is integrated with 2 or 3 Gauss points per axis, not %" PetscInt_FMT, e->quadrature);
+  PetscCheck(strstr(e->mattype, "aij"), PetscObjectComm((PetscObject)e->dm), PETSC_ERR_USER_INPUT,
+    "-elasticity_mat_type %s is none of baij, aij and sbaij", e->mattype);
   PetscFunctionReturn(0);
 }
 

@@ -4,7 +4,7 @@
    nor PETSc.
 */
 #define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>

@@ -5,7 +5,7 @@
    after every dataset, of which a load step has twenty, and write zeros in its place beforehand. Here a file is on
    the disk when it must be, once.
 */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 
 #define DATASET_HDF5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "HDF5 failed: %s", #call)
 

@@ -1,6 +1,6 @@
 /* Files that appear whole or not at all */
 #define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), getpid() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -3,7 +3,7 @@
    a record lock, of which HDF5 and those who read know nothing; where the file system has none, nobody is kept out.
 */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 /* What libraries print of their own accord while a file is written: HDF5 a page for each error, MPI's files a line. */
 #define _POSIX_C_SOURCE 200809L /* dup(), dup2() */
-#include "src/output/outputimpl.h"
+#include "filesimpl.h"
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -3,15 +3,15 @@
    that a tie has of the other, a_A being the integral of A's shape function. Their stiffness joins nodes that share
    no cell, and is a matrix of its own.
 */
-#include "src/step/stepimpl.h"
+#include "loadsimpl.h"
 
 /* 1 - M, each entry for the three components, in the rows of one face; others are empty */
-static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch)
+static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *stretch)
 {
   PetscInt nlocal, start, end, longest = 1;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path.u, &nlocal));
+  PetscCall(VecGetLocalSize(bodies->mass, &nlocal));
   PetscCall(MatGetOwnershipRange(means, &start, &end));
   for (PetscInt i = start; i < end; ++i) {
     PetscInt n;
@@ -20,8 +20,8 @@ static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch
     longest = PetscMax(longest, n + 1);
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
-  PetscCall(
-    MatCreateAIJ(sim->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, stretch));
+  PetscCall(MatCreateAIJ(bodies->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL,
+    stretch));
   for (PetscInt i = start; i < end; ++i) {
     const PetscInt    *columns;
     const PetscScalar *values;
@@ -41,7 +41,7 @@ static PetscErrorCode CouplingGetStretch(Simulation sim, Mat means, Mat *stretch
 }
 
 /* stretch^T (k a) stretch of one entry of the scene */
-static PetscErrorCode CouplingAssemble(Simulation sim, const SceneSpring *spring, Mat *stiffness)
+static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *spring, Mat *stiffness)
 {
   const SceneTie tie = {.name = spring->name,
     .mortar                   = spring->to,
@@ -51,11 +51,11 @@ static PetscErrorCode CouplingAssemble(Simulation sim, const SceneSpring *spring
   Vec            k;
 
   PetscFunctionBegin;
-  PetscCall(ContactTieCreate(sim->dm, "springs", &tie, &means));
-  PetscCall(CouplingGetStretch(sim, means, &stretch));
-  PetscCall(VecDuplicate(sim->mass, &k));
+  PetscCall(ContactTieCreate(bodies->dm, "springs", &tie, &means));
+  PetscCall(CouplingGetStretch(bodies, means, &stretch));
+  PetscCall(VecDuplicate(bodies->mass, &k));
   PetscCall(VecZeroEntries(k));
-  PetscCall(ElasticityAddFaceField(sim->elasticity, spring->face, spring->value, k));
+  PetscCall(ElasticityAddFaceField(bodies->elasticity, spring->face, spring->value, k));
   PetscCall(MatDuplicate(stretch, MAT_COPY_VALUES, &stretched));
   PetscCall(MatDiagonalScale(stretched, k, NULL));
   PetscCall(MatTransposeMatMult(stretch, stretched, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness));
@@ -67,15 +67,15 @@ static PetscErrorCode CouplingAssemble(Simulation sim, const SceneSpring *spring
 }
 
 /* NULL where no springs join two faces */
-PetscErrorCode CouplingsCreate(Simulation sim, Mat *stiffness)
+PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
 {
   PetscFunctionBegin;
   *stiffness = NULL;
-  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) {
+  for (PetscInt s = 0; s < bodies->scene->nsprings; ++s) {
     Mat one;
 
-    if (!sim->scene->springs[s].to) continue;
-    PetscCall(CouplingAssemble(sim, &sim->scene->springs[s], &one));
+    if (!bodies->scene->springs[s].to) continue;
+    PetscCall(CouplingAssemble(bodies, &bodies->scene->springs[s], &one));
     if (*stiffness) {
       PetscCall(MatAXPY(*stiffness, 1.0, one, DIFFERENT_NONZERO_PATTERN));
       PetscCall(MatDestroy(&one));
@@ -85,13 +85,13 @@ PetscErrorCode CouplingsCreate(Simulation sim, Mat *stiffness)
 }
 
 /* Of displacements C x, added to their stiffness */
-PetscErrorCode CouplingsAddStiffness(Simulation sim, Mat C, Mat stiffness)
+PetscErrorCode CouplingsAddStiffness(const Springs *springs, Mat C, Mat stiffness)
 {
   Mat product;
 
   PetscFunctionBegin;
-  if (!sim->springs.between) PetscFunctionReturn(0);
-  PetscCall(MatPtAP(sim->springs.between, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  if (!springs->between) PetscFunctionReturn(0);
+  PetscCall(MatPtAP(springs->between, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
   PetscCall(MatAXPY(stiffness, 1.0, product, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&product));
   PetscFunctionReturn(0);

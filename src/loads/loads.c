@@ -1,5 +1,5 @@
 /* Dead loads: pressures and body forces of the scene, gathered by ramp. */
-#include "src/step/stepimpl.h"
+#include "loadsimpl.h"
 
 static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, Vec *force)
 {

@@ -1,41 +1,42 @@
 /* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely.
  */
-#include "src/step/stepimpl.h"
+#include "loadsimpl.h"
 
-/* Of every body, on all ranks; sim->mass: of unit density */
-PetscErrorCode SpringsMeasureVolumes(Simulation sim, PetscReal volume[])
+/* Of every body, on all ranks; the mass is of unit density */
+PetscErrorCode SpringsMeasureVolumes(const Bodies *bodies, PetscReal volume[])
 {
   const PetscScalar *m;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(volume, sim->scene->nbodies));
-  PetscCall(VecGetLocalSize(sim->mass, &n));
-  PetscCall(VecGetArrayRead(sim->mass, &m));
-  for (PetscInt i = 0; i < n; i += 3) volume[sim->places.body[i / 3]] += PetscRealPart(m[i]);
-  PetscCall(VecRestoreArrayRead(sim->mass, &m));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)sim->scene->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(PetscArrayzero(volume, bodies->scene->nbodies));
+  PetscCall(VecGetLocalSize(bodies->mass, &n));
+  PetscCall(VecGetArrayRead(bodies->mass, &m));
+  for (PetscInt i = 0; i < n; i += 3) volume[bodies->places.body[i / 3]] += PetscRealPart(m[i]);
+  PetscCall(VecRestoreArrayRead(bodies->mass, &m));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)bodies->scene->nbodies, MPIU_REAL, MPIU_SUM, bodies->comm));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SpringsMeasureStiffness(Simulation sim, PetscReal *largest)
+PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
 {
   PetscReal *volume;
 
   PetscFunctionBegin;
   *largest = 0.0;
-  PetscCall(PetscMalloc1(sim->scene->nbodies, &volume));
-  PetscCall(SpringsMeasureVolumes(sim, volume));
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
-    *largest = PetscMax(*largest, sim->scene->bodies[b].material.young * PetscCbrtReal(volume[b]));
+  PetscCall(PetscMalloc1(bodies->scene->nbodies, &volume));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b)
+    *largest = PetscMax(*largest, bodies->scene->bodies[b].material.young * PetscCbrtReal(volume[b]));
   PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }
 
 /* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume */
-PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
+PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
 {
-  Scene              scene = sim->scene;
+  Scene              scene = bodies->scene;
   PetscReal         *volume;
   const PetscScalar *m;
   PetscScalar       *k;
@@ -43,70 +44,68 @@ PetscErrorCode SpringsOfSize(Simulation sim, PetscReal share, Vec stiffness)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &volume));
-  PetscCall(SpringsMeasureVolumes(sim, volume));
-  PetscCall(VecGetLocalSize(sim->mass, &n));
-  PetscCall(VecGetArrayRead(sim->mass, &m));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  PetscCall(VecGetLocalSize(bodies->mass, &n));
+  PetscCall(VecGetArrayRead(bodies->mass, &m));
   PetscCall(VecGetArrayWrite(stiffness, &k));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt b = sim->places.body[i / 3];
+    const PetscInt b = bodies->places.body[i / 3];
 
     k[i] = share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b];
   }
   PetscCall(VecRestoreArrayWrite(stiffness, &k));
-  PetscCall(VecRestoreArrayRead(sim->mass, &m));
+  PetscCall(VecRestoreArrayRead(bodies->mass, &m));
   PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }
 
 /* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the
    forces on them what is out of balance. */
-static PetscErrorCode SpringsCreateWeak(Simulation sim)
+static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 {
   PetscBool   *unheld;
   PetscScalar *k;
   PetscInt     n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(sim->scene->nbodies, &unheld));
-  PetscCall(MeshGetUnheld(sim->dm, sim->scene, unheld));
-  PetscCall(VecDuplicate(sim->mass, &sim->springs.weak));
-  PetscCall(SpringsOfSize(sim, sim->scene->weak_springs, sim->springs.weak));
-  PetscCall(VecGetLocalSize(sim->springs.weak, &n));
-  PetscCall(VecGetArray(sim->springs.weak, &k));
+  PetscCall(PetscMalloc1(bodies->scene->nbodies, &unheld));
+  PetscCall(MeshGetUnheld(bodies->dm, bodies->scene, unheld));
+  PetscCall(VecDuplicate(bodies->mass, &springs->weak));
+  PetscCall(SpringsOfSize(bodies, bodies->scene->weak_springs, springs->weak));
+  PetscCall(VecGetLocalSize(springs->weak, &n));
+  PetscCall(VecGetArray(springs->weak, &k));
   for (PetscInt i = 0; i < n; ++i) {
-    if (!unheld[sim->places.body[i / 3]]) k[i] = 0.0;
+    if (!unheld[bodies->places.body[i / 3]]) k[i] = 0.0;
   }
-  PetscCall(VecRestoreArray(sim->springs.weak, &k));
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) sim->springs.nweak += unheld[b];
+  PetscCall(VecRestoreArray(springs->weak, &k));
+  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b) springs->nweak += unheld[b];
   PetscCall(PetscFree(unheld));
   PetscFunctionReturn(0);
 }
 
-/* Before the first tangent; sim->mass and sim->places are known */
-PetscErrorCode SpringsCreate(Simulation sim)
+/* Before the first tangent */
+PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 {
-  Springs *springs = &sim->springs;
-
   PetscFunctionBegin;
-  if (!sim->scene->nsprings && !sim->scene->weak_springs) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(sim->mass, &springs->stiffness));
+  if (!bodies->scene->nsprings && !bodies->scene->weak_springs) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(bodies->mass, &springs->stiffness));
   PetscCall(VecZeroEntries(springs->stiffness));
-  for (PetscInt s = 0; s < sim->scene->nsprings; ++s) {
-    if (!sim->scene->springs[s].to)
-      PetscCall(ElasticityAddFaceField(sim->elasticity, sim->scene->springs[s].face, sim->scene->springs[s].value,
-        springs->stiffness));
+  for (PetscInt s = 0; s < bodies->scene->nsprings; ++s) {
+    if (!bodies->scene->springs[s].to)
+      PetscCall(ElasticityAddFaceField(bodies->elasticity, bodies->scene->springs[s].face,
+        bodies->scene->springs[s].value, springs->stiffness));
   }
-  PetscCall(CouplingsCreate(sim, &springs->between));
-  if (sim->scene->weak_springs) {
-    PetscCall(SpringsCreateWeak(sim));
+  PetscCall(CouplingsCreate(bodies, &springs->between));
+  if (bodies->scene->weak_springs) {
+    PetscCall(SpringsCreateWeak(bodies, springs));
     PetscCall(VecAXPY(springs->stiffness, 1.0, springs->weak));
   }
-  PetscCall(ElasticitySetSprings(sim->elasticity, springs->stiffness, springs->between));
+  PetscCall(ElasticitySetSprings(bodies->elasticity, springs->stiffness, springs->between));
   PetscFunctionReturn(0);
 }
 
 /* Adds the springs' forces on the bodies, 3 each, and the sum of the sizes of the weak ones' */
-PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscReal *weak)
+PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, PetscReal force[], PetscReal *weak)
 {
   const PetscScalar *k, *w = NULL, *v, *f;
   PetscInt           n;
@@ -117,28 +116,28 @@ PetscErrorCode SpringsMeasure(Simulation sim, Vec u, PetscReal bodies[], PetscRe
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(VecDuplicate(u, &joint));
   PetscCall(VecZeroEntries(joint));
-  if (sim->springs.between) PetscCall(MatMult(sim->springs.between, u, joint));
+  if (springs->between) PetscCall(MatMult(springs->between, u, joint));
   PetscCall(VecGetArrayRead(joint, &f));
   PetscCall(VecGetArrayRead(u, &v));
-  PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
-  if (sim->springs.weak) PetscCall(VecGetArrayRead(sim->springs.weak, &w));
+  PetscCall(VecGetArrayRead(springs->stiffness, &k));
+  if (springs->weak) PetscCall(VecGetArrayRead(springs->weak, &w));
   for (PetscInt i = 0; i < n; i += 3) {
     PetscReal square = 0.0;
 
     for (PetscInt d = 0; d < 3; ++d) {
-      bodies[3 * sim->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d] + f[i + d]);
+      force[3 * bodies->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d] + f[i + d]);
       if (w) square += PetscSqr(PetscRealPart(w[i + d] * v[i + d]));
     }
     sum += PetscSqrtReal(square);
   }
-  if (w) PetscCall(VecRestoreArrayRead(sim->springs.weak, &w));
-  PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
+  if (w) PetscCall(VecRestoreArrayRead(springs->weak, &w));
+  PetscCall(VecRestoreArrayRead(springs->stiffness, &k));
   PetscCall(VecRestoreArrayRead(u, &v));
   PetscCall(VecRestoreArrayRead(joint, &f));
   PetscCall(VecDestroy(&joint));
   PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, sim->comm));
+    MPI_Allreduce(MPI_IN_PLACE, force, (PetscMPIInt)(3 * bodies->scene->nbodies), MPIU_REAL, MPIU_SUM, bodies->comm));
+  PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, bodies->comm));
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,5 @@
 /* Temperatures of the scene, gathered by ramp as linear functions in the cells */
-#include "src/step/stepimpl.h"
+#include "loadsimpl.h"
 #include <rankerror.h>
 
 static PetscErrorCode TemperatureAt(void *ctx, const PetscReal x[3], PetscReal *value)

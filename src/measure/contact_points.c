@@ -1,5 +1,5 @@
 /* Pressure, gap and status at the vertices of both sides of every pair. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /*
    The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of

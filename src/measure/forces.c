@@ -1,5 +1,5 @@
 /* Forces and moments by pair, by face and by body. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <string.h>
 
 /* A force and its moment about the origin [force], [force length] */
@@ -306,11 +306,12 @@ static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *repor
 
 static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
 {
-  PetscReal *sums;
+  const Bodies bodies = SimulationBodies(sim);
+  PetscReal   *sums;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-  PetscCall(SpringsMeasure(sim, u, sums, &report->weak_spring_force));
+  PetscCall(SpringsMeasure(&bodies, &sim->springs, u, sums, &report->weak_spring_force));
   for (PetscInt b = 0; b < report->nbodies; ++b)
     PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
   PetscCall(PetscFree(sums));
@@ -319,11 +320,12 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
 
 static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report)
 {
-  PetscReal *sums;
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscReal        *sums;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-  PetscCall(TiesMeasure(sim, ties, sums));
+  PetscCall(TiesMeasure(&constraints, ties, sums));
   for (PetscInt b = 0; b < report->nbodies; ++b)
     PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
   PetscCall(PetscFree(sums));

@@ -1,63 +1,108 @@
-/* What friction dissipates, where it holds and where it slips. */
-#include "src/step/stepimpl.h"
+/* What friction dissipates: the work of its forces on the vertices. What covers a row, and which rows there are,
+   changes from one load step to the next; the forces on the vertices are those of all of them. */
+#include "measureimpl.h"
 
-/* Work on the slip of a row, by the mean of the forces before and after */
-static PetscReal FrictionRowWork(const ContactHistory *m, ContactLinearization lin, PetscInt row,
-  const PetscScalar force[2], const PetscScalar slip[2])
+/* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
+   those before and now on the way from the last state to u */
+static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolution *sol, PetscInt pair, Vec force,
+  PetscReal work[])
 {
-  const PetscReal *before = &m->settled[3 * ContactHistoryIndex(m, lin, row)];
-  PetscReal        work   = 0.0;
+  const ContactHistory *m      = &sim->history;
+  const PetscReal      *before = &m->friction[3 * pair * m->nowned];
+  const PetscScalar    *now, *a, *b;
 
-  for (PetscInt a = 0; a < 2; ++a) {
-    const PetscReal *t = &lin->tangent[6 * row + 3 * a];
-
-    work -=
-      0.5 * (t[0] * before[0] + t[1] * before[1] + t[2] * before[2] + PetscRealPart(force[a])) * PetscRealPart(slip[a]);
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(force));
+  PetscCall(FrictionAddForces(sim->linearization, sol->shear, pair, force));
+  PetscCall(VecGetArrayRead(force, &now));
+  PetscCall(VecGetArrayRead(sim->path.u, &a));
+  PetscCall(VecGetArrayRead(u, &b));
+  for (PetscInt v = 0; v < m->nowned; ++v) {
+    work[v] = 0.0;
+    for (PetscInt i = 3 * v; i < 3 * v + 3; ++i)
+      work[v] -= 0.5 * (before[i] + PetscRealPart(now[i])) * PetscRealPart(b[i] - a[i]);
   }
-  return work;
+  PetscCall(VecRestoreArrayRead(u, &b));
+  PetscCall(VecRestoreArrayRead(sim->path.u, &a));
+  PetscCall(VecRestoreArrayRead(force, &now));
+  PetscFunctionReturn(0);
 }
 
-/* Of every pair: the work since the start, if `sol` stands, and the sum of the sizes of the forces: of a row that is
-   covered in part, that part */
-PetscErrorCode FrictionMeasure(Simulation sim, const ContactSolution *sol, StepReport *report)
+/* sums[2 pair + 1] += the sizes of the rows' forces: of a row that is covered in part, that part */
+static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSolution *sol, PetscReal sums[])
 {
-  ContactLinearization  lin = sim->linearization;
-  const ContactHistory *m   = &sim->history;
-  const PetscScalar    *f, *s, *mass;
-  PetscReal            *sums;
+  const PetscScalar *f, *mass;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(sol->shear, &f));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt r = 0; r < lin->nlocal; ++r)
+    sums[2 * lin->pair[r] + 1] +=
+      PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1]))) * lin->covered[r] /
+      PetscRealPart(mass[r]);
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(VecRestoreArrayRead(sol->shear, &f));
+  PetscFunctionReturn(0);
+}
+
+/* Of every pair: the work since the start, if `sol` stands at u, and the sum of the sizes of the forces */
+PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
+{
+  const ContactHistory *m = &sim->history;
+  PetscReal            *sums, *work;
+  Vec                   force;
 
   PetscFunctionBegin;
   report->dissipated = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &force));
   PetscCall(PetscCalloc1(2 * m->npairs, &sums));
+  PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
-    for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v];
+    if (!report->pairs[p].rubs) continue;
+    PetscCall(FrictionPairWork(sim, u, sol, p, force, work));
+    for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
   }
-  PetscCall(VecGetArrayRead(sol->shear, &f));
-  PetscCall(VecGetArrayRead(sol->slip, &s));
-  PetscCall(VecGetArrayRead(lin->mass, &mass));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    sums[2 * lin->pair[r]] += FrictionRowWork(m, lin, r, f + 2 * r, s + 2 * r);
-    sums[2 * lin->pair[r] + 1] +=
-      PetscSqrtReal(PetscSqr(PetscRealPart(f[2 * r])) + PetscSqr(PetscRealPart(f[2 * r + 1]))) * lin->covered[r] /
-      PetscRealPart(mass[r]);
-  }
-  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
-  PetscCall(VecRestoreArrayRead(sol->slip, &s));
-  PetscCall(VecRestoreArrayRead(sol->shear, &f));
+  PetscCall(FrictionAddSizes(sim->linearization, sol, sums));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     report->pairs[p].dissipated  = sums[2 * p];
     report->pairs[p].shear_force = sums[2 * p + 1];
     report->dissipated += sums[2 * p];
   }
+  PetscCall(PetscFree(work));
   PetscCall(PetscFree(sums));
+  PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
 
-/* The solution is the new state of equilibrium: what was dissipated and slipped on the way to it counts, and the next
-   slip begins there */
-PetscErrorCode FrictionSettle(Simulation sim, const ContactSolution *sol)
+/* What was dissipated on the way to u counts, and the forces there are the last ones */
+static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
+{
+  ContactHistory    *m = &sim->history;
+  const PetscScalar *now;
+  PetscReal         *work;
+  Vec                force;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(PetscMalloc1(m->nowned, &work));
+  for (PetscInt p = 0; p < m->npairs; ++p) {
+    if (!SceneContactPairRubs(&sim->scene->pairs[p])) continue;
+    PetscCall(FrictionPairWork(sim, u, sol, p, force, work));
+    for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v];
+    PetscCall(VecGetArrayRead(force, &now));
+    for (PetscInt i = 0; i < 3 * m->nowned; ++i) m->friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
+    PetscCall(VecRestoreArrayRead(force, &now));
+  }
+  PetscCall(PetscFree(work));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* The solution at u is the new state of equilibrium: what was dissipated and slipped on the way to it counts, and the
+   next slip begins there */
+PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
 {
   ContactLinearization lin = sim->linearization;
   ContactHistory      *m   = &sim->history;
@@ -66,11 +111,11 @@ PetscErrorCode FrictionSettle(Simulation sim, const ContactSolution *sol)
   PetscFunctionBegin;
   PetscCall(PetscFree2(sim->shear, sim->slip));
   if (!sol->shear) PetscFunctionReturn(0);
+  PetscCall(FrictionSettleForces(sim, u, sol));
   PetscCall(PetscMalloc2(2 * lin->nlocal, &sim->shear, 2 * lin->nlocal, &sim->slip));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    m->dissipated[ContactHistoryIndex(m, lin, r)] += FrictionRowWork(m, lin, r, f + 2 * r, s + 2 * r);
     if (sim->pressure[r] > 0.0)
       m->slip_path[ContactHistoryIndex(m, lin, r)] +=
         PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
@@ -92,5 +137,25 @@ PetscErrorCode FrictionRecall(Simulation sim)
 
   PetscFunctionBegin;
   if (m->settled) PetscCall(PetscArraycpy(m->shear, m->settled, 3 * m->npairs * m->nowned));
+  PetscFunctionReturn(0);
+}
+
+/* force += the forces of friction at the vertices, of one pair or PETSC_DECIDE: of all */
+PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
+{
+  PetscScalar *f;
+  Vec          own;
+
+  PetscFunctionBegin;
+  if (!shear) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(shear, &own));
+  PetscCall(VecCopy(shear, own));
+  PetscCall(VecGetArray(own, &f));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    if (pair != PETSC_DECIDE && lin->pair[r] != pair) f[2 * r] = f[2 * r + 1] = 0.0;
+  }
+  PetscCall(VecRestoreArray(own, &f));
+  PetscCall(MatMultTransposeAdd(lin->slip, own, force, force));
+  PetscCall(VecDestroy(&own));
   PetscFunctionReturn(0);
 }

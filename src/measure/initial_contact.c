@@ -1,6 +1,6 @@
 /* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have
    said. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 #define START_ROUNDING \

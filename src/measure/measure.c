@@ -1,5 +1,5 @@
 /* How good a state is, measured on the elements and the contact rows: forces, gaps, equilibrium, errors. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 /* q = J_full^T M z: the forces on the two sides cancel */
@@ -43,6 +43,19 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Squared errors of cells add up over the load steps */
+static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
+{
+  PetscInt cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
 /* In the energy norm, relative to that of the displacement; report->energy is set */
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
 {
@@ -53,7 +66,7 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
   PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->marks ? &cells : NULL));
-  if (sim->marks) PetscCall(AdaptAddErrors(sim, cells));
+  if (sim->marks) PetscCall(MeasureAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
@@ -98,39 +111,40 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
    reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
    error
 */
-PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *sol, StepReport *report)
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
+  StepReport *report)
 {
-  Simulation sim = p->sim;
-  Vec        force, ties, rigid, contact = NULL, weighted = NULL;
-  PetscReal  size, residual, rounding;
+  const Constraints constraints = SimulationConstraints(sim);
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL;
+  PetscReal         size, residual, rounding;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
   rounding *= 1e-11 * sim->stiffness; /* what may be left of the forces of a body that moves as a whole */
   PetscCall(ForcesReserve(sim, report));
-  PetscCall(VecDuplicate(p->base, &force));
+  PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
-  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
+  if (load) PetscCall(VecAXPY(force, -1.0, load));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
-    PetscCall(VecDuplicate(p->base, &contact));
+    PetscCall(VecDuplicate(u, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
     PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
     PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
-    PetscCall(FrictionMeasure(sim, sol, report));
+    PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (!sim->history.shear) PetscCall(VecDestroy(&contact));
   }
-  PetscCall(TiesGetForces(sim, force, &ties, &rigid));
-  PetscCall(WorkAdd(p, u, force, rigid, &contact, report));
+  PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
+  PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, p->load, ties, rounding, report));
+  PetscCall(ForcesMeasureBodies(sim, u, load, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
@@ -139,6 +153,6 @@ PetscErrorCode MeasureState(const StepProblem *p, Vec u, const ContactSolution *
   PetscCall(MeasureAlgebraicError(u, force, sol, weighted, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
-  if (sim->estimate && p->time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
+  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
   PetscFunctionReturn(0);
 }

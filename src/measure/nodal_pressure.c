@@ -6,7 +6,7 @@
    covered in part exchange force in proportion to what their pressures differ. Both leave the sums over a side as
    they are, no pressure negative, and vertices elsewhere alone.
 */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 static const PetscReal cover_ratio     = 0.3; /* of a vertex over a better covered one that it hands on to */
 static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is covered in part */

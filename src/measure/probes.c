@@ -1,5 +1,5 @@
 /* Displacement, stress and contact at the scene's points and along its lines. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 #include <math.h>
 
 /* Contact at the vertices: [pressure, gap, 1 closed]; [1 in a pair, -, -] */

@@ -1,6 +1,6 @@
 /* Fields that a scene's probes or its files call for: stress at the nodes and at the quadrature points, strain
    energy. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 static PetscReal ResultsVonMises(const PetscReal s[6])
 {

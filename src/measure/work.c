@@ -1,6 +1,6 @@
 /* The work of the forces from outside, dead loads and the reactions where displacements are prescribed, and of those
    in the contacts. */
-#include "src/step/stepimpl.h"
+#include "measureimpl.h"
 
 /* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
 static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
@@ -20,23 +20,56 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
   PetscFunctionReturn(0);
 }
 
+/* Of a solve in which the loads have done this work, and the contacts have taken up that much of it */
+static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
+{
+  const PetscReal at_rest = 1e-2; /* of the energy: a step that turns over less than that is measured by it */
+  const PetscReal stored  = report->energy - path->energy;
+
+  PetscFunctionBegin;
+  path->energy = report->energy;
+  path->unbalanced += PetscAbsReal(work - stored - taken);
+  path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
+  report->normal_work = report->contact_work - report->dissipated;
+  report->imbalance =
+    path->turnover > 0.0 ? path->unbalanced / PetscMax(path->turnover, at_rest * PetscAbsReal(path->energy)) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* At the end of a load step, once a run */
+PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
+{
+  const PetscReal allowed = 1e-2;
+
+  PetscFunctionBegin;
+  if (sim->path.warned || !(report->imbalance > allowed)) PetscFunctionReturn(0);
+  sim->path.warned = PETSC_TRUE;
+  PetscCall(ReportWarn(sim->comm, &sim->report,
+    "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
+    "%g); use more load steps",
+    report->step, 100.0 * (double)report->imbalance, (double)sim->path.unbalanced, (double)sim->path.turnover));
+  PetscFunctionReturn(0);
+}
+
 /*
    Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the
    prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
    where pairs rub, which end in WorkAdd(), NULL: none
 */
-PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
+PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
-  LoadPath *path = &p->sim->path;
-  Vec       outside, reaction, way = p->w;
+  LoadPath       *path = &sim->path;
+  const PetscReal work = path->work, taken = path->contact_work;
+  Vec             outside, reaction, way;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
   PetscCall(VecDuplicate(u, &reaction));
+  PetscCall(VecDuplicate(u, &way));
   PetscCall(VecCopy(unbalanced, outside));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, outside));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
-  if (p->load) PetscCall(VecWAXPY(outside, 1.0, p->load, reaction));
+  if (load) PetscCall(VecWAXPY(outside, 1.0, load, reaction));
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
@@ -44,7 +77,10 @@ PetscErrorCode WorkAdd(const StepProblem *p, Vec u, Vec unbalanced, Vec rigid, V
   PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(VecDestroy(&way));
   report->work         = path->work;
   report->contact_work = path->contact_work;
+  if (sim->history.shear && !sim->temperatures.n)
+    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

@@ -78,22 +78,6 @@ static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-/* Of this rank's grids */
-PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
-{
-  PetscInt cell = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt ncorners = 4; ncorners <= 8; ncorners += 4) {
-    for (PetscInt b = 0; b < nbodies; ++b) {
-      if (meshes[b].ncorners != ncorners) continue;
-      first[b] = cell;
-      cell += meshes[b].grid.ncells;
-    }
-  }
-  PetscFunctionReturn(0);
-}
-
 /* The cells of all bodies as DMPlex points, on vertices numbered behind them */
 static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells,
   PetscInt nvertices)

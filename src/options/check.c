@@ -1,4 +1,4 @@
-/* A misspelt option ends a run before it computes. */
+/* An option that is misspelt, or has no value or a wrong one, ends a run before it computes. */
 #include "optionsimpl.h"
 
 /* The name that may have been meant; behind the prefixes of an object that of one of its options */
@@ -16,9 +16,80 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
   PetscFunctionReturn(0);
 }
 
+/* Whether PETSc reads the value as one of this kind */
+static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], PetscBool *good)
+{
+  PetscErrorCode ierr = 0;
+  PetscBool      truth;
+  PetscInt       count;
+  PetscReal      number;
+
+  PetscFunctionBegin;
+  PetscCall(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
+  if (kind == OPTION_SWITCH) ierr = PetscOptionsStringToBool(value, &truth);
+  if (kind == OPTION_COUNT) ierr = PetscOptionsStringToInt(value, &count);
+  if (kind == OPTION_NUMBER) ierr = PetscOptionsStringToReal(value, &number);
+  PetscCall(PetscPopErrorHandler());
+  *good = ierr ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const char value[])
+{
+  static const char *const needs[OPTION_KINDS] = {
+    [OPTION_SWITCH] = "true or false",
+    [OPTION_COUNT]  = "a whole number",
+    [OPTION_NUMBER] = "a number",
+    [OPTION_WORD]   = "one",
+  };
+  const PetscBool missing = (PetscBool)(!value || !value[0]);
+  OptionKind      kind;
+  PetscBool       good = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!OptionGetKind(name, &kind) || kind == OPTION_VIEWER) PetscFunctionReturn(0);
+  PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, and needs %s", name,
+    needs[kind]);
+  if (missing) PetscFunctionReturn(0);
+  PetscCall(OptionValueIsGood(kind, value, &good));
+  PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", and needs %s", name, value, needs[kind]);
+  PetscFunctionReturn(0);
+}
+
 /*@C
-   OptionsCheck - Raises an error for an option that nothing will ask for: one that is neither ours nor begins as
-   those of PETSc do
+   OptionsCheckValues - Raises an error for an option of ours that has no value though it needs one, or a value of
+   another kind than it needs
+
+   Collective
+
+   Input Parameter:
+.  comm - the communicator
+
+   Level: intermediate
+
+   Notes:
+   Call it before anything asks for options: PETSc takes an option without its value as not given, and does not name
+   the one whose value it cannot read. Options that have been asked for are passed over.
+
+   Error: PETSC_ERR_USER_INPUT, which names option and value.
+
+.seealso: `OptionsCheck()`
+@*/
+PetscErrorCode OptionsCheckValues(MPI_Comm comm)
+{
+  char   **names, **values;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(OptionCheckValue(comm, names[i], values[i]));
+  PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OptionsCheck - Raises an error for an option that nothing will ask for, one that is neither ours nor begins as those
+   of PETSc do, and for one of ours with a wrong value
 
    Collective
 
@@ -34,7 +105,7 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
 
    Errors: PETSC_ERR_USER_INPUT, with the nearest known name.
 
-.seealso: `OptionsNearest()`
+.seealso: `OptionsCheckValues()`, `OptionsNearest()`
 @*/
 PetscErrorCode OptionsCheck(MPI_Comm comm)
 {
@@ -51,5 +122,6 @@ PetscErrorCode OptionsCheck(MPI_Comm comm)
     PetscCall(OptionsGuess(unknown, sizeof(guess), guess));
     SETERRQ(comm, PETSC_ERR_USER_INPUT, "there is no option -%s; the nearest known one is -%s", unknown, guess);
   }
+  PetscCall(OptionsCheckValues(comm));
   PetscFunctionReturn(0);
 }

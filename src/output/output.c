@@ -84,6 +84,27 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   PetscFunctionReturn(0);
 }
 
+/*@C
+   OutputSetUnits - Names the units of a run in its XDMF file
+
+   Not collective
+
+   Input Parameters:
++  output - the output, before OutputWrite()
+-  units  - the scene's note, as "mm, N, MPa"; NULL: none
+
+   Level: intermediate
+
+.seealso: `OutputCreate()`
+@*/
+PetscErrorCode OutputSetUnits(Output output, const char units[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(output->units));
+  PetscCall(PetscStrallocpy(units, &output->units));
+  PetscFunctionReturn(0);
+}
+
 /* Which fields the steps have, the first tells. One pair has its fields without its name */
 static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 {
@@ -233,6 +254,7 @@ PetscErrorCode OutputDestroy(Output *output)
   PetscCall(PetscFree(o->bodynames));
   for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));
   PetscCall(PetscFree(o->pairnames));
+  PetscCall(PetscFree(o->units));
   PetscCall(PetscFree(o->base));
   PetscCall(PetscFree(o->steps));
   PetscCall(DMDestroy(&o->dm));

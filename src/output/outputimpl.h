@@ -8,45 +8,7 @@
 
 #include <output.h>
 #include <petsccompat.h>
-#include <checkpoint.h>
-#include <rankerror.h>
-#include <petscviewerhdf5.h>
-
-/* silence_output.c: standard output and error lead nowhere between the two */
-typedef struct {
-  int kept[2]; /* descriptors; negative: none was free, and the stream stays as it is */
-} SilencedOutput;
-
-PETSC_INTERN void SilenceOutputBegin(SilencedOutput *);
-PETSC_INTERN void SilenceOutputEnd(SilencedOutput *);
-
-/* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and
-   names the file */
-typedef struct _n_FileCommit *FileCommit;
-
-PETSC_INTERN PetscErrorCode FileRaise(MPI_Comm, const char file[], PetscErrorCode code, int error);
-PETSC_INTERN PetscErrorCode FileCommitBegin(MPI_Comm, const char part[], const char file[], FileCommit *);
-PETSC_INTERN PetscErrorCode FileCommitEnd(FileCommit *);
-
-/*
-   file.c: a file appears whole or not at all: it is written under another name, <file>.<pid>.part, and renamed.
-   Collective; the error names the file.
-*/
-/* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes
-   its name */
-PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *),
-  void *ctx, FileCommit *commit);
-/* On the first rank fill() writes the stream; the others wait for the outcome */
-PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
-  const void *ctx);
-/* The same behind what the file holds; it stays as it was where there is no room for all of it */
-PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
-  const void *ctx);
-
-/* lock_file.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first
-   rank, is closed. A file that does not exist is not kept */
-PETSC_INTERN PetscErrorCode LockFileBegin(MPI_Comm, const char file[], int *descriptor);
-PETSC_INTERN void           LockFileEnd(int *descriptor);
+#include "src/files/filesimpl.h"
 
 /* A step that has been written */
 typedef struct {
@@ -61,6 +23,7 @@ struct _n_Output {
   int      lock; /* of the mesh's file, a descriptor */
   PetscInt nbodies;
   char   **bodynames;
+  char    *units;  /* the scene's note; NULL: none */
   PetscInt npairs; /* of contact, that have fields of their own; of the steps written */
   char   **pairnames;
   PetscInt nvertices, ncells; /* global */
@@ -95,11 +58,6 @@ PETSC_INTERN const char    *OutputCellsName(Output);
 PETSC_INTERN PetscInt       OutputPieceKind(PetscInt nnodes);
 PETSC_INTERN PetscInt       OutputKindNodes(PetscInt kind);
 
-/* dataset.c: n records of this rank; written and destroyed */
-PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);
-PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
-PETSC_INTERN PetscErrorCode DatasetWriteIndices(IS, PetscViewer);
-
 /* stress.c: of what a state does not have nothing is written */
 PETSC_INTERN PetscErrorCode StressWriteCells(Output, const StepState *, PetscViewer);
 PETSC_INTERN PetscErrorCode StressWriteNodes(Output, const StepState *, PetscViewer);
@@ -119,15 +77,6 @@ PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
 
 /* history.c: <base>.csv, one line a load step */
 PETSC_INTERN PetscErrorCode OutputWriteHistory(Output, const StepReport *);
-
-/* read.c, write.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
-typedef struct {
-  const char *name;
-  size_t      offset;
-} CheckpointNumberField;
-
-PETSC_INTERN const CheckpointNumberField CheckpointNumbers[];
-PETSC_INTERN PetscReal                  *CheckpointNumber(Checkpoint, size_t i);
 
 /* output.c, on top of these, has no more than what output.h offers */
 
@@ -159,6 +108,7 @@ typedef enum {
   TABLE_FORCES,
   TABLE_PAIRS,
   TABLE_FACES,
+  TABLE_BALANCE,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,

@@ -30,6 +30,20 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Where there is friction: the work of the loads since the start, where it has gone, and what of each step's is left */
+static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
+{
+  const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
+  PetscBool         rubs = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; last && p < last->npairs; ++p) rubs = (PetscBool)(rubs || last->pairs[p].rubs);
+  if (!rubs) PetscFunctionReturn(0);
+  PetscCall(ViewSteps(report, TABLE_BALANCE, 1, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(0);
+}
+
 /* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
@@ -191,6 +205,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(ViewBalance(report, viewer));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));
   PetscCall(ViewErrors(report, viewer));

@@ -99,6 +99,13 @@ static void XDMFBeginStep(FILE *stream, const OutputStep *step)
     (double)step->time);
 }
 
+static void XDMFWriteNote(FILE *stream, const char name[], const char value[])
+{
+  fprintf(stream, "    <Information Name=\"%s\" Value=\"", name);
+  XDMFWriteEscaped(stream, value);
+  fputs("\"/>\n", stream);
+}
+
 static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
 {
   Output output = (Output)ctx;
@@ -108,10 +115,12 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
   PetscCall(OutputGetMeshFile(output, mesh, sizeof(mesh)));
   fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n", stream);
   for (PetscInt b = 0; b < output->nbodies; ++b) {
-    fprintf(stream, "    <Information Name=\"body %" PetscInt_FMT "\" Value=\"", b);
-    XDMFWriteEscaped(stream, output->bodynames[b]);
-    fputs("\"/>\n", stream);
+    char name[32];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "body %" PetscInt_FMT, b));
+    XDMFWriteNote(stream, name, output->bodynames[b]);
   }
+  if (output->units) XDMFWriteNote(stream, "units", output->units);
   fputs("    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);
   for (PetscInt s = 0; s < output->nsteps; ++s) {
     PetscCall(OutputGetStepFile(output, output->steps[s].step, file, sizeof(file)));

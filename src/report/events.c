@@ -1,5 +1,5 @@
 /* PETSc's log events of a run, and the times of its phases that they tell. */
-#include "src/step/stepimpl.h"
+#include "reportimpl.h"
 #include <petsctime.h>
 
 PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;

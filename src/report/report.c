@@ -1,5 +1,5 @@
 /* What a solve adds to the report of its load step. */
-#include "src/step/stepimpl.h"
+#include "reportimpl.h"
 #include <stdarg.h>
 
 /* Collective. Said once on stderr, at once, and kept for the summary */

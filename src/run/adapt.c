@@ -1,6 +1,6 @@
 /* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at
    the contact as the last one has it */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 #define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */
 
@@ -37,19 +37,6 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
     "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
     scene->ties[0].name);
   sim->marks = marks;
-  PetscFunctionReturn(0);
-}
-
-/* Squared errors of cells add up over the load steps */
-PetscErrorCode AdaptAddErrors(Simulation sim, PetscReal cells[])
-{
-  PetscInt cstart, cend;
-
-  PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
-  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
-  PetscCall(PetscFree(cells));
   PetscFunctionReturn(0);
 }
 

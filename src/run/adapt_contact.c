@@ -1,6 +1,6 @@
 /* Which cells at the contact the next mesh has refined, as the last load step has it: recovery sees neither facets in
    place of curves nor where the faces meet */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 /* Of each vertex of a face, in its local vector */
 typedef enum {

@@ -1,5 +1,5 @@
 /* The yardstick: what the same mesh and the same AMG cost without contact. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <petsctime.h>
 
 /* The optimizer's own, with its options: PCAMGF without a subspace is its AMG alone */

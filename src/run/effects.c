@@ -1,5 +1,5 @@
 /* The effects of a scene: which are on, why, and what each costs. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <math.h>
 
 typedef enum {

@@ -1,5 +1,5 @@
 /* The memory that the program holds: its resident set now, and at its peak. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <sys/resource.h>
 
 /* Now, summed over ranks */

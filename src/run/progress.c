@@ -1,5 +1,5 @@
 /* How far a run is, now and then: load step, time so far, what is left. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 #include <petsctime.h>
 
 #define PROGRESS_LENGTH 32
@@ -53,7 +53,7 @@ static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char
 }
 
 /* Before a load step */
-PetscErrorCode ProgressBegin(Simulation sim)
+static PetscErrorCode ProgressBegin(Simulation sim)
 {
   Progress *p = &sim->progress;
 
@@ -66,7 +66,7 @@ PetscErrorCode ProgressBegin(Simulation sim)
 }
 
 /* The state has moved on */
-PetscErrorCode ProgressReach(Simulation sim)
+static PetscErrorCode ProgressReach(Simulation sim)
 {
   char           inside[48] = "";
   PetscBool      due;
@@ -98,7 +98,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ProgressMonitorOptimizer(Tao tao, void *ctx)
+static PetscErrorCode ProgressMonitorOptimizer(Tao tao, void *ctx)
 {
   Simulation sim = (Simulation)ctx;
   PetscInt   iteration;
@@ -111,7 +111,7 @@ PetscErrorCode ProgressMonitorOptimizer(Tao tao, void *ctx)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ProgressMonitorLinear(KSP ksp, PetscInt iteration, PetscReal norm, void *ctx)
+static PetscErrorCode ProgressMonitorLinear(KSP ksp, PetscInt iteration, PetscReal norm, void *ctx)
 {
   Simulation sim = (Simulation)ctx;
   PetscReal  goal;
@@ -120,5 +120,13 @@ PetscErrorCode ProgressMonitorLinear(KSP ksp, PetscInt iteration, PetscReal norm
   if (!iteration) sim->progress.residual = norm;
   PetscCall(KSPGetTolerances(ksp, &goal, NULL, NULL, NULL));
   PetscCall(ProgressIterate(sim, iteration, norm > 0.0 ? norm / sim->progress.residual : 0.0, goal));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProgressObserve(Simulation sim)
+{
+  PetscFunctionBegin;
+  sim->progress = (Progress){.every = 10.0};
+  sim->observer = (StepObserver){ProgressBegin, ProgressReach, ProgressMonitorOptimizer, ProgressMonitorLinear};
   PetscFunctionReturn(0);
 }

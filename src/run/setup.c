@@ -1,5 +1,5 @@
 /* Building what a scene calls for: mesh, elasticity, loads, contact, report. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
 {
@@ -8,6 +8,8 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   ElementType *elements;
   PetscBool    linear;
   IS           rows;
+  Bodies       bodies;
+  Constraints  constraints;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
@@ -30,13 +32,15 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
   PetscCall(TemperaturesCreate(scene, sim->elasticity, sim->comm, &sim->temperatures));
   PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
-  PetscCall(SpringsMeasureStiffness(sim, &sim->stiffness));
-  PetscCall(SpringsCreate(sim));
+  bodies = SimulationBodies(sim);
+  PetscCall(SpringsMeasureStiffness(&bodies, &sim->stiffness));
+  PetscCall(SpringsCreate(&bodies, &sim->springs));
   PetscCall(StiffnessSetType(sim));
-  PetscCall(TiesCreate(sim));
+  constraints = SimulationConstraints(sim);
+  PetscCall(TiesCreate(&constraints));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(TiesCreateTangent(sim, &sim->K));
-  if (linear || sim->ties.C) PetscCall(TiesTangent(sim, sim->path.u, sim->K));
+  PetscCall(TiesCreateTangent(&constraints, &sim->K));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

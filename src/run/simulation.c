@@ -1,5 +1,5 @@
 /* The life of a simulation, and what its caller may set and ask. */
-#include "src/step/stepimpl.h"
+#include "runimpl.h"
 
 /*@C
    SimulationCreate - Prepares to simulate a scene
@@ -29,7 +29,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   (*sim)->warm     = PETSC_TRUE;
   (*sim)->estimate = PETSC_TRUE;
   (*sim)->maxcuts  = 5;
-  (*sim)->progress = (Progress){.every = 10.0};
+  PetscCall(ProgressObserve(*sim));
   (*sim)->tolerances =
     (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
   PetscFunctionReturn(0);

@@ -1,5 +1,5 @@
 /* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
-#include "src/step/stepimpl.h"
+#include "stateimpl.h"
 
 static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
 static const PetscReal open_share = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is
@@ -23,8 +23,8 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
     PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
   for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
   if (rubs)
-    PetscCall(PetscCalloc4(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled, npairs * m->nowned,
-      &m->slip_path, npairs * m->nowned, &m->dissipated));
+    PetscCall(PetscCalloc5(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
+      3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
 }
 
@@ -143,6 +143,28 @@ PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
+/* Of the rows of the last solve that were under pressure those of the same vertices in a new linearization; of others,
+   and where there is none, PETSC_DECIDE. Free `row` */
+PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLinearization solved, ContactLinearization lin,
+  PetscInt **row)
+{
+  PetscReal largest;
+  PetscInt *place;
+
+  PetscFunctionBegin;
+  PetscCall(ContactHistoryLargest(m, PetscObjectComm((PetscObject)lin->g), &largest));
+  PetscCall(PetscCalloc1(m->npairs * m->nowned, &place));
+  PetscCall(PetscMalloc1(solved->nlocal, row));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) place[ContactHistoryIndex(m, lin, r)] = r + 1;
+  for (PetscInt r = 0; r < solved->nlocal; ++r) {
+    const PetscInt k = ContactHistoryIndex(m, solved, r);
+
+    (*row)[r] = ContactHistoryPressure(m, k) > negligible_pressure * largest && place[k] ? place[k] - 1 : PETSC_DECIDE;
+  }
+  PetscCall(PetscFree(place));
+  PetscFunctionReturn(0);
+}
+
 /* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
 PetscErrorCode ContactHistoryFindLost(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
   PetscInt *nlost)
@@ -184,6 +206,6 @@ PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(m->pressure, m->slack, m->open));
-  PetscCall(PetscFree4(m->shear, m->settled, m->slip_path, m->dissipated));
+  PetscCall(PetscFree5(m->shear, m->settled, m->friction, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 /* The path of equilibrium states, and what it says about the next one. */
-#include "src/step/stepimpl.h"
+#include "stateimpl.h"
 
 /*
    The next increment as a multiple of the last: the projection of the change of all ramps on their last change. A load

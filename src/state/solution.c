@@ -1,5 +1,5 @@
 /* What a solve finds at the contact rows. */
-#include "src/step/stepimpl.h"
+#include "stateimpl.h"
 
 /* In place of what was there; rows: a vector laid out as they are */
 PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *sol)

@@ -23,8 +23,9 @@ static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u,
 
 static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
-  PetscInt  nsolves = 0;
-  PetscBool again, rescued;
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscInt          nsolves     = 0;
+  PetscBool         again, rescued;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
@@ -42,15 +43,15 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (rescued) nsolves = 0;
   } while (again || rescued);
   PetscCall(WeakSpringsTest(p, u, report));
-  PetscCall(RigidTest(p->sim, u, report));
+  PetscCall(RigidTest(&constraints, u, report));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
 /* The true gap at u; whether the linearized one that u was found with differs from it by more than ends the updates,
    and by more than is true */
-static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearization at_u, StepReport *report,
-  PetscBool *is_true)
+static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
+  StepReport *report, PetscBool *is_true)
 {
   PetscReal size;
   PetscInt  nrows;
@@ -60,10 +61,11 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, ContactLinearizat
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactHistoryChange(&sim->history, at_u, &report->gap_change));
+  PetscCall(ContactUpdateMeasureTruth(sim, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true = (PetscBool)(report->gap_change <= sim->tolerances.gap_change * size);
-  report->gap_untrue =
-    (PetscBool)(report->gap_change > PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
+  *is_true           = (PetscBool)(report->untruth <= sim->tolerances.gap_change * size);
+  report->gap_untrue = (PetscBool)((sim->scene->contact_updates > 1 ? report->untruth : report->gap_change) >
+                                   PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
   PetscFunctionReturn(0);
 }
 
@@ -175,8 +177,10 @@ static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepRepor
   else
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact did not converge: after %" PetscInt_FMT
-      " contact updates the gap still changes by %g, more than %g of the largest displacement",
-      report->contact_updates, (double)report->gap_change, (double)sim->tolerances.gap_untrue));
+      " contact updates %s still changes by %g, more than %g of the largest displacement",
+      report->contact_updates,
+      report->untruth > report->gap_change ? "the slip, or what the normals turn by," : "the gap",
+      (double)report->untruth, (double)sim->tolerances.gap_untrue));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
@@ -240,7 +244,7 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpda
   PetscBool  damped, at_solution;
 
   PetscFunctionBegin;
-  PetscCall(ContactUpdateSecantsAdvance(secants, report->gap_change, u, u_linearized, &damped));
+  PetscCall(ContactUpdateSecantsAdvance(secants, report->untruth, u, u_linearized, &damped));
   if (damped) PetscCall(AttemptSayDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
@@ -275,11 +279,13 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
   PetscCall(AttemptFindLost(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
+  PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
   if (sim->monitor && sim->scene->contact_updates > 1)
-    PetscCall(PetscPrintf(sim->comm, "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g\n",
-      report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change));
+    PetscCall(PetscPrintf(sim->comm,
+      "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g, normals turn by %.3g, slip changes by %.3g\n",
+      report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change,
+      (double)report->normals_turn, (double)report->slip_change));
   PetscFunctionReturn(0);
 }
 
@@ -306,11 +312,11 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  p->tolerance = PetscMin(first, fraction * report->gap_change / size);
+  p->tolerance = PetscMin(first, fraction * report->untruth / size);
   if (again) PetscFunctionReturn(0);
-  if (report->contact_updates > 1 && report->gap_change > fair * p->gap_change)
+  if (report->contact_updates > 1 && report->untruth > fair * p->gap_change)
     p->tolerance = PetscMin(p->tolerance, fraction * before);
-  p->gap_change = report->gap_change;
+  p->gap_change = report->untruth;
   PetscFunctionReturn(0);
 }
 
@@ -324,7 +330,7 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   *again = (PetscBool)(report->converged && p->ended_early &&
-                       (end || (report->contact_updates == 1 && report->gap_change <= p->tolerance * size)));
+                       (end || (report->contact_updates == 1 && report->untruth <= p->tolerance * size)));
   PetscFunctionReturn(0);
 }
 
@@ -347,10 +353,10 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
     PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = undeformed;
     PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
-    PetscCall(AttemptMeasureGap(sim, u, *at_u, report, &is_true));
-    report->gap_change      = 0.0;
-    report->gap_untrue      = PETSC_FALSE;
-    report->contact_updates = 1;
+    PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
+    report->gap_change = report->normals_turn = report->slip_change = report->untruth = 0.0;
+    report->gap_untrue                                                                = PETSC_FALSE;
+    report->contact_updates                                                           = 1;
   } else PetscCall(ContactLinearizationDestroy(&undeformed));
   PetscFunctionReturn(0);
 }
@@ -457,9 +463,9 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
 
   if (report->converged) {
-    PetscCall(MeasureState(&p, u, &sol, report));
+    PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
-    if (sim->contact) PetscCall(FrictionSettle(sim, &sol));
+    if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     PetscCall(ContactLinearizationDestroy(&sim->upcoming));

@@ -87,13 +87,14 @@ static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, Pe
    there than it is long: faces that tilt have squeezed it out */
 PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
-  Scene      scene = p->sim->scene;
-  PetscReal *volume, *moved;
+  const Bodies bodies = SimulationBodies(p->sim);
+  Scene        scene  = p->sim->scene;
+  PetscReal   *volume, *moved;
 
   PetscFunctionBegin;
   if (!p->sim->springs.weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
-  PetscCall(SpringsMeasureVolumes(p->sim, volume));
+  PetscCall(SpringsMeasureVolumes(&bodies, volume));
   PetscCall(WeakSpringsMeasureMotion(p->sim, u_linearized, u, moved));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
     const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);

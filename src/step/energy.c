@@ -59,14 +59,15 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
 
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
-  StepProblem *p = (StepProblem *)ctx;
-  Vec          u;
+  StepProblem      *p           = (StepProblem *)ctx;
+  const Constraints constraints = SimulationConstraints(p->sim);
+  Vec               u;
 
   PetscFunctionBegin;
   (void)tao, (void)Hpre;
   PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(TiesTangent(p->sim, u, H));
+  PetscCall(TiesTangent(&constraints, u, H));
   PetscCall(ProximalAddStiffness(p, H));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -127,23 +127,3 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(VecRestoreArrayRead(force, &f));
   PetscFunctionReturn(0);
 }
-
-/* force += the forces of friction at the vertices, of one pair or PETSC_DECIDE: of all */
-PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
-{
-  PetscScalar *f;
-  Vec          own;
-
-  PetscFunctionBegin;
-  if (!shear) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(shear, &own));
-  PetscCall(VecCopy(shear, own));
-  PetscCall(VecGetArray(own, &f));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (pair != PETSC_DECIDE && lin->pair[r] != pair) f[2 * r] = f[2 * r + 1] = 0.0;
-  }
-  PetscCall(VecRestoreArray(own, &f));
-  PetscCall(MatMultTransposeAdd(lin->slip, own, force, force));
-  PetscCall(VecDestroy(&own));
-  PetscFunctionReturn(0);
-}

@@ -94,7 +94,7 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
     PetscCall(KSPGetTolerances(sim->ksp, &sim->tolerances.linear, NULL, NULL, NULL));
     PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));
     PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
-    PetscCall(KSPMonitorSet(sim->ksp, ProgressMonitorLinear, sim, NULL));
+    if (sim->observer.linear) PetscCall(KSPMonitorSet(sim->ksp, sim->observer.linear, sim, NULL));
   } else PetscCall(KSPGetIterationNumber(sim->ksp, &its));
   PetscCall(KSPGetPC(sim->ksp, &pc));
   PetscCall(PathSolvesToCome(sim, &solves));

@@ -76,7 +76,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
-  PetscCall(TaoMonitorSet(*tao, ProgressMonitorOptimizer, sim, NULL));
+  if (sim->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->observer.optimizer, sim, NULL));
   PetscFunctionReturn(0);
 }
 

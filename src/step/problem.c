@@ -8,8 +8,9 @@
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
-  PetscScalar work = 0.0;
-  PetscBool   linear;
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscScalar       work        = 0.0;
+  PetscBool         linear;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
@@ -21,7 +22,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path.u, &p->w));
   PetscCall(VecCopy(sim->path.u, p->base));
   PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
-  PetscCall(TiesMove(sim, time));
+  PetscCall(TiesMove(&constraints, time));
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
   PetscCall(TemperaturesApply(&sim->temperatures, time));
@@ -33,7 +34,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) PetscCall(TiesTangent(sim, sim->path.u, sim->K));
+  if (!linear) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));

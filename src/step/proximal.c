@@ -71,7 +71,8 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
    know small motions alone */
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
-  const PetscReal share = 1e-4;
+  const Bodies    bodies = SimulationBodies(p->sim);
+  const PetscReal share  = 1e-4;
   Mat             K;
 
   PetscFunctionBegin;
@@ -80,7 +81,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));
-  PetscCall(SpringsOfSize(p->sim, share, p->held));
+  PetscCall(SpringsOfSize(&bodies, share, p->held));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, p->held));
   PetscCall(TiesSet(&p->sim->ties, 0.0, p->held));
   if (p->sim->quadratic) {

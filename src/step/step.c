@@ -11,13 +11,15 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   PetscFunctionBegin;
   report->step    = step + 1;
   report->time    = (PetscReal)(step + 1);
-  report->gap_min = report->gap_true = report->error_estimate = NAN;
-  report->load                                                = scene->ramps[0].factor[step];
-  report->nramps                                              = scene->nramps;
+  report->gap_min = report->gap_true = report->error_estimate = report->imbalance = NAN;
+
+  report->load   = scene->ramps[0].factor[step];
+  report->nramps = scene->nramps;
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
   for (PetscInt r = 0; r < scene->nramps; ++r)
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
-  sim->report.nsteps = step + 1 - sim->first_step;
+  sim->report.nsteps   = step + 1 - sim->first_step;
+  sim->path.unbalanced = sim->path.turnover = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -116,7 +118,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   report = &sim->report.steps[step - sim->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
-  PetscCall(ProgressBegin(sim));
+  if (sim->observer.begin) PetscCall(sim->observer.begin(sim));
   while (again && sim->path.time < end) {
     const PetscReal left = end - sim->path.time;
 
@@ -129,7 +131,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
     if (report->converged) {
       ++report->substeps;
-      PetscCall(ProgressReach(sim));
+      if (sim->observer.reach) PetscCall(sim->observer.reach(sim));
       increment *= 2.0;
     }
     PetscCall(ForecastAssess(sim, report->converged, &anew));
@@ -139,6 +141,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (sim->path.time >= end) {
     sim->increment = 0.0;
     PetscCall(ForecastRecord(sim));
+    PetscCall(WorkWarn(sim, report));
   }
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;

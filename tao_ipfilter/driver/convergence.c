@@ -1,5 +1,5 @@
 /* When the iteration ends, and with what reason. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero.
    Nothing there gives a scale to measure errors by, so it is not left to the iteration to find out. */

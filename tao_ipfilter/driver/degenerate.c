@@ -1,5 +1,5 @@
 /* Signs that a solution has no bounded multipliers: the KKT error, which is measured by them, means nothing then. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* r += |J|^T |M multiplier|, M = 1 where it is NULL */
 static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)

@@ -1,40 +1,19 @@
 /* One line an iteration in IPOPT's columns. */
-#include "tao_ipfilter/ipfilterimpl.h"
-
-/* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far,
-   directions, active sets that the problem took, active constraints */
-static PetscErrorCode MonitorFiltered(Tao tao)
-{
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
-
-  PetscFunctionBegin;
-  if (tao->niter % 20 == 0)
-    PetscCall(
-      PetscPrintf(comm, "iter     objective     inf_pr   inf_du   ||d||   applied directions sets active   kkt\n"));
-  PetscCall(PetscPrintf(comm,
-    "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT
-    " %6" PetscInt_FMT "  %8.2e\n",
-    tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
-    ip->rec.napplications, ip->filtered.reduced.system.k - ip->filtered.reduced.companions.n,
-    ip->filtered.reduced.nsteps, ip->filtered.reduced.nactive, (double)ip->kkt.error));
-  PetscFunctionReturn(0);
-}
+#include "driverimpl.h"
 
 /* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points,
    Krylov iterations (f: with the filter) */
 PetscErrorCode IPMonitor(Tao tao)
 {
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
+  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
+  MPI_Comm      comm      = PetscObjectComm((PetscObject)tao);
+  PetscBool     monitored = PETSC_FALSE;
   char          rg[16];
 
   PetscFunctionBegin;
   if (!ip->opt.monitor) PetscFunctionReturn(0);
-  if (ip->filtered.on && !ip->filtered.newton) {
-    PetscCall(MonitorFiltered(tao));
-    PetscFunctionReturn(0);
-  }
+  if (ip->method.on) PetscCall(ip->method.ops->monitor(tao, &monitored));
+  if (monitored) PetscFunctionReturn(0);
   if (tao->niter % 20 == 0)
     PetscCall(PetscPrintf(comm,
       "iter     objective     inf_pr   inf_du lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls ksp   kkt\n"));

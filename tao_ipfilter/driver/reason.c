@@ -1,5 +1,5 @@
 /* The sentence that says why the solver stopped. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 #include <stdarg.h>
 
 PetscErrorCode IPSetReason(Tao tao, TaoConvergedReason reason, const char format[], ...)

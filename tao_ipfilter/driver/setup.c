@@ -1,5 +1,5 @@
 /* Memory: vectors of the problem's sizes, made in TaoSetUp(), made anew when the sizes change, and freed. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 {
@@ -87,7 +87,8 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(IPHessianDestroy(&ip->hess));
   PetscCall(IPAugmentedDestroy(&ip->aug));
   PetscCall(IPDirectDestroy(&ip->direct));
-  PetscCall(IPFilteredDestroy(&ip->filtered));
+  if (ip->method.on) PetscCall(ip->method.ops->end(tao));
+  ip->method.on = PETSC_FALSE;
   PetscCall(KSPDestroy(&ip->lin.flexible));
   PetscCall(ISDestroy(&ip->fixed));
   PetscCall(IPSidesDestroy(&ip->sides));
@@ -196,7 +197,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(FreeSizes(tao));
-  PetscCall(PetscContainerDestroy(&ip->filtered.kept));
+  if (ip->method.ops) PetscCall(ip->method.ops->destroy(tao));
   PetscCall(VecDestroy(&ip->given.slack_mass));
   PetscCall(VecDestroy(&ip->given.primal_mass));
   PetscCall(VecDestroy(&ip->given.warm_s));

@@ -1,5 +1,5 @@
 /* The outer iteration. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* Objective, constraints and derivatives at the starting point; without them where the objective is not a number */
 static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
@@ -311,22 +311,45 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Goes on from the best iterate by the interior point method, where the filtered subspace does not lead to the end */
-static PetscErrorCode LeaveSubspace(Tao tao)
+/* Ends the other method, if it is on */
+static PetscErrorCode EndMethod(Tao tao)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const IPGiven   given  = ip->given;
-  const PetscBool newton = ip->filtered.newton; /* whose first multipliers are none that it has found */
-  Vec             s = NULL, z = NULL;
+  IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
 
   PetscFunctionBegin;
-  PetscCall(
-    PetscInfo(tao, "The filtered subspace gives nothing more at KKT error %g: the interior point method goes on\n",
-      (double)ip->rec.best_error));
-  PetscCall(IPFilteredEnd(tao));
+  if (method->on) PetscCall(method->ops->end(tao));
+  method->on = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Begins it, where there is one that applies */
+static PetscErrorCode BeginMethod(Tao tao)
+{
+  IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
+  PetscBool applies;
+
+  PetscFunctionBegin;
+  if (!method->ops) PetscFunctionReturn(0);
+  PetscCall(method->ops->applies(tao, &applies));
+  if (applies) PetscCall(method->ops->begin(tao, &method->on));
+  else PetscCall(method->ops->forget(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Goes on from the best iterate by the interior point method, where the other one does not lead to the end */
+static PetscErrorCode LeaveMethod(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  const IPGiven given = ip->given;
+  Vec           s = NULL, z = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The %s gives nothing more at KKT error %g: the interior point method goes on\n",
+    ip->method.ops->name, (double)ip->rec.best_error));
+  PetscCall(EndMethod(tao));
   ip->rec.fallbacks.subspaces++;
   PetscCall(RestoreBest(tao));
-  if (ip->rec.best_error < PETSC_INFINITY && (tao->niter || !newton)) {
+  if (ip->rec.best_error < PETSC_INFINITY && ip->method.multipliers) {
     PetscCall(VecDuplicate(ip->best.s, &s));
     PetscCall(VecDuplicate(ip->best.s, &z));
     PetscCall(VecCopy(ip->best.s, s));
@@ -342,7 +365,7 @@ static PetscErrorCode LeaveSubspace(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The filtered subspace method is the only one for norm terms */
+/* The other method is the only one for norm terms */
 static PetscErrorCode EndTerms(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -367,14 +390,14 @@ static PetscErrorCode EndTerms(Tao tao)
 /* One step of the method that is on */
 static PetscErrorCode TakeStep(Tao tao)
 {
-  PetscBool done = PETSC_FALSE;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscBool     done = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (((TAO_IPFILTER *)tao->data)->filtered.on) {
-    if (((TAO_IPFILTER *)tao->data)->filtered.newton) PetscCall(IPNewtonSubspaceStep(tao, &done));
-    else PetscCall(IPFilteredStep(tao, &done));
-    if (!done && ((TAO_IPFILTER *)tao->data)->terms.n) PetscCall(EndTerms(tao));
-    else if (!done) PetscCall(LeaveSubspace(tao));
+  if (ip->method.on) {
+    PetscCall(ip->method.ops->step(tao, &done));
+    if (!done && ip->terms.n) PetscCall(EndTerms(tao));
+    else if (!done) PetscCall(LeaveMethod(tao));
   } else PetscCall(TakeNewtonStep(tao));
   PetscFunctionReturn(0);
 }
@@ -395,7 +418,6 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
   PetscObjectState before[2], after[2];
-  PetscBool        begun;
 
   PetscFunctionBegin;
   PetscCall(GetStates(tao, before));
@@ -410,18 +432,20 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(GetStates(tao, after));
-  ip->filtered.linear   = (PetscBool)(before[1] == after[1]);
-  ip->filtered.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
+  ip->method.linear   = (PetscBool)(before[1] == after[1]);
+  ip->method.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
+  PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
+    "Norm terms: this library was built without the laws that they follow");
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
-  PetscCall(IPFilteredBegin(tao, &begun));
-  if (!begun && ip->terms.n) {
+  PetscCall(BeginMethod(tao));
+  if (!ip->method.on && ip->terms.n) {
     PetscCall(EndTerms(tao));
     PetscFunctionReturn(0);
   }
-  if (!begun) PetscCall(IPStartPoint(tao));
+  if (!ip->method.on) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);
 }
@@ -433,7 +457,7 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(&ip->direct));
-  PetscCall(IPFilteredEnd(tao));
+  PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPSetMultipliers(tao));
   if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));

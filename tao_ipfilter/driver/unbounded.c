@@ -1,5 +1,5 @@
 /* An objective that falls without end. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "driverimpl.h"
 
 /* Fall of the objective, against its first value and against what a Newton step from the start would gain, that only
    an unbounded one has */

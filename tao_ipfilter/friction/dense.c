@@ -1,6 +1,6 @@
 /* Solves the systems of system.c by dense factors, where GMRES gives up: soft bodies, along which motions of all
    sizes are worth next to nothing. C is made once. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 /* Whether there is room for C and the factors, and time */

@@ -8,7 +8,7 @@
    does. The condition number is a small one whatever the mesh. Old factors serve other B_v and B_f for as long as
    GMRES is quick with them.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 /* Incomplete factors of A in the rows' scale, which makes its diagonal 1 or so: it is as well conditioned as a mass

@@ -7,6 +7,41 @@
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
+/* The system of a Newton step on the laws of constraints and norm terms: system.c */
+typedef struct {
+  PetscInt      m, k;        /* rows, directions in V */
+  Mat           K, FK;       /* K_WW, and its factors */
+  Mat           R, RD, G;    /* R, R D and R D R^T */
+  Mat           Bv, Bf;      /* what the rows' equations take of v and f */
+  Mat           A, F;        /* B_v R D R^T + B_f in the rows' scale, and its factors, */
+  Mat           Pv, Pf;      /* and the B_v and B_f that they are of */
+  PetscReal    *gives;       /* what rows give way by, by D */
+  PetscReal    *scale;       /* force of a row over the root of its energy */
+  PetscReal    *V, *ZV, *H;  /* columns of length m; of length kmax; of length k */
+  PetscBLASInt *pivots;      /* of H */
+  Vec           S;           /* and the scale that A has */
+  PetscReal    *f, *v;       /* scratch, of rows */
+  Vec           r, z, w, Kw; /* of rows and of W */
+  PetscInt      fresh;       /* iterations that GMRES took with the factors when they were new */
+  PetscBool     stale;       /* they no longer serve */
+  PetscReal    *C;           /* C, where GMRES has given up: dense.c; NULL: it has not */
+} IPTermSystem;
+
+/* What is closed and slips of constraints and norm terms: laws.c */
+typedef struct {
+  PetscInt     m, n;                /* constraints and terms */
+  PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
+  PetscReal   *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
+  PetscReal   *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
+  PetscReal   *dead;                /* along which nothing gives way, two a term */
+  PetscReal    length;              /* size of the terms of a motion */
+  PetscBool   *closed, *slips;
+  PetscBool   *takes, listed; /* the rows that take part, once they are known */
+  PetscInt     na;            /* and their number */
+  PetscReal   *F, *Fy;
+  IPTermSystem system;
+} IPTermSet;
+
 /* system.c */
 PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R);
 PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
@@ -50,5 +85,8 @@ PETSC_INTERN PetscErrorCode IPTermPathFollow(IPTermSet *, const IPReducedSystem 
 
 /* set.c */
 PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+
+/* friction.c */
+PETSC_INTERN const IPLawsOps IPLawsFriction;
 
 #endif

@@ -8,7 +8,7 @@
    where R = [J; T], C = R K_WW^-1 R^T and RZ = R K_WW^-1 Q_W: which rows take part, how they move, and how far they
    are from their laws.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPTermLawsDestroy(IPTermSet *set)

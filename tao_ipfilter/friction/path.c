@@ -7,7 +7,7 @@
    divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
    1999), is as good where a term sticks as where it slips. What is closed in the end is where Newton's method begins.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 
 typedef struct {
   PetscInt   n;       /* constraints that take part */

@@ -4,7 +4,7 @@
    set algorithm for three-dimensional contact problems with Coulomb friction, 2008): rows are open or closed, terms
    stick, v_t = 0, or slip, tau = b d with d along tau - rho v_t. The systems are not symmetric: system.c.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 
 /* Opens and closes constraints by what the last step made of them: all, or the last of them alone */
 static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)

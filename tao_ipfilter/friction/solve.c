@@ -1,5 +1,5 @@
 /* Solves the systems of system.c by GMRES: no dense matrix is made of C, unless GMRES gives up. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 #include <petscblaslapack.h>
 
 /* What the shells of a solve know */

@@ -6,7 +6,7 @@
    B_v and B_f made of blocks of a constraint and its term; K_WW is factored, and C is applied. Solved in solve.c,
    with the preconditioner of factor.c.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "frictionimpl.h"
 
 PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
 {

@@ -7,7 +7,7 @@
    is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last
    block is switched on where the system is singular (dependent constraints).
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)

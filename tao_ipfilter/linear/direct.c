@@ -3,7 +3,7 @@
    the matrix is positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates
    the memory before anything large is allocated.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPDirectDestroy(IPDirect *direct)

@@ -3,7 +3,7 @@
    unknowns, else in the augmented system that MUMPS factors. The first gives way to the second for the rest of a
    solve where it does not reach the constraints.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 #include "pc_amgf/mumps.h"
 
 /* Whether the solver of the condensed system is one for stiff rows, and the rows are few and the unknowns many enough

@@ -1,6 +1,6 @@
 /* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it
    ends no program. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 #include "pc_amgf/guard.h"
 
 /* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can

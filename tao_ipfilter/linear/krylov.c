@@ -1,6 +1,6 @@
 /* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the
    record of iterations. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* The KSP's own convergence test, and what tells that a run is not worth going on with */
 typedef struct {

@@ -1,5 +1,5 @@
 /* KSPReset() for any KSP, as PETSc's flexible CG does not bear it. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* Flexible CG would go on with directions that are no longer there: it is made anew */
 PetscErrorCode IPKSPReset(KSP ksp)

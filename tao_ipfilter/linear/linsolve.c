@@ -2,7 +2,7 @@
    The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other.
    None of them shifts the Hessian: a solver that fails is not negative curvature.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* The PC, if it is a PCAMGF, else NULL */
 static PetscErrorCode GetAMGF(Tao tao, PC *pc)

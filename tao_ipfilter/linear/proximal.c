@@ -9,7 +9,7 @@
    at each update of y. The residual of the forces is that of the condensed system, and each update changes its
    right-hand side where PCAMGF solves exactly, so that it costs few iterations.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 /* rhs = b - J_E^T (y + W c_E) */
 static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)

@@ -2,7 +2,7 @@
    The true residual of the condensed system, which alone judges a solve, not a Krylov method's estimate. Where it
    falls short the solve is continued from the attained iterate.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "linearimpl.h"
 
 #define IP_MAX_REFINEMENTS 3
 #define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error that is not worth reducing */

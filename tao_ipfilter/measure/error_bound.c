@@ -8,7 +8,7 @@
    by the size of another one, and the last sum grows with the number of bounds as the error does. All is held against
    the objective.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective that residuals may be worth */
 #define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that stands in for it where they cancel */

@@ -1,5 +1,5 @@
 /* Residuals of the optimality conditions. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 /* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z
    of the slacks */

@@ -1,5 +1,5 @@
 /* What resists the motions of norm terms, and the directions along which they cannot be moved. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 /* The sums of both rows of each term */
 static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)

@@ -1,5 +1,5 @@
 /* Magnitudes that residuals are measured by. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
 #define IP_AMPLE     30.0  /* a gradient is small that moves the unknowns by no more than so many times the tolerance */

@@ -1,5 +1,5 @@
 /* The objective's stiffness, from the diagonal of its Hessian: what units and sizes follow from. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 /* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times
    this */

@@ -4,7 +4,7 @@
    T^T tau = 0 with |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i is not zero: tau_i is the projection of
    tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "measureimpl.h"
 
 #define IP_HARD 1e3 /* times a term's resistance: as stiff as what sticks counts in a sum of terms */
 

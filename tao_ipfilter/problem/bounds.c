@@ -1,5 +1,5 @@
 /* Variable bounds x_l <= x <= x_u as complementarity pairs. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 /* Whether an entry of a bound makes a pair: finite, and not of a fixed variable; other: its counterpart, or NULL */
 static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)

@@ -1,5 +1,5 @@
 /* A Hessian of the Lagrangian by differences of its gradient, where the caller gives none. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 /* Gradient of f + DE^T c_E - DI^T c_I at x. Leaves the Jacobians at x. */
 static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)

@@ -1,5 +1,5 @@
 /* The caller's functions at a point: constraints and derivatives. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 /* c_E at x: the caller's own, and the rows of c_I that are some, which are there already */
 static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)

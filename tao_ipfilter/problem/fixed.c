@@ -1,5 +1,5 @@
 /* Fixed variables, x_l = x_u: held at their value, out of the linear system. They have no barrier and no multiplier. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 /* Whether a variable is fixed */
 PetscBool IPIsFixed(PetscScalar lower, PetscScalar upper)

@@ -1,5 +1,5 @@
 /* The Hessian as the iteration sees it: the caller's matrix, or what it was converted to. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscErrorCode IPHessianDestroy(IPHessian *hess)
 {

@@ -1,5 +1,5 @@
 /* Iterates and directions: made, copied and destroyed as wholes, so that no part of one is left behind. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
 {

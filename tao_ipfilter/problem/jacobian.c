@@ -1,5 +1,5 @@
 /* The constraints' Jacobians as the iteration sees them: as AIJ, rows scaled, columns of fixed variables zeroed. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
 {

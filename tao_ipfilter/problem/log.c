@@ -1,5 +1,5 @@
 /* Events of -log_view. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend,
   TAO_IPFilterReduced;

@@ -3,7 +3,7 @@
    MatConvert() makes AIJ of is converted at every evaluation; what gives products alone serves as a Hessian to
    solvers that need no more, and is read column by column where there are few.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 #define IP_COLUMNS_MAX \
   1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */

@@ -1,5 +1,5 @@
 /* Complementarity pairs (t, z): elementwise algebra of the barrier terms. An absent pair has t = PETSC_INFINITY. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
 {

@@ -6,7 +6,7 @@
    condensed matrix add the rest, of rank twice the history's length, which costs a Krylov method a few iterations
    more.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *qn)
 {

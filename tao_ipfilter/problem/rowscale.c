@@ -3,7 +3,7 @@
    at most row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are,
    whatever the units. All of the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 #define IP_LEAST_SCALE 1e-20
 

@@ -8,7 +8,7 @@
 
    Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 PetscErrorCode IPSidesDestroy(IPSides *sides)
 {

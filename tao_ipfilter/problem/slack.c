@@ -1,5 +1,5 @@
 /* The slacks of c_I, 0 <= s, or 0 <= s <= width: what their one or two pairs make together. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 /* D = w z/s, and the same of the upper sides */
 PetscErrorCode IPSlackSigma(Tao tao, Vec D)

@@ -1,5 +1,5 @@
 /* Scratch vectors: whoever needs one gets it, and gives it back before returning. None is made before it is needed. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "problemimpl.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
 {

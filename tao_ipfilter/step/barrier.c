@@ -1,5 +1,5 @@
 /* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* Weighted mean of t z over all pairs */
 PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)

@@ -1,6 +1,6 @@
 /* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough
    curvature. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than
    d^T |diag(H)| d, in which an unknown of another unit counts no more than the others do. */

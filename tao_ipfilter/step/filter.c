@@ -1,5 +1,5 @@
 /* The filter: pairs (theta, phi) of constraint violation and barrier function that later iterates must improve on. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 PetscErrorCode IPFilterSetReset(IPFilterSet *f)
 {

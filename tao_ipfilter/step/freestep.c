@@ -1,5 +1,5 @@
 /* A step of the problem without its bounds, from which a start between them is predicted. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* The step, to a tenth of its residual; of no use where the Hessian is not convex along it, or has no positive
    diagonal that an AMG could be built from */

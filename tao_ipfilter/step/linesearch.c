@@ -2,7 +2,7 @@
    Filter line search (Waechter and Biegler 2006, sections 2.3 and 2.4): fraction to the boundary, switching
    condition, Armijo, and second-order correction.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the
    domain of the objective nothing else is evaluated. */

@@ -1,6 +1,6 @@
 /* What the line search weighs against each other: theta, the violation of the constraints, and phi, the barrier
    function. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* theta: c - s in the norm of the weights and c_E, both per unit of their references */
 static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *theta)

@@ -1,6 +1,6 @@
 /* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the
    violations v. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = -rho v */
 PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)

@@ -2,7 +2,7 @@
    Inertia-free regularization (Chiang and Zavala 2016): the direction must show enough curvature and the Krylov
    method must not meet a negative one, else delta M_u is added to the Hessian and grows.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* First delta after none: the last one shrunk; else grown, faster while none has worked yet */
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)

@@ -4,7 +4,7 @@
    the tolerance times their size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by
    more).
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 #define IP_RELAX_FIRST 1e-2 /* of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier of so many times what balances the objective's gradient is a large one */

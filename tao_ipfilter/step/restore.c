@@ -8,7 +8,7 @@
    m/zeta in the violated rows, and the augmented one with delta = zeta/w^2, so that the solvers of the iteration
    proper serve here too.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 #define IP_RESTORE_MAX    200  /* steps */
 #define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */

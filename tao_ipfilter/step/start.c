@@ -1,5 +1,5 @@
 /* Starting values of slacks and multipliers. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 #define IP_LEAST_START 1e-10 /* gap of the pairs at the start, as a fraction of the terms of the objective */
 

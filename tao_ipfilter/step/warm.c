@@ -1,5 +1,5 @@
 /* The caller's multipliers of bounds and equality constraints as a start: a solved problem begins where it ended. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "stepimpl.h"
 
 /* Multipliers of the bounds into the pairs, per unit of the weights */
 PetscErrorCode IPWarmSetBounds(Tao tao)

@@ -9,7 +9,7 @@
    squares problems with nonnegative variables, 1994) is the primal-dual active set method that exchanges one row at a
    time where exchanging all does not help, and so ends.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPActiveSetDestroy(IPActiveSet *set)

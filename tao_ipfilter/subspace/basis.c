@@ -3,7 +3,7 @@
    products Q = K P and Gram matrix P^T K P. Appended they are K-orthonormal; a new W leaves them as they are but for
    W, and corrects Q and the Gram matrix.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)

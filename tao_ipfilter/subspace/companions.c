@@ -6,7 +6,7 @@
      1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + what directions have,   Q_W
      = -E D, P^T K P = D.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
 {

@@ -2,7 +2,7 @@
    What the constraints' own unknowns W give way by: C = J_W K_WW^-1 J_W^T, column by column as rows of it are asked
    for. On the first rank alone, which has all of W.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)

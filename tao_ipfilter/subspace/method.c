@@ -8,7 +8,7 @@
    active set this is CG preconditioned by the `fbf` cycle of PCAMGF; where the set changes nothing is lost, and P
    serves the next solve with the same K, whatever its constraints and loads.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 /* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which
    then serves all solves */
@@ -29,16 +29,18 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
   const IPOptions *opt = &ip->opt;
+  IPFiltered      *f   = IPFilteredOf(tao);
   PetscBool        amg, factored;
 
   PetscFunctionBegin;
+  f->newton = (PetscBool)(ip->method.linear && !ip->method.constant);
   *applies =
     (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
                 !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms.n) PetscFunctionReturn(0);
   PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
-  if (!ip->filtered.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
+  if (!ip->method.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
     *applies = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -59,13 +61,13 @@ static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
   PetscCall(ISGetSize(ip->cond.filter, &touched));
   *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
   if (!*thin) PetscFunctionReturn(0);
-  PetscCall(ISDestroy(&ip->filtered.W));
-  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &ip->filtered.W));
-  PetscCall(ISGetSize(ip->filtered.W, &grown));
-  if (grown > fraction * n || ip->filtered.newton || ip->terms.n) {
+  PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
+  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &IPFilteredOf(tao)->W));
+  PetscCall(ISGetSize(IPFilteredOf(tao)->W, &grown));
+  if (grown > fraction * n || IPFilteredOf(tao)->newton || ip->terms.n) {
     PetscCall(PetscObjectReference((PetscObject)ip->cond.filter));
-    PetscCall(ISDestroy(&ip->filtered.W));
-    ip->filtered.W = ip->cond.filter;
+    PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
+    IPFilteredOf(tao)->W = ip->cond.filter;
   }
   PetscFunctionReturn(0);
 }
@@ -125,7 +127,7 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   Vec             expected;
 
   PetscFunctionBegin;
-  PetscCall(VecDot(v, ip->filtered.gradient, &work[0]));
+  PetscCall(VecDot(v, IPFilteredOf(tao)->gradient, &work[0]));
   PetscCall(VecDot(v, tao->gradient, &work[1]));
   PetscCall(FilteredRounding(tao, &rounding));
   error      = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
@@ -147,7 +149,7 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
+  IPFiltered   *f  = IPFilteredOf(tao);
   Vec           x;
 
   PetscFunctionBegin;
@@ -190,7 +192,7 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->filtered.f = ip->at.f;
+  IPFilteredOf(tao)->f = ip->at.f;
   PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->solution, tao->gradient, ip->at.c));
   PetscFunctionReturn(0);
 }
@@ -219,11 +221,11 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscFunctionBegin;
   PetscCall(VecAXPBY(r, -1.0, 0.0, ip->rx));
   PetscCall(VecNorm(r, NORM_2, &all));
-  PetscCall(VecISSet(r, ip->filtered.W, 0.0));
+  PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
                        PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual));
-  if (ip->filtered.nfutile && ip->filtered.nfutile % for_long == 0) *exact = PETSC_FALSE;
+  if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -238,9 +240,9 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
-  if (n == 0) ip->filtered.begin = error;
+  if (n == 0) IPFilteredOf(tao)->begin = error;
   if (n == 0 || n % every) PetscFunctionReturn(0);
-  gained = PetscLog10Real(ip->filtered.begin / error);
+  gained = PetscLog10Real(IPFilteredOf(tao)->begin / error);
   left   = PetscLog10Real(PetscMax(error / ip->tol, 1.0));
   PetscCall(IPSubspaceStateReconsider(tao, kept, gained < least ? 2.0 * n : n * left / gained, possible));
   PetscFunctionReturn(0);
@@ -249,10 +251,10 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
 /* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it
    led; *done is false where neither is possible, or helps. With norm terms, whose reduced problem is solved to a
    tolerance, what is left may lie along directions that there are, none of them new */
-PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
+static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;
-  IPFiltered      *f        = &ip->filtered;
+  IPFiltered      *f        = IPFilteredOf(tao);
   const PetscInt   in_a_row = 3, patience = 60;
   PetscBool        exact = PETSC_TRUE;
   IPSubspaceState *kept;
@@ -285,7 +287,7 @@ PetscErrorCode IPFilteredStep(Tao tao, PetscBool *done)
 static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
+  IPFiltered   *f  = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   f->nfutile = f->ncentred = 0;
@@ -299,28 +301,37 @@ static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *fo
   PetscFunctionReturn(0);
 }
 
-/* Begins where the method is wanted and the problem is of its kind */
-PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
+/* What is kept for later solves goes */
+static PetscErrorCode FilteredForget(Tao tao)
 {
-  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered      *f  = &ip->filtered;
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
-  f->newton = (PetscBool)(f->linear && !f->constant);
-  PetscCall(FilteredApplies(tao, begun));
-  if (*begun) PetscCall(FilteredTakeW(tao, begun));
+  if (!IPFilteredOf(tao)->kept) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPSubspaceStateReset(kept));
+  PetscFunctionReturn(0);
+}
+
+/* Begins where the constraints touch few unknowns */
+static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
+{
+  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered      *f  = IPFilteredOf(tao);
+  IPSubspaceState *kept;
+
+  PetscFunctionBegin;
+  PetscCall(FilteredTakeW(tao, begun));
   if (!*begun) {
-    if (f->kept) PetscCall(IPSubspaceStateGet(tao, &kept));
-    if (f->kept) PetscCall(IPSubspaceStateReset(kept));
+    PetscCall(FilteredForget(tao));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
   if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
   if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
-  f->on = *begun;
-  if (f->on) PetscCall(IPKrylovRecord(tao, 0));
+  ip->method.multipliers = (PetscBool)!f->newton;
+  if (*begun) PetscCall(IPKrylovRecord(tao, 0));
   else {
     PetscCall(IPSubspaceStateReset(kept));
     PetscCall(IPFilteredDestroy(f));
@@ -331,16 +342,58 @@ PetscErrorCode IPFilteredBegin(Tao tao, PetscBool *begun)
 
 /* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the
    constraints is not */
-PetscErrorCode IPFilteredEnd(Tao tao)
+static PetscErrorCode FilteredEnd(Tao tao)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
-  if (ip->filtered.on) {
+  if (ip->method.on) {
     PetscCall(IPSubspaceStateGet(tao, &kept));
     kept->napplications = ip->rec.napplications;
   }
-  PetscCall(IPFilteredDestroy(&((TAO_IPFILTER *)tao->data)->filtered));
+  PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscFunctionReturn(0);
 }
+
+/* By Newton's method, where the objective is not quadratic */
+static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
+{
+  PetscFunctionBegin;
+  if (IPFilteredOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
+  else PetscCall(FilteredStep(tao, done));
+  if (*done) ((TAO_IPFILTER *)tao->data)->method.multipliers = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FilteredCreateData(Tao tao)
+{
+  IPFiltered *f;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&f));
+  ((TAO_IPFILTER *)tao->data)->method.data = f;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FilteredDestroyData(Tao tao)
+{
+  PetscFunctionBegin;
+  PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
+  PetscCall(PetscContainerDestroy(&IPFilteredOf(tao)->kept));
+  PetscCall(PetscFree(((TAO_IPFILTER *)tao->data)->method.data));
+  PetscFunctionReturn(0);
+}
+
+const IPMethodOps IPMethodSubspace = {
+  .name    = "filtered subspace",
+  .create  = FilteredCreateData,
+  .compose = IPSubspaceStateCompose,
+  .applies = FilteredApplies,
+  .begin   = FilteredBegin,
+  .step    = FilteredStepOfKind,
+  .end     = FilteredEnd,
+  .forget  = FilteredForget,
+  .monitor = IPFilteredMonitor,
+  .destroy = FilteredDestroyData,
+};

@@ -10,7 +10,7 @@
    leads from feasible points to feasible ones, at any length up to 1. V outlives the step: with another H only the
    products H P are made anew.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 /* r = J^T force - grad f - H d without its part on W, which is zero but for rounding, and its norm */
 static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, PetscReal *norm)
@@ -23,7 +23,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   PetscCall(VecScale(r, -1.0));
   PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
   PetscCall(IPFixedZero(tao, r));
-  PetscCall(VecISSet(r, ip->filtered.W, 0.0));
+  PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, norm));
   PetscFunctionReturn(0);
 }
@@ -54,7 +54,7 @@ static PetscErrorCode NewtonMinimizeModel(Tao tao, const IPBasis *basis, Vec d, 
 {
   PetscFunctionBegin;
   PetscCall(IPFilteredSolve(tao, basis, d, force, solved));
-  if (*solved) PetscCall(VecAXPY(d, 1.0, ((TAO_IPFILTER *)tao->data)->filtered.centre));
+  if (*solved) PetscCall(VecAXPY(d, 1.0, IPFilteredOf(tao)->centre));
   PetscFunctionReturn(0);
 }
 
@@ -285,7 +285,7 @@ PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
   PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  *done = IPFilteredProgresses(&ip->filtered, IPBothErrors(ip), patience);
+  *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
   if (*done) PetscCall(NewtonFindStep(tao, kept, d, force, done));
   if (*done) PetscCall(NewtonSearch(tao, d, force, done));
   if (*done) PetscCall(NewtonAccept(tao, d, force));

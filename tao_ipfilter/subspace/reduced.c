@@ -3,7 +3,7 @@
    P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
    as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 /* A matrix of rows of A, its columns those of W, on the first rank; half: A has its upper triangle only */
 typedef struct {
@@ -188,7 +188,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(VecDestroy(&r->on_rows));
   PetscCall(VecScatterDestroy(&r->to_terms));
   PetscCall(VecDestroy(&r->on_terms));
-  PetscCall(IPTermLawsDestroy(&r->terms));
+  if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
   PetscCall(IPComplianceDestroy(&r->compliance));
   PetscCall(IPCompanionsDestroy(&r->companions));
   PetscCall(IPActiveSetDestroy(&r->set));
@@ -299,8 +299,8 @@ static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
 }
 
 /* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, IS W, Vec x, Vec c,
-  const IPBasis *basis, PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
+  Vec c, const IPBasis *basis, PetscBool *definite)
 {
   PetscMPIInt     rank;
   IS              all, mine;
@@ -311,7 +311,8 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, 
   PetscFunctionBegin;
   PetscCall(IPReducedDestroy(r));
   PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)x), &rank));
-  r->first = (PetscBool)!rank;
+  r->lawsops = ops;
+  r->first   = (PetscBool)!rank;
   PetscCall(ISAllGather(W, &all));
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
@@ -330,7 +331,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, const IPTerms *terms, 
   PetscCall(ReducedFactor(r, KWW, JW, definite));
   PetscCall(ReducedCreateSystem(r, basis));
   if (*definite) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms) PetscCall(IPTermLawsCreate(r->m, r->nterms, r->system.kmax, KWW, JW, &r->terms));
+  if (r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -368,17 +369,19 @@ static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscR
 PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 {
   const Vec  given[2] = {terms->limit, terms->coefficient};
+  IPLawsData data     = {0};
   PetscReal *values[2];
   Vec        scaled;
 
   PetscFunctionBegin;
   if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(ReducedFetch(r->to_terms, terms->dead, r->on_terms, 2 * r->nterms, r->terms.dead));
-  values[0] = r->terms.limit;
-  values[1] = r->terms.coefficient;
+  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
+  PetscCall(ReducedFetch(r->to_terms, terms->dead, r->on_terms, 2 * r->nterms, data.dead));
+  values[0] = data.limit;
+  values[1] = data.coefficient;
   for (PetscInt i = 0; i < r->nterms; i++) {
-    r->terms.limit[i]       = PETSC_INFINITY;
-    r->terms.coefficient[i] = -1.0;
+    data.limit[i]       = PETSC_INFINITY;
+    data.coefficient[i] = -1.0;
   }
   for (PetscInt k = 0; k < 2; k++) {
     VecScatter scatter;
@@ -400,16 +403,19 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 /* Begins with the rows active, or closed, whose entry is positive; with norm terms from these forces */
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
-  IPReducedSystem *s = &r->system;
+  IPReducedSystem *s    = &r->system;
+  IPLawsData       data = {0};
 
   PetscFunctionBegin;
+  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
   PetscCall(ReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
   for (PetscInt i = 0; i < r->m; i++) {
-    PetscBool *active = r->nterms ? r->terms.closed : r->set.active;
+    PetscBool *active = r->laws ? data.closed : r->set.active;
 
     active[i] = (PetscBool)(s->gap[i] > 0.0);
   }
-  r->set.factored = r->terms.listed = PETSC_FALSE;
+  r->set.factored = PETSC_FALSE;
+  if (r->laws) PetscCall(r->lawsops->restart(r->laws));
   if (!terms->n) PetscFunctionReturn(0);
   PetscCall(ReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
   PetscCall(ReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
@@ -487,7 +493,8 @@ PetscErrorCode IPReducedForget(IPReduced *r)
 {
   PetscFunctionBegin;
   r->system.k = r->companions.n;
-  r->set.k = r->terms.system.k = 0;
+  r->set.k    = 0;
+  if (r->laws) PetscCall(r->lawsops->forget(r->laws));
   if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
 }
@@ -510,9 +517,11 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->nterms) PetscCall(IPTermSetSolve(&r->terms, &r->system, &r->nsteps, solved));
-  else PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
-  r->nactive = r->nterms ? r->terms.na : r->set.n;
+  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, solved));
+  else {
+    PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
+    r->nactive = r->set.n;
+  }
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,6 @@
 /* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner
    and directions of K. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 /* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */
 PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
@@ -27,7 +27,7 @@ static PetscErrorCode KeptDestroy(void *argument)
 /* Made where there is none yet */
 PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
 {
-  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPFiltered *f = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   if (!f->kept) {
@@ -86,7 +86,7 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored, &why));
-  if (!ip->opt.monitor || !why[0] || (ip->filtered.newton && (tao->niter || ip->shift.delta > 0.0)))
+  if (!ip->opt.monitor || !why[0] || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift.delta > 0.0)))
     PetscFunctionReturn(0);
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
     factored ? "direct (MUMPS)" : "CG with AMG", why));
@@ -192,7 +192,7 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 
   PetscFunctionBegin;
   *max = ip->opt.subspace_max;
-  if (!*max && ip->filtered.newton) *max = newton;
+  if (!*max && IPFilteredOf(tao)->newton) *max = newton;
   if (*max) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
@@ -229,25 +229,25 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
   kept->K_id    = ((PetscObject)K)->id;
   kept->K_state = state;
   if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
-  PetscCall(IPBasisRestrict(&kept->basis, K, ip->filtered.W));
+  PetscCall(IPBasisRestrict(&kept->basis, K, IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
+static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
 {
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
   PetscCall(IPSubspaceStateGet(tao, &kept));
-  *space = ((TAO_IPFILTER *)tao->data)->filtered.kept;
+  *space = IPFilteredOf(tao)->kept;
   PetscFunctionReturn(0);
 }
 
 /* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of
    another kind keeps its own */
-PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
+static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
-  IPFiltered      *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPFiltered      *f = IPFilteredOf(tao);
   IPSubspaceState *kept;
   const char      *own, *theirs;
   PC               pc;
@@ -268,12 +268,25 @@ PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
+static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
 {
   PetscFunctionBegin;
   PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
     "There is one solve to come at least, not %" PetscInt_FMT, n);
   ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
+  PetscFunctionReturn(0);
+}
+
+/* Attaches the implementations to the object, or detaches them */
+PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
+{
+  PetscObject o = (PetscObject)tao;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSubspace_C", attach ? TaoIPFilterGetSubspace_IPFilter : NULL));
+  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 

@@ -3,7 +3,7 @@
    span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
    of the preconditioner B of K alone to what the problem on V leaves of the residual.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "subspaceimpl.h"
 
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
@@ -14,7 +14,6 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscCall(VecDestroy(&f->gradient));
   PetscCall(VecDestroy(&f->c));
   PetscCall(PetscFree2(f->pg, f->y));
-  f->on = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -51,7 +50,7 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(&ip->filtered.reduced, closer, force, &ip->terms));
+  PetscCall(IPReducedGuess(&IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
@@ -62,7 +61,7 @@ static PetscErrorCode FilteredGuess(Tao tao)
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f     = &ip->filtered;
+  IPFiltered   *f     = IPFilteredOf(tao);
   Vec           value = NULL;
 
   PetscFunctionBegin;
@@ -84,7 +83,7 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
 PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
+  IPFiltered   *f  = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
@@ -144,7 +143,7 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
    nothing of that is lost. */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
-  IPFiltered    *f    = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPFiltered    *f    = IPFilteredOf(tao);
   const PetscInt last = basis->max / 8, best = basis->max / 2;
   PetscReal     *E;
 
@@ -174,7 +173,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscCall(VecDot(d, Kd, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
-  if (ip->filtered.newton && PetscRealPart(energy) < -rounding * PetscRealPart(size)) *singular = PETSC_FALSE;
+  if (IPFilteredOf(tao)->newton && PetscRealPart(energy) < -rounding * PetscRealPart(size)) *singular = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -221,7 +220,7 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f     = &ip->filtered;
+  IPFiltered   *f     = IPFilteredOf(tao);
   IPBasis      *basis = &kept->basis;
   Vec           d;
 
@@ -245,7 +244,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
 
 static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
 {
-  IPFiltered *f = &((TAO_IPFILTER *)tao->data)->filtered;
+  IPFiltered *f = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(tao->solution, &f->centre));
@@ -261,13 +260,13 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
 PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = &ip->filtered;
+  IPFiltered   *f  = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, basis));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c,
-    basis, possible));
+  PetscCall(IPReducedSetUp(&f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
+    ip->at.c, basis, possible));
   PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));

@@ -54,54 +54,39 @@ typedef struct {
   PetscReal *L, *V, *H, *r;
 } IPActiveSet;
 
-/* The system of a Newton step on the laws of constraints and norm terms: system.c */
+/* What the laws of constraints and norm terms are given, on the first rank */
 typedef struct {
-  PetscInt      m, k;        /* rows, directions in V */
-  Mat           K, FK;       /* K_WW, and its factors */
-  Mat           R, RD, G;    /* R, R D and R D R^T */
-  Mat           Bv, Bf;      /* what the rows' equations take of v and f */
-  Mat           A, F;        /* B_v R D R^T + B_f in the rows' scale, and its factors, */
-  Mat           Pv, Pf;      /* and the B_v and B_f that they are of */
-  PetscReal    *gives;       /* what rows give way by, by D */
-  PetscReal    *scale;       /* force of a row over the root of its energy */
-  PetscReal    *V, *ZV, *H;  /* columns of length m; of length kmax; of length k */
-  PetscBLASInt *pivots;      /* of H */
-  Vec           S;           /* and the scale that A has */
-  PetscReal    *f, *v;       /* scratch, of rows */
-  Vec           r, z, w, Kw; /* of rows and of W */
-  PetscInt      fresh;       /* iterations that GMRES took with the factors when they were new */
-  PetscBool     stale;       /* they no longer serve */
-  PetscReal    *C;           /* C, where GMRES has given up: dense.c; NULL: it has not */
-} IPTermSystem;
+  PetscReal *limit, *coefficient; /* of the terms; coefficient negative: none */
+  PetscReal *dead;                /* along which nothing gives way, two a term */
+  PetscBool *closed;              /* constraints that begin so */
+} IPLawsData;
 
-/* What is closed and slips of constraints and norm terms: laws.c */
-typedef struct {
-  PetscInt     m, n;                /* constraints and terms */
-  PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
-  PetscReal   *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
-  PetscReal   *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
-  PetscReal   *dead;                /* along which nothing gives way, two a term */
-  PetscReal    length;              /* size of the terms of a motion */
-  PetscBool   *closed, *slips;
-  PetscBool   *takes, listed; /* the rows that take part, once they are known */
-  PetscInt     na;            /* and their number */
-  PetscReal   *F, *Fy;
-  IPTermSystem system;
-} IPTermSet;
+/* A way to solve the problem on the subspace with norm terms, of m constraints and n terms of rows R; register.c names
+   the one that there is */
+typedef struct _p_IPLaws *IPLaws;
+typedef struct _n_IPLawsOps {
+  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *);
+  PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
+  PetscErrorCode (*restart)(IPLaws); /* what is closed has been set anew */
+  PetscErrorCode (*forget)(IPLaws);  /* the directions are others */
+  PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscInt *steps, PetscInt *nactive, PetscBool *solved);
+  PetscErrorCode (*destroy)(IPLaws *);
+} IPLawsOps;
 
 /* The contact problem on the subspace; n and m are zero on all ranks but the first */
 typedef struct {
-  PetscBool       first;
-  PetscInt        n, m, nterms; /* unknowns W, constraints, norm terms */
-  VecScatter      to_W, to_rows, to_terms;
-  Vec             on_W, on_rows, on_terms;
-  IPTermSet       terms;
-  IPCompliance    compliance;
-  IPCompanions    companions; /* the first of what y moves */
-  IPReducedSystem system;
-  IPActiveSet     set;
-  PetscReal      *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
-  PetscInt        nsteps, nactive;
+  PetscBool        first;
+  PetscInt         n, m, nterms; /* unknowns W, constraints, norm terms */
+  VecScatter       to_W, to_rows, to_terms;
+  Vec              on_W, on_rows, on_terms;
+  const IPLawsOps *lawsops; /* NULL: there is none */
+  IPLaws           laws;    /* NULL without norm terms, and on all ranks but the first */
+  IPCompliance     compliance;
+  IPCompanions     companions; /* the first of what y moves */
+  IPReducedSystem  system;
+  IPActiveSet      set;
+  PetscReal       *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; scratch */
+  PetscInt         nsteps, nactive;
 } IPReduced;
 
 /* What a filtered subspace keeps from one solve to the next */
@@ -117,9 +102,6 @@ typedef struct {
 
 /* The filtered subspace method, while it is on */
 typedef struct {
-  PetscBool      linear;   /* the routine of the Jacobian has left its matrix alone: linear constraints, */
-  PetscBool      constant; /* and that of the Hessian too: a quadratic program */
-  PetscBool      on;
   PetscBool      newton; /* by Newton's method, as the objective is not quadratic */
   PetscContainer kept;   /* an IPSubspaceState */
   IS             W;      /* the unknowns that V has all of: those of the constraints, and their neighbours */
@@ -132,6 +114,8 @@ typedef struct {
   PetscReal      halved;              /* and what it was then */
   PetscReal      begin;               /* KKT error of the first reduced problem's solution */
 } IPFiltered;
+
+#define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method.data)
 
 /* basis.c */
 PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);
@@ -160,8 +144,8 @@ PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, cons
   PetscBool *solved);
 
 /* reduced.c */
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, const IPTerms *, IS W, Vec x, Vec c,
-  const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K, Mat J, const IPTerms *, IS W, Vec x,
+  Vec c, const IPBasis *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
@@ -172,14 +156,12 @@ PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
 
 /* state.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
 PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
 PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
-PETSC_INTERN PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao, PetscInt);
-PETSC_INTERN PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao, PetscContainer *);
-PETSC_INTERN PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao, PetscContainer);
 
 /* subspace.c */
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, const IPBasis *, PetscBool *possible);
@@ -192,12 +174,13 @@ PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, 
 PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPSubspaceState *, Vec r, PetscBool *extended);
 
-/* method.c */
-PETSC_INTERN PetscErrorCode IPFilteredBegin(Tao, PetscBool *begun);
-PETSC_INTERN PetscErrorCode IPFilteredStep(Tao, PetscBool *done);
-PETSC_INTERN PetscErrorCode IPFilteredEnd(Tao);
+/* monitor.c */
+PETSC_INTERN PetscErrorCode IPFilteredMonitor(Tao, PetscBool *monitored);
 
 /* newton.c */
 PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
+
+/* method.c: min f(x), c_I(x) >= 0 on the filtered subspace */
+PETSC_INTERN const IPMethodOps IPMethodSubspace;
 
 #endif

@@ -6,7 +6,7 @@
    pattern is the union of H's and J^T J's and is preallocated; while H is unchanged only the rows that J^T D J
    touches are written again, so a constant H is copied once.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "systemimpl.h"
 
 /* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on
  */

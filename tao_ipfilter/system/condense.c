@@ -6,7 +6,7 @@
 
    How H and J^T D J get into A: assemble.c.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "systemimpl.h"
 
 PetscErrorCode IPCondensedDestroy(IPCondensed *c)
 {

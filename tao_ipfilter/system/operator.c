@@ -1,6 +1,6 @@
 /* The condensed matrix where the Hessian gives products alone: H + Sigma + J^T D J + delta M_u as a MATSHELL, with
    its diagonal. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "systemimpl.h"
 
 /* y = J^T D J x + y */
 static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)

@@ -4,7 +4,7 @@
    equality constraints are condensed, D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the
    stiffness that resists it; in a restoration step what the augmented system would eliminate to, 1/delta.
 */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "systemimpl.h"
 
 PetscErrorCode IPRowsDestroy(IPRows *rows)
 {

@@ -1,6 +1,6 @@
 /* What PCAMGF is to filter: the unknowns that the constraints touch, and whether the constraints are stiff enough for
    it. */
-#include "tao_ipfilter/ipfilterimpl.h"
+#include "systemimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
 PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)

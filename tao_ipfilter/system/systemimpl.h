@@ -7,35 +7,6 @@
 
 #include "tao_ipfilter/measure/measureimpl.h"
 
-/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too,
-   or of norm terms */
-typedef struct {
-  Mat     J; /* NULL: none */
-  Vec     D; /* their weights */
-  IPStamp stamp;
-  IPStamp source[2];         /* of the matrices that one of both was made from */
-  Vec     inequality, below; /* weights of either kind */
-} IPRows;
-
-/* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
-typedef struct {
-  IPRows           rows;
-  Mat              A;
-  Mat              DJ, JtDJ;           /* D J, J^T D J */
-  Vec              shift;              /* Sigma + delta M_u, the diagonal added to H */
-  Vec              hdiag;              /* diagonal of H, kept while a shift is added to it */
-  PetscBool        shifted;            /* A's diagonal holds a shift */
-  PetscObjectId    H_id;               /* which H A was assembled from, */
-  PetscObjectState H_state, H_nonzero; /* with which values and pattern */
-  PetscObjectId    J_id;               /* which Jacobian the product's pattern came from, */
-  PetscObjectState J_nonzero;          /* with which pattern */
-  PetscObjectId    filter_id;          /* which Jacobian the filter came from, */
-  PetscObjectState filter_state;       /* with which values */
-  PetscInt         ntouched;           /* rows of this rank touched by J^T D J */
-  PetscInt        *touched;
-  IS               filter; /* composed on A under PCAMGF_FILTER_KEY */
-} IPCondensed;
-
 /* rows.c */
 PETSC_INTERN PetscErrorCode IPRowsTake(Tao);
 PETSC_INTERN PetscErrorCode IPRowsUpdate(Tao, Vec);

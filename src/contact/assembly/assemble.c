@@ -1,5 +1,5 @@
 /* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* Entries of a row that are this small beside its largest are rounding of exact zeros */
 #define ENTRY_DROP 1e-14
@@ -372,6 +372,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscCall(VecDuplicate(lin->g, &lin->mass));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->vertex));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->pair));
+  PetscCall(PetscMalloc1(3 * lin->nlocal, &lin->normal));
   PetscCall(VecGetArrayRead(rows->weight, &mass));
   PetscCall(VecGetArrayRead(as->gap, &gap));
   PetscCall(VecGetArray(lin->mass, &m));
@@ -384,6 +385,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
     g[k]           = gap[i] / mass[i];
     lin->vertex[k] = rows->vertex[i];
     lin->pair[k]   = pair;
+    PetscCall(PetscArraycpy(&lin->normal[3 * k], &rows->normal[3 * i], 3));
   }
   PetscCall(VecRestoreArray(lin->g, &g));
   PetscCall(VecRestoreArray(lin->mass, &m));

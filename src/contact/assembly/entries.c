@@ -1,5 +1,5 @@
 /* A matrix from entries that come in any order, for rows of any rank */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* value: of three columns for each of n blocks */
 PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],

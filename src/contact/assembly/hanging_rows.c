@@ -4,7 +4,7 @@
    to theirs, in parts of 1/2 or 1/4, and the row stays empty.
 */
 #include <mesh.h>
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* The pair's row of every node, plus 1; 0: it has none */
 static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec number)

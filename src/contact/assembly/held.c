@@ -10,7 +10,7 @@
 */
 #include <stdlib.h>
 #include <string.h>
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 static const PetscReal held_rounding = 1e-6; /* of places on one plane, relative to the size of the face */
 

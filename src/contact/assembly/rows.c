@@ -1,6 +1,6 @@
 /* The rows there may be, one a nonmortar vertex and pair, and their weights; both stay as long as the mesh does */
 #include <petscsf.h>
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* marked[v] = 1 for the vertices of this rank's facets, and for those it owns on facets of other ranks; 0 elsewhere */
 static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints,

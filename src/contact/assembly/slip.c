@@ -8,7 +8,7 @@
 
    Of a row that has no slip along an axis, or across a plane (held.c), the tangent along it is zero.
 */
-#include "src/contact/contactimpl.h"
+#include "assemblyimpl.h"
 
 /* The part of a unit vector across a unit normal, of length 1; false where there is next to none */
 static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])

@@ -1,5 +1,5 @@
 /* Mortar integrals of a pair of facets, and of all pairs of this rank's nonmortar facets */
-#include "src/contact/contactimpl.h"
+#include "gapsimpl.h"
 
 /* All sums over the points of the overlap; coordinates of both facets interpolated there */
 void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],

@@ -1,5 +1,5 @@
 /* Node to segment: each nonmortar vertex against the closest point of the mortar face */
-#include "src/contact/contactimpl.h"
+#include "gapsimpl.h"
 
 /* A vertex beyond the mortar face's border by more than this part of the facet's size faces nothing */
 #define BORDER_MARGIN 0.05

@@ -1,6 +1,6 @@
 /* Mortar facets go to the ranks whose part of the nonmortar face they may face; nothing else of a mesh is exchanged */
 #include <petscsf.h>
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 /* Facets on their way, those for one rank together */
 typedef struct {

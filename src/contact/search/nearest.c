@@ -1,5 +1,5 @@
 /* The facet nearest to a vertex: branch and bound in the tree of boxes */
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 /* Squared distance of a point from a box */
 static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3])

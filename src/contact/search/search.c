@@ -1,5 +1,5 @@
 /* Which mortar facets may face a nonmortar facet: those along its normal */
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 /*
   What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the

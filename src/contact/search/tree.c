@@ -1,5 +1,5 @@
 /* A static tree of bounding boxes of facets: built and asked in O(N log N) */
-#include "src/contact/contactimpl.h"
+#include "searchimpl.h"
 
 #define TREE_LEAF_SIZE 4
 

@@ -1,6 +1,6 @@
 /* What corner_normals.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives
    of the normal's components */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
 static void AddOuter(const PetscReal A[9], PetscReal factor, const PetscReal a[3], const PetscReal b[3], PetscReal C[9])

@@ -1,6 +1,6 @@
 /* Normals of the smooth surface at the facets' corners: means of the corners about a node, mended where the surface
    ends */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /*
   Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres

@@ -2,7 +2,7 @@
   Where a face ends on a plane that its body is held on, the smooth surface goes on as in a mirror: the facets of a
   ring near such a plane are seen in it, so that normals on the border are means like all others.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* On the undeformed border the normal, extrapolated from the facets, is in the plane but for this part of what the
    facet's is out of it */

@@ -4,7 +4,7 @@
   patches; and those of the cover int phi_A. In that plane's own axes nothing changes with a rigid motion, so that the
   forces that these derivatives are balance to rounding, their moments too.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Sine of the angle about which two lines come to have no point of intersection to speak of: what is off by rounding,
    or by the quadrature, would move it far */

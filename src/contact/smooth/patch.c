@@ -7,7 +7,7 @@
   In a triangle, where the third edge is a point, that of the first counts with the square: quadratic edges then make
   the quadratic surface.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Ends of an edge are not steeper than this against its chord: normals of a crumpled face mean nothing */
 #define STEEPEST 0.7

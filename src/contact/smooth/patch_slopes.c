@@ -1,6 +1,6 @@
 /* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by
    vertices and normals */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* A patch that turns away from a direction by more than 60 degrees has no tangent plane to measure along it by */
 #define STEEPEST_SQUARED_COSINE 0.25

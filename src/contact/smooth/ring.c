@@ -6,7 +6,7 @@
   to the next as well. Neighbours across an edge that is sharper, undeformed, than the feature angle are none: each
   side of it has normals of its own.
 */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Corners of the facet that a corner is of: a triangle has the node of its last one twice */
 static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)

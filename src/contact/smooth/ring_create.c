@@ -1,5 +1,5 @@
 /* Makes a ring: facets from their ranks, the numbers of their nodes, who is next to whom, and the normals there are */
-#include "src/contact/contactimpl.h"
+#include "smoothimpl.h"
 
 /* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
    says how far that is */

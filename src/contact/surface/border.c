@@ -1,7 +1,7 @@
 /* The border of a face: edges that only one of its facets has, on whatever rank */
 #include <petscsf.h>
 #include <mesh.h>
-#include "src/contact/contactimpl.h"
+#include "surfaceimpl.h"
 
 static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
 {

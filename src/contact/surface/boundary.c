@@ -1,6 +1,6 @@
 /* The boundary of all bodies, undeformed: how large they are, and what is inside them */
 #include <mesh.h>
-#include "src/contact/contactimpl.h"
+#include "surfaceimpl.h"
 
 /* Number of bodies, on all ranks */
 static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)

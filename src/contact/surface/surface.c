@@ -1,7 +1,7 @@
 /* The facets of a named face, those of order 2 cut into four: taken from the mesh once, deformed at every
    linearization */
 #include <mesh.h>
-#include "src/contact/contactimpl.h"
+#include "surfaceimpl.h"
 
 /* Number of a vertex, any node of the mesh, among those of all ranks; the mesh lays out 3 rows a node, owned ones as
    they are, others encoded */

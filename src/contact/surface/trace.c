@@ -11,7 +11,7 @@
 */
 #include <petscsf.h>
 #include <mesh.h>
-#include "src/contact/contactimpl.h"
+#include "surfaceimpl.h"
 
 #define TRACE_MAX_NODES MESH_MAX_FACET_NODES
 

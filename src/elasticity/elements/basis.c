@@ -1,5 +1,5 @@
 /* Shape functions of hexahedra at tensor Gauss points, and of tetrahedra at theirs */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 #include <petscdt.h>
 
 PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt n, CellBasis *basis)

@@ -11,7 +11,7 @@
    elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002:
    polynomials of the place, not of the cell's parameters.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 #define POLYNOMIALS 4 /* at most */
 

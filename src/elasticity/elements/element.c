@@ -1,5 +1,5 @@
 /* The table of elements */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 PetscErrorCode ElementGet(ElementType type, PetscInt nnodes, const Element **element)
 {

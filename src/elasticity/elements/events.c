@@ -1,5 +1,5 @@
 /* PETSc's log events of elasticity */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
 

@@ -1,5 +1,5 @@
 /* Full integration: E = int W(H) */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])

@@ -12,7 +12,7 @@
    class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
    versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 #define MODES 12
 

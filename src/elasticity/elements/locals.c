@@ -1,5 +1,5 @@
 /* Displacements and coordinates as the cells of this rank see them */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 #include <mesh.h>
 
 PetscErrorCode ElasticityGetLocals(Elasticity e, Vec u, Vec *local, const PetscScalar **ul, const PetscScalar **x)

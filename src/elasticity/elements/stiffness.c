@@ -1,5 +1,5 @@
 /* Stiffness of a cell from its points' tangents, shared by the elements */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 
 void CellSumsClear(PetscInt n, CellSums *S)
 {

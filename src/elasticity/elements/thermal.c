@@ -11,7 +11,7 @@
    its element, and a free body in a temperature that is linear in the place is without stress, in bending too. The
    tangent does not know of it.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "elementsimpl.h"
 #include <mesh.h>
 
 /* Solves the 3 x 3 system of a symmetric positive definite matrix by Cramer's rule */

@@ -1,5 +1,5 @@
 /* Integrals over faces, all from one quadrature: tractions, what a face measures, springs */
-#include "src/elasticity/elasticityimpl.h"
+#include "facesimpl.h"
 
 /* The facets of a face on this rank */
 typedef struct {

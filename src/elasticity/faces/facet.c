@@ -1,5 +1,5 @@
 /* Facets of the bodies' faces: their nodes and shape functions */
-#include "src/elasticity/elasticityimpl.h"
+#include "facesimpl.h"
 
 /* Of a triangle of 3 nodes, or of 6, then of its edges, from the sides s = 0, t = 0 and s + t = 1 */
 static void FacetTriangleShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])

@@ -1,5 +1,5 @@
 /* Pressures that follow the deformed normal and area: their load at a displacement, and how it changes */
-#include "src/elasticity/elasticityimpl.h"
+#include "facesimpl.h"
 #include <mesh.h>
 
 /* The deformed facet, and what -pressure n does to its nodes */

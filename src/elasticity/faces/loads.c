@@ -1,5 +1,5 @@
 /* Dead loads and lumped mass: integrals of the shape functions over the reference geometry */
-#include "src/elasticity/elasticityimpl.h"
+#include "facesimpl.h"
 #include <mesh.h>
 
 /* Integrals of the shape functions */

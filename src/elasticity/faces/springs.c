@@ -1,6 +1,6 @@
 /* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E =
    u^T S u/2 */
-#include "src/elasticity/elasticityimpl.h"
+#include "facesimpl.h"
 
 /*@
   ElasticitySetSprings - Sets the stiffness of springs that hold the unknowns to the ground and to one another

@@ -1,6 +1,6 @@
 /* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the
    energy */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 /*
    The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the

@@ -1,5 +1,5 @@
 /* Fields for people to look at: stress at the nodes and at the quadrature points, strain energy of the cells */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 /* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2
    makes */

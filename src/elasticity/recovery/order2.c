@@ -6,7 +6,7 @@
    their cells' vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that
    the samples do not determine are left out, as the square across one layer of cells.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 #define TERMS   10 /* 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
 #define SAMPLES 8

@@ -1,5 +1,5 @@
 /* Principal values of a stress */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 /* Takes the product of two axes to zero by a rotation in their plane */
 static void PrincipalRotate(PetscReal A[3][3], int p, int q)

@@ -8,7 +8,7 @@
    References:
    Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
 */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 /* Of the cells around a node, their places relative to it */
 typedef struct {

@@ -1,5 +1,5 @@
 /* Stress of the cells */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 static PetscReal StressVonMises(const PetscReal s[6])
 {

@@ -3,7 +3,7 @@
    their ends, as contact has them between its facets, and what lies inside stays straight. Edges where facets make a
    larger angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
 */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <stdlib.h>
 
 #define ARC_FEATURE 35.0 /* degrees; contact's default */

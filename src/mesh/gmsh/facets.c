@@ -1,5 +1,5 @@
 /* Quadrilaterals of a Gmsh file's cells, and triangles of tetrahedra, found by their corners */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <stdlib.h>
 
 /* Elements a slice; no more slices than these, for all elements are gone through for each */

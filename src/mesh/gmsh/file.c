@@ -1,5 +1,5 @@
 /* Bodies from Gmsh files: read on rank 0, cut out of its mesh volume by volume */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <petscbt.h>
 
 /* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k; a tetrahedron's are in order */

@@ -1,5 +1,5 @@
 /* Physical names of a Gmsh file, read on rank 0 */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Hexahedra of Gmsh with 8, 20 or 27 nodes as the 27 places of a quadratic cell; tetrahedra with 4 or 10 as its 10 */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 
 /* Where each of Gmsh's nodes stands: i + 3 j + 9 k. The corners, the middles of the edges, of the facets, the middle */
 static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25,

@@ -1,5 +1,5 @@
 /* Words and numbers of a Gmsh file, text or binary, the same blanks skipped as by PETSc's own reader */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 #include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>

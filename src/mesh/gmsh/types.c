@@ -1,5 +1,5 @@
 /* Elements of Gmsh files: those of first and second order, by Gmsh's number of their type */
-#include "src/mesh/meshimpl.h"
+#include "gmshimpl.h"
 
 static const GmshType types[20] = {[1] = {"segment", 1, 2, 2},
   [2]                                  = {"triangle", 2, 3, 3},

@@ -1,5 +1,5 @@
 /* Which facets bound the bodies */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 #include <petscsf.h>
 
 /*@

@@ -1,6 +1,6 @@
 /* Fields of one mesh at points of any others: each rank asks for its own, and looks at the cells of all, a block at a
    time. */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 #define EVALUATE_CELLS 1024 /* of a block */
 

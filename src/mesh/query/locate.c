@@ -3,7 +3,7 @@
    at those in the bins about it, and the point's place in the cell is where the cell's map takes it, linear or
    quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
 */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 /* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between
    facets */

@@ -1,5 +1,5 @@
 /* Lists of names, each allocated by itself */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 #include <string.h>
 
 PetscErrorCode NamesDestroy(PetscInt *n, char ***names)

@@ -3,7 +3,7 @@
    vertices; those of a body of order 2 also its edges, facets and cells: 27 a hexahedron, in the order i + 3 j + 9 k
    where vertices have i + 2 j + 4 k; of a tetrahedron its edges: 10.
 */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 #define MESH_PLACES "nodes" /* of the mesh: the nodes' places, where they are not its vertices alone */
 

@@ -1,5 +1,5 @@
 /* Where the probes of a scene are in its mesh */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 /* A point this far outside, as a part of the cell's size, is on the surface: facets are not where the curved surface
    is */

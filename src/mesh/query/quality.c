@@ -1,5 +1,5 @@
 /* Are the cells sound? */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 #include <petscdt.h>
 
 /* Gauss points of hexahedra, or the rule of tetrahedra */

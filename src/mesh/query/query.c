@@ -1,5 +1,5 @@
 /* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 /* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's
    so that its edges from the first are right-handed */

@@ -1,5 +1,5 @@
 /* Tetrahedra of 4 and of 10 nodes: the corners, then the middles of the edges, as VTK has them */
-#include "src/mesh/meshimpl.h"
+#include "queryimpl.h"
 
 const PetscInt MeshTetrahedronEnds[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3},
   {2, 3}};

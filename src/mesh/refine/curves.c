@@ -1,5 +1,5 @@
 /* Cells with quadratic edges and facets, of bodies whose mesh file has them: refined vertices lie on these */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 /* Coordinates of the places of a cell of so many corners */
 PetscInt MeshCurveSize(PetscInt ncorners)

@@ -2,7 +2,7 @@
    Vertices that hang in the middle of an edge or a side of a cell: they are where the mean of its 2 or 4 vertices is,
    and move as that does. None of these hangs itself.
 */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 #include <petscsf.h>
 
 #define MESH_HANGING "hanging" /* of the mesh: the matrix of the means, a row a node */

@@ -3,7 +3,7 @@
    edge in common differs by one refinement at most. A vertex in the middle of an edge or a side of a cell that is not
    refined hangs there.
 */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 #include <petsc/private/hashmapij.h>
 
 /* Vertices in the middle, by the two ends of an edge and by a diagonal of a side */

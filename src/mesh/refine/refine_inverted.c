@@ -3,7 +3,7 @@
    curve, which may turn a fine cell inside out. The coarser cells are refined then, until none of the finer ones
    loses more than a part of itself.
 */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 #define MEND_LEAST 0.25 /* of the smallest Jacobian that a cell has with all its vertices on the curve */
 

@@ -1,6 +1,6 @@
 /* Local refinement: of the mesh that uniform refinement made, on the rank that has it, a mesh of the cells as they
    are then, with its labels and curves */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 /* Which side of a cell a facet of it is: 2 d + end */
 static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscInt *side)

@@ -1,5 +1,5 @@
 /* Cells that are marked mesh after mesh: the same marks make the same meshes again, on any number of ranks */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 #define MESH_NUMBERS "cell numbers" /* of the mesh: of its cells, as the first rank had them */
 

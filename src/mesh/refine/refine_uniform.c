@@ -1,5 +1,5 @@
 /* Uniform refinement */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 PetscErrorCode MeshRefine(DM *dm, PetscInt levels)
 {

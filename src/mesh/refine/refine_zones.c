@@ -1,6 +1,6 @@
 /* Which cells a scene refines: those near a face, near both faces of a contact pair, or in a box, until they are as
    fine as it says */
-#include "src/mesh/meshimpl.h"
+#include "refineimpl.h"
 
 /* Where a zone is: boxes about the facets of up to two faces, and about all of each; a box of its own where there is
    no face */

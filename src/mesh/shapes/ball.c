@@ -1,5 +1,5 @@
 /* Octant of a ball: a core, the image of a cube, and three patches from the core to the sphere */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {

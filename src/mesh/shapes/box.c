@@ -1,5 +1,5 @@
 /* Boxes of hexahedra, aligned with the axes, equal or graded along each axis */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)
 {

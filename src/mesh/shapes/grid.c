@@ -1,5 +1,5 @@
 /* Level 0 grids made of blocks of cells, graded, and the limits of their numbers: what the shapes share */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 /* Both sides of a block that are normal to direction d */
 static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
@@ -122,5 +122,21 @@ PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal
     "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, "
     "but is %g",
     body->name, (double)grading);
+  PetscFunctionReturn(0);
+}
+
+/* Of this rank's grids, the first cell of each body in one mesh of all: tetrahedra come before hexahedra */
+PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
+{
+  PetscInt cell = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt ncorners = 4; ncorners <= 8; ncorners += 4) {
+    for (PetscInt b = 0; b < nbodies; ++b) {
+      if (meshes[b].ncorners != ncorners) continue;
+      first[b] = cell;
+      cell += meshes[b].grid.ncells;
+    }
+  }
   PetscFunctionReturn(0);
 }

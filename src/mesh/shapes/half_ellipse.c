@@ -5,7 +5,7 @@
    1]^2 for a quarter. Outside of it, with m = max(u, |v|), q = (u, v)/m lies on the core's outline and s = m - 1 goes
    from 0 there to 1 on the arc, where q is a place by arc length.
 */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 typedef struct {
   PetscInt core[2], ring, length; /* cells: of the core along depth and across one half, of the ring, along the axis */

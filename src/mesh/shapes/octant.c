@@ -1,5 +1,5 @@
 /* The O-grid of an octant: three patches around an optional core */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 typedef struct {
   PetscInt  n[3], layers, ncore, nsurface; /* vertices of the core, and of one layer outside of it */

@@ -1,5 +1,5 @@
 /* The table of shapes */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 PetscErrorCode ShapeGet(MPI_Comm comm, const SceneBody *body, const Shape **shape)
 {

@@ -1,7 +1,7 @@
 /* Octant of a shell between spheres that need not be concentric. The outer surface may be cut by a further sphere,
    the cap. Every surface is met by rays from the octant's corner, so that all points stay in their coordinate planes.
  */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 /* Distance from the corner to the sphere along a direction of the first octant; the corner is inside */
 static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere, const PetscReal direction[3])

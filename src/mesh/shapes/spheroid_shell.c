@@ -1,5 +1,5 @@
 /* Octant of a shell between two ellipsoids around its corner */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
   PetscInt64 *nvertices)

@@ -1,5 +1,5 @@
 /* Arc of a tube. Parameters: distance from the axis, angle about it, place along it */
-#include "src/mesh/meshimpl.h"
+#include "shapesimpl.h"
 
 static const char *const *ShapeFaces_TubeArc(PETSC_UNUSED const SceneBody *body)
 {

@@ -1,5 +1,5 @@
 /* The keys of a scene file: reading it, asking for keys, and what to say of those nobody asked for. */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Numbers as a scene file writes them */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <petscviewer.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Values of a scene file: text to numbers, lists and names. What does not parse is complained of and left as it was. */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <ctype.h>

@@ -3,7 +3,7 @@
 #ifndef REPEATED_H
 #define REPEATED_H
 
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 #include <yaml.h>
 
 /* A mapping or a list that is open */

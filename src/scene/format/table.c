@@ -1,5 +1,5 @@
 /* Load programs by expressions and by tables of times and values */
-#include "src/scene/sceneimpl.h"
+#include "formatimpl.h"
 
 static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
   PetscInt *n, PetscReal **values)

@@ -1,5 +1,5 @@
 /* bodies: a list of named bodies, each with its shape, mesh and material */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
 {

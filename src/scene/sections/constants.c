@@ -1,5 +1,5 @@
 /* Constants of a material: which ones its law has, read, viewed, described and checked */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
 /* contact: a list of named pairs of faces */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 /* true, false, or a length */
 static PetscErrorCode SceneReadInterference(SceneKeys keys, Scene scene, SceneContactPair *pair)

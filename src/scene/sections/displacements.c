@@ -1,5 +1,5 @@
 /* displacements: a list of named prescribed displacements */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 /* value: three entries, each a displacement or the word free */
 static PetscErrorCode SceneReadComponents(SceneKeys keys, SceneDisplacement *displacement)

@@ -1,5 +1,5 @@
 /* The faces that bodies have, and faces: a list of named ones that are cut out of them */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <mesh.h>
 #include <petscviewer.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* pressures and body_forces: lists of named loads */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 PetscErrorCode SceneReadPressures(SceneKeys keys, Scene scene)
 {

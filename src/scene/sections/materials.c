@@ -1,6 +1,6 @@
 /* Materials by name: of the scene's own list, and of a library, a file with such a list and the units that its
    numbers are in */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <options.h>
 
 static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)

@@ -1,5 +1,5 @@
 /* Rigid motions: rotations of faces, and displacements of rigid bodies */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 

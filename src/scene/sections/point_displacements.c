@@ -1,5 +1,5 @@
 /* Displacements at points and along edges of bodies */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 
 /* point, or from and to, of an elastic body: a name of its own stands for a face */

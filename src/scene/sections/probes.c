@@ -1,5 +1,5 @@
 /* probes: a list of named points and lines at which results are wanted */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 
 #define PROBE_MAX_POINTS 1000000

@@ -1,5 +1,5 @@
 /* load and ramps: the program of the load itself and of what follows a program of its own */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 /* Equal parts of a rise from 0 to 1 */
 static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
@@ -131,37 +131,5 @@ PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
   if (scene->displacement_bounds)
     scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
   scene->nsteps = nsteps;
-  PetscFunctionReturn(0);
-}
-
-/*@C
-   SceneGetFactor - Factor of a ramp at a time
-
-   Not Collective
-
-   Input Parameters:
-+  scene - the scene
-.  ramp  - index of the ramp; 0 is the load itself
--  time  - load step k, counted from 1, ends at time k; 0 is the start
-
-   Output Parameter:
-.  factor - linear between the ends of the load steps, 0 at time 0
-
-   Level: intermediate
-
-.seealso: `SceneLoad()`
-@*/
-PetscErrorCode SceneGetFactor(Scene scene, PetscInt ramp, PetscReal time, PetscReal *factor)
-{
-  const PetscReal *end  = scene->ramps[ramp].factor;
-  const PetscInt   step = PetscMin(scene->nsteps - 1, (PetscInt)PetscFloorReal(time)); /* before this end */
-
-  PetscFunctionBegin;
-  if (time >= (PetscReal)scene->nsteps) *factor = end[scene->nsteps - 1];
-  else {
-    const PetscReal from = step ? end[step - 1] : 0.0;
-
-    *factor = from + (time - (PetscReal)step) * (end[step] - from);
-  }
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 /* refinements: a list of places where cells are refined more often than elsewhere */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 

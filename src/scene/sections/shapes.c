@@ -1,6 +1,6 @@
 /* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
    {radius: 1} */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <stddef.h>
 #include <string.h>

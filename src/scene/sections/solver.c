@@ -3,7 +3,7 @@
    options file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked
    for in the end.
 */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 
 #define SOLVER_PREFIX "solver_"
 

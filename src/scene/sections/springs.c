@@ -1,5 +1,5 @@
 /* springs: those between faces and the ground, or other faces; weak_springs */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 

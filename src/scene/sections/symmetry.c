@@ -3,7 +3,7 @@
    built-in shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or
    with a vector as its normal. Symmetry planes become prescribed displacements, after those of the scene.
 */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <string.h>
 
 static const char *const axes[] = {"x", "y", "z", "Axis", "", NULL};

@@ -1,5 +1,5 @@
 /* temperatures: a list of named temperatures of bodies that expand */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 
 PetscErrorCode SceneReadTemperatures(SceneKeys keys, Scene scene)

@@ -1,5 +1,5 @@
 /* ties: a list of pairs of faces that are joined */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* tractions and forces: lists of named dead loads on faces */
-#include "src/scene/sceneimpl.h"
+#include "sectionsimpl.h"
 #include <petscviewer.h>
 
 /* Three numbers of <list>_<name>_<what>; given, or NULL where they are required: whether they are there */

@@ -1,0 +1,61 @@
+/*
+   Whether the PETSc that runs is one like that the plugin was compiled with. The loader takes any: a plugin of 64-bit
+   integers in a program of 32-bit ones finds every function it calls, and computes garbage. What the running
+   library's numbers are is what it writes where it stores one.
+*/
+#include "pc_amgf/amgfimpl.h"
+
+/* Room for a number of any PETSc: the largest is complex, in quadruple precision */
+typedef union {
+  PetscInt    integer;
+  PetscReal   real;
+  PetscScalar scalar;
+  _Alignas(32) unsigned char bytes[64];
+} LibraryNumber;
+
+/* A value that no byte of a zero has */
+static void LibraryMark(LibraryNumber *number)
+{
+  for (size_t i = 0; i < sizeof(number->bytes); i++) number->bytes[i] = 0xff;
+}
+
+/* The library has stored a zero: as many bytes as its type has */
+static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const LibraryNumber *number)
+{
+  size_t running = 0;
+
+  PetscFunctionBegin;
+  while (running < sizeof(number->bytes) && number->bytes[running] == 0) running++;
+  PetscCheck(running == compiled, PETSC_COMM_SELF, PETSC_ERR_LIB,
+    "libpetscamgf was compiled with a PETSc whose %s has %d bytes, but runs in one whose %s has %d: build it with the "
+    "program's PETSc",
+    type, (int)compiled, type, (int)running);
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFCheckLibrary_Private - an error unless integers, precision, scalars and release of the running PETSc are those
+  the plugin was compiled with
+*/
+PetscErrorCode PCAMGFCheckLibrary_Private(void)
+{
+  LibraryNumber number;
+  PetscInt      major, minor, subminor, release;
+
+  PetscFunctionBegin;
+  LibraryMark(&number);
+  PetscCall(PetscOptionsStringToInt("0", &number.integer));
+  PetscCall(LibraryCheckSize("PetscInt", sizeof(PetscInt), &number));
+  LibraryMark(&number);
+  PetscCall(PetscOptionsStringToReal("0", &number.real));
+  PetscCall(LibraryCheckSize("PetscReal", sizeof(PetscReal), &number));
+  LibraryMark(&number);
+  PetscCall(PetscOptionsStringToScalar("0", &number.scalar));
+  PetscCall(LibraryCheckSize("PetscScalar", sizeof(PetscScalar), &number));
+  PetscCall(PetscGetVersionNumber(&major, &minor, &subminor, &release));
+  PetscCheck(major == PETSC_VERSION_MAJOR && minor == PETSC_VERSION_MINOR, PETSC_COMM_SELF, PETSC_ERR_LIB,
+    "libpetscamgf was compiled with PETSc %d.%d, but runs in PETSc %" PetscInt_FMT ".%" PetscInt_FMT
+    ": build it with the program's PETSc",
+    PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, major, minor);
+  PetscFunctionReturn(0);
+}

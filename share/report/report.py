@@ -1,0 +1,232 @@
+"""Writes the page of a run: one HTML file that needs no other. `contact -report FILE.html` calls this.
+
+    report.py --check                                     says which module is missing; exit code 0 or 1
+    report.py FILE.html BASE SUMMARY.json SCENE.yaml COMMAND VERSIONS
+"""
+import base64
+import csv
+import datetime
+import html
+import importlib.util
+import io
+import json
+import os
+import shutil
+import sys
+import tempfile
+
+MODULES = {"numpy": "numpy", "matplotlib": "matplotlib", "h5py": "h5py", "vtkmodules": "vtk9"}  # Debian: python3-...
+END = {
+    0: "All load steps converged.",
+    2: "A load step did not converge.",
+    3: "A load step ended with an inconsistent contact gap.",
+    4: "The requested accuracy was not reached.",
+    5: "A signal ended the run.",
+    6: "Results could not be written.",
+}
+STYLE = """
+body { font: 15px/1.5 sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em; color: #222 }
+h1 { margin-bottom: 0 } h2 { border-bottom: 1px solid #ccc; margin-top: 2em }
+table { border-collapse: collapse; margin: 1em 0 } th, td { padding: .15em .7em; border-bottom: 1px solid #ddd }
+td { text-align: right; font-variant-numeric: tabular-nums } td:first-child, th:first-child { text-align: left }
+pre { background: #f5f5f5; padding: 1em; overflow-x: auto; font-size: 13px }
+img { max-width: 100% } .good { color: #176b2c } .bad { color: #a11 } figcaption { color: #555 }
+"""
+
+
+def check():
+    """Leaves with a sentence where something is missing"""
+    for module, package in MODULES.items():
+        if importlib.util.find_spec(module) is None:
+            sys.exit(f"Python at {sys.executable} has no module {module} (Debian: python3-{package})")
+    if not shutil.which("Xvfb") and not os.environ.get("DISPLAY"):
+        sys.exit("VTK needs an X server for pictures: install Xvfb (Debian: xvfb)")
+
+
+def text(value):
+    """A cell of a table: numbers with five digits"""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.5g}"
+    if isinstance(value, list):
+        return ", ".join(text(part) for part in value)
+    return html.escape(str(value))
+
+
+def table(headings, rows):
+    head = "".join(f"<th>{html.escape(heading)}</th>" for heading in headings)
+    body = "".join("<tr>" + "".join(f"<td>{text(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table>\n"
+
+
+def image(data, caption):
+    encoded = base64.b64encode(data).decode()
+    alt = html.escape(caption)
+    return f'<figure><img alt="{alt}" src="data:image/png;base64,{encoded}"><figcaption>{alt}</figcaption></figure>\n'
+
+
+def pictures(base, run):
+    """Stress, displacement and contact pressure of the last load step that is on disk"""
+    import draw
+
+    wanted = [("stress", "nodal_von_mises", []), ("displacement", "displacement", ["--scale", "auto"])]
+    if run["steps"][-1]["pairs"]:
+        wanted.append(("contact pressure", "contact_pressure", ["--contact-only"]))
+    for caption, field, options in wanted:
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "picture.png")
+            try:
+                draw.draw([base, file, "--field", field, *options])
+            except SystemExit as reason:
+                yield f"<p>There is no picture of the {caption}: {html.escape(str(reason.code))}.</p>\n"
+                continue
+            with open(file, "rb") as stream:
+                yield image(stream.read(), f"{caption[0].upper()}{caption[1:]}, last load step")
+
+
+def history(base):
+    """Curves over time of energy and work, of each pair's normal force, and of reactions; none for one load step"""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    if not os.path.exists(base + ".csv"):
+        return "<p>No load step was finished.</p>\n"
+    with open(base + ".csv", newline="", encoding="utf-8") as file:
+        heading, *lines = csv.reader(file)
+    columns = {name: [float(line[i]) for line in lines] for i, name in enumerate(heading)}
+    if len(lines) < 2:
+        return "<p>The run has one load step: there are no curves.</p>\n"
+    of_faces = [name for name in heading if name.count(".") == 2 and ".reaction_" in name]
+    reactions = sorted(of_faces, key=lambda name: -peak(columns[name]))
+    groups = {
+        "energy and work of the loads": ["energy", "work"],
+        "normal force of each contact pair": [name for name in heading if name.endswith(".normal_force")],
+        "largest reactions": [name for name in reactions if peak(columns[name]) > 0][:4],
+    }
+    groups = {title: names for title, names in groups.items() if names}
+    figure, axes = plt.subplots(len(groups), squeeze=False, sharex=True, figsize=(8, 2.6 * len(groups) + 0.6))
+    for axis, (title, names) in zip(axes.ravel(), groups.items()):
+        for name in names:
+            axis.plot(columns["time"], columns[name], ".-", label=name)
+        axis.set_title(title, fontsize="medium")
+        axis.legend(fontsize="small")
+        axis.grid(alpha=0.3)
+    axes[-1, 0].set_xlabel("time (load step k ends at time k)")
+    figure.tight_layout()
+    stream = io.BytesIO()
+    figure.savefig(stream, format="png", dpi=110)
+    return image(stream.getvalue(), "History of the run")
+
+
+def peak(values):
+    return max((abs(value) for value in values if value == value), default=0.0)
+
+
+def forces(step):
+    keys = ["force", "normal_force", "area", "pressure"]
+    heading = ["pair", "force on the nonmortar side (x, y, z)", "normal force", "area", "largest pressure"]
+    if any(pair["shear_force"] or pair["dissipated"] for pair in step["pairs"]):
+        keys += ["shear_force", "stick_area", "slip_area", "dissipated"]
+        heading += ["shear force", "stick area", "slip area", "dissipated"]
+    if step["pairs"]:
+        yield table(heading, [[pair["name"], *(pair[key] for key in keys)] for pair in step["pairs"]])
+    keys = ["name", "reaction", "moment"]
+    yield table(["face", "reaction (x, y, z)", "moment"], [[face[key] for key in keys] for face in step["faces"]])
+    keys = ["name", "contact", "reaction", "load", "balance"]
+    heading = ["body", "contact", "reaction", "load", "residual / forces"]
+    yield table(heading, [[body[key] for key in keys] for body in step["bodies"]])
+
+
+def accuracy(run, step):
+    mesh = step["error_estimate"]
+    rows = [["mesh (stress recovery)", None if mesh is None else mesh**2], ["solver", step["algebraic_error"]]]
+    yield table(["source", "estimated relative error in energy"], rows)
+    if mesh is not None:
+        yield table(["body", "part of the mesh's error, energy norm"], list(step["body_errors"].items()))
+    if run.get("accuracy"):
+        asked = run["accuracy"]
+        yield f"<p>Requested: {text(asked['target'])}. {html.escape(str(asked['end']))}</p>\n"
+        keys = [key for key in asked["levels"][0] if not isinstance(asked["levels"][0][key], (list, dict))]
+        yield table(keys, [[level[key] for key in keys] for level in asked["levels"]])
+
+
+def steps(run):
+    columns = {
+        "step": "step",
+        "load": "load factor",
+        "constraints": "contact rows",
+        "contact_updates": "contact updates",
+        "ip_iterations": "iterations",
+        "amg_applications": "AMG applications",
+        "cuts": "cuts",
+        "energy": "energy",
+        "equilibrium": "residual",
+        "gap_true": "smallest gap",
+        "reason": "result",
+    }
+    yield table(columns.values(), [[step[key] for key in columns] for step in run["steps"]])
+
+
+def time_and_memory(run):
+    total = run["time"]["total"]
+    phases = [(name.replace("_", " "), seconds) for name, seconds in run["time"].items()]
+    rows = [[name, seconds, 100 * seconds / total if total else None] for name, seconds in phases]
+    yield table(["phase", "time [s]", "share [%]"], rows)
+    memory = run["peak_memory_bytes"]
+    yield f"<p>Peak memory: {memory / 1e6:.0f} MB, {memory / 1e3 / max(run['dofs'], 1):.2f} kB an unknown.</p>\n"
+
+
+def page(base, run, scene, command, versions):
+    """The parts of the page in turn"""
+    good = run["exit_code"] == 0
+    last = run["steps"][-1] if run["steps"] else None
+    yield "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n</head>\n"
+    yield f"<body>\n<h1>{text(run['problem'])}</h1>\n"
+    verdict = END.get(run["exit_code"], "The run failed.")
+    yield f"<p class=\"{'good' if good else 'bad'}\"><b>{verdict}</b> {'' if good else text(run['reason'])}</p>\n"
+    ranks = "1 rank" if run["ranks"] == 1 else f"{run['ranks']} ranks"
+    units = f" Units: {text(run['units'])}." if run["units"] else ""
+    yield f"<p>{run['dofs']:,} unknowns, {ranks}, {run['time']['total']:.1f} s.{units} {datetime.date.today()}</p>\n"
+    yield "<h2>Warnings</h2>\n"
+    warnings = "".join(f"<li>{text(warning)}</li>" for warning in run["warnings"])
+    yield f"<ul>{warnings}</ul>\n" if warnings else "<p>None.</p>\n"
+    if last:
+        yield "<h2>Pictures</h2>\n"
+        yield from pictures(base, run)
+        yield "<h2>History</h2>\n" + history(base)
+        yield f"<h2>Forces, load step {last['step']}</h2>\n"
+        yield from forces(last)
+        yield f"<h2>Accuracy, load step {last['step']}</h2>\n"
+        yield from accuracy(run, last)
+        yield "<h2>Load steps</h2>\n"
+        yield from steps(run)
+    yield "<h2>Time and memory</h2>\n"
+    yield from time_and_memory(run)
+    with open(scene, encoding="utf-8", errors="replace") as file:
+        yield f"<h2>Scene</h2>\n<p><code>{html.escape(command)}</code></p>\n<pre>{html.escape(file.read())}</pre>\n"
+    yield f"<h2>Versions</h2>\n<pre>{html.escape(versions)}</pre>\n</body>\n</html>\n"
+
+
+def main():
+    if sys.argv[1:] == ["--check"]:
+        check()
+        return
+    file, base, summary, scene, command, versions = sys.argv[1:]
+    check()
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "plot"))
+    with open(summary, encoding="utf-8") as stream:
+        run = json.load(stream)
+    parts = "".join(page(base, run, scene, command, versions))
+    with open(file + ".part", "w", encoding="utf-8") as stream:
+        stream.write(parts)
+    os.replace(file + ".part", file)
+
+
+if __name__ == "__main__":
+    main()

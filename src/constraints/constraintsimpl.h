@@ -1,0 +1,113 @@
+/*
+   All that eliminates unknowns: prescribed displacements, symmetry planes, ties, hanging nodes, rigid bodies. Every
+   file builds on those before it.
+*/
+#ifndef CONSTRAINTSIMPL_H
+#define CONSTRAINTSIMPL_H
+
+#include "src/loads/loadsimpl.h"
+#include "src/report/reportimpl.h"
+
+/* motions.c: rigid motions of faces and bodies at the factors of the ramps; the first displacement of a face or body
+   leads the others */
+typedef struct {
+  PetscReal t[3], center[3]; /* [length] */
+  PetscReal turn[3][3];      /* rotation less identity */
+} RigidMotion;
+
+PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
+PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
+PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
+
+/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1
+   and their ramps */
+typedef struct {
+  PetscReal value;  /* [length]; of a motion 1 where it drives, else 0 */
+  PetscInt  ramp;   /* of a motion 0 */
+  PetscInt  motion; /* displacement of the scene that leads it; PETSC_DECIDE: none */
+} PrescribedValue;
+
+typedef struct {
+  Scene            scene;
+  Vec              x; /* places of the nodes, borrowed */
+  PetscInt         n;
+  PetscInt        *rows;
+  PrescribedValue *values;
+} Prescribed;
+
+PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, const VertexPlaces *, Prescribed *);
+PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
+PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
+PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
+
+/* Of rigid.c: a rigid body some of whose motions are free */
+typedef struct {
+  PetscInt  leader;        /* displacement of the scene */
+  PetscInt  n, motion[6];  /* those that are free: along, and about, the axes */
+  PetscInt  row[6];        /* global rows whose displacements carry them */
+  PetscReal inverse[6][6]; /* motions by the displacements of these rows; angles times size */
+  PetscReal size;          /* [length] */
+} RigidBody;
+
+typedef struct {
+  PetscInt   n;
+  RigidBody *bodies;
+  Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
+  Vec        elastic; /* 0 in the rows of these bodies, else 1 */
+  Vec given; /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows
+                [length] */
+  Vec held;  /* stiffness of the rows that carry motions, about the centre of proximal.c; else 0 [force/length] */
+} RigidBodies;
+
+/* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
+typedef struct {
+  Mat      C, K;    /* u = C x + o; stiffness of the bodies, K of the simulation being C^T K C */
+  Mat      hanging; /* that which hanging vertices have of C; NULL: there are none */
+  Mat      joined;  /* C = joined R, where forces drive rigid bodies; NULL: C = R */
+  Mat      elastic; /* C without the rows of such bodies, which have no stiffness; NULL: there are none */
+  Vec      o;       /* NULL: 0 [length] */
+  PetscInt n, *rows;
+  Vec      work;
+} Ties;
+
+/* What the files from here on work on: the bodies, and where their constraints are kept */
+typedef struct {
+  Bodies         bodies;
+  Prescribed    *prescribed;
+  const Springs *springs;
+  RigidBodies   *rigid;
+  Ties          *ties;
+  const Mat     *follows; /* slope of the pressures that follow their faces; a NULL one: there is none [force/length] */
+} Constraints;
+
+/* planes.c */
+PETSC_INTERN PetscErrorCode PlanesCreate(const Constraints *, const PetscBool prescribed[], Mat *C,
+  PetscBool follows[]);
+
+/* rigid.c */
+PETSC_INTERN PetscErrorCode RigidCreate(const Constraints *, const PetscBool prescribed[], PetscBool follows[]);
+PETSC_INTERN PetscErrorCode RigidMove(const Constraints *, PetscReal time, Vec o);
+PETSC_INTERN PetscErrorCode RigidAddStiffness(const Constraints *, Mat C, Vec diagonal, Mat stiffness);
+PETSC_INTERN PetscErrorCode RigidTest(const Constraints *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
+
+/* joints.c */
+PETSC_INTERN PetscErrorCode JointsExpand(const Constraints *, Mat all, const PetscInt tied[],
+  const PetscBool prescribed[], Mat *C, PetscBool follows[]);
+PETSC_INTERN PetscErrorCode JointsCreate(const Constraints *, const PetscBool prescribed[], Mat *C,
+  PetscBool follows[]);
+
+/* ties.c */
+PETSC_INTERN PetscErrorCode TiesCreate(const Constraints *);
+PETSC_INTERN PetscErrorCode TiesMove(const Constraints *, PetscReal time);
+PETSC_INTERN PetscErrorCode TiesCreateTangent(const Constraints *, Mat *);
+PETSC_INTERN PetscErrorCode TiesTangent(const Constraints *, Vec u, Mat);
+PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
+PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
+PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
+PETSC_INTERN PetscErrorCode TiesGetForces(const Constraints *, Vec force, Vec *ties, Vec *rigid);
+PETSC_INTERN PetscErrorCode TiesMeasure(const Constraints *, Vec forces, PetscReal bodies[]);
+PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
+
+#endif

@@ -1,0 +1,107 @@
+/* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at
+   every displacement; pairs of planes of order 1 cost nothing */
+#include "assemblyimpl.h"
+
+/* A surface stands off its facets by more than this part of an edge, or it is plane but for rounding in its file */
+#define CURVED 1e-6
+
+/* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a
+   part of the edges */
+static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
+{
+  PetscReal *normal;
+
+  PetscFunctionBegin;
+  *bulge = *curvature = 0.0;
+  PetscCall(PetscMalloc1(3 * ring->nnormals, &normal));
+  for (PetscInt i = 0; i < ring->nnormals; ++i) ContactRingNormal(ring, ring->at[i], &normal[3 * i]);
+  for (PetscInt f = 0; f < s->nfacets; ++f) {
+    const PetscReal *x = &s->x[12 * f];
+    PetscReal        a[3], size = 0.0;
+    ContactPatch     patch;
+
+    for (PetscInt i = 0; i < 12; ++i) s->patch[12 * f + i] = normal[3 * ring->normal[4 * f + i / 3] + i % 3];
+    ContactFacetAreaVector(x, a);
+    for (PetscInt c = 0; c < 3; ++c) size += PetscSqr(a[c]);
+    ContactPatchCreate(x, &s->patch[12 * f], &patch);
+    *bulge = PetscMax(*bulge, ContactPatchBulge(&patch));
+    if (size > 0.0) *curvature = PetscMax(*curvature, ContactPatchBulge(&patch) / PetscSqrtReal(PetscSqrtReal(size)));
+  }
+  PetscCall(PetscFree(normal));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Rings about both faces; taken away again where both are plane, and of order 1 */
+static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
+{
+  const PetscReal cosine     = PetscCosReal(contact->feature_angle * PETSC_PI / 180.0);
+  ContactSurface *surface[2] = {&pair->mortar, &pair->nonmortar};
+  ContactRing    *ring[2]    = {&pair->mortar_ring, &pair->nonmortar_ring};
+  PetscReal       largest[4] = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) {
+    ContactSurface undeformed = *surface[k];
+
+    undeformed.x = undeformed.reference;
+    PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
+    PetscCall(ContactRingCreate(contact->comm, u, cosine, surface[k], ring[k]));
+    PetscCall(PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->bend));
+    undeformed.patch = surface[k]->patch;
+    PetscCall(PatchSurface(ring[k], &undeformed, &largest[k], &largest[2 + k]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPIU_REAL, MPIU_MAX, contact->comm));
+  pair->bulge = largest[0] + largest[1];
+  for (PetscInt k = 0; k < 2; ++k)
+    surface[k]->patched =
+      (PetscBool)(pair->mortar.cut || pair->nonmortar.cut || PetscMax(largest[2], largest[3]) > CURVED);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SharpenPair(ContactPairData *pair)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactRingDestroy(&pair->mortar_ring));
+  PetscCall(ContactRingDestroy(&pair->nonmortar_ring));
+  PetscCall(PetscFree2(pair->mortar.patch, pair->mortar.bend));
+  PetscCall(PetscFree2(pair->nonmortar.patch, pair->nonmortar.bend));
+  pair->bulge          = 0.0;
+  pair->mortar.patched = pair->nonmortar.patched = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The smooth surfaces at a global displacement vector, of the surfaces already deformed; the first time,
+   finds out which pairs have any */
+PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
+{
+  PetscReal bulge, curvature;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData *pair = &contact->pairs[p];
+
+    if (!contact->smoothed && pair->smooth) {
+      PetscCall(SmoothPair(contact, u, pair));
+      if (!pair->mortar.patched) PetscCall(SharpenPair(pair));
+    }
+    if (!pair->mortar.patched) continue;
+    PetscCall(ContactRingDeform(u, &pair->mortar_ring));
+    PetscCall(ContactRingDeform(u, &pair->nonmortar_ring));
+    PetscCall(PatchSurface(&pair->mortar_ring, &pair->mortar, &bulge, &curvature));
+    PetscCall(PatchSurface(&pair->nonmortar_ring, &pair->nonmortar, &bulge, &curvature));
+  }
+  if (!contact->smoothed) PetscCall(ContactSmoothNormalsCreate(contact));
+  PetscCall(ContactSmoothNormalsUpdate(contact));
+  contact->smoothed = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Forgets which pairs are curved, and their smooth surfaces */
+PetscErrorCode ContactSmoothReset(Contact contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(SharpenPair(&contact->pairs[p]));
+  PetscCall(ContactSmoothNormalsDestroy(contact));
+  contact->smoothed = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}

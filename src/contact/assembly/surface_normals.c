@@ -1,0 +1,130 @@
+/* The normals of all smooth surfaces as functions of the displacement: their global numbers, and the matrix of their
+   derivatives */
+#include "assemblyimpl.h"
+
+/* The two surfaces of a pair and the rings about them */
+static void SmoothNormalsGetSides(ContactPairData *pair, ContactSurface *surface[2], ContactRing *ring[2])
+{
+  surface[0] = &pair->mortar;
+  surface[1] = &pair->nonmortar;
+  ring[0]    = &pair->mortar_ring;
+  ring[1]    = &pair->nonmortar_ring;
+}
+
+/* Collective. A rank's normals have numbers that follow one another, pair by pair and side by side */
+static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
+{
+  PetscInt n = 0, next;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    const ContactPairData *pair = &contact->pairs[p];
+
+    if (pair->mortar.patched) n += pair->mortar_ring.nnormals + pair->nonmortar_ring.nnormals;
+  }
+  contact->bends.nlocal = n;
+  PetscCallMPI(MPI_Scan(&n, &next, 1, MPIU_INT, MPI_SUM, contact->comm));
+  *first = next -= n;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactSurface *surface[2];
+    ContactRing    *ring[2];
+
+    SmoothNormalsGetSides(&contact->pairs[p], surface, ring);
+    for (PetscInt k = 0; k < 2 && surface[0]->patched; ++k) {
+      for (PetscInt i = 0; i < 4 * surface[k]->nfacets; ++i) surface[k]->bend[i] = next + ring[k]->normal[i];
+      next += ring[k]->nnormals;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Fills in the blocks of all normals, or only counts them; end[i]: where those of normal i of this rank
+   end */
+static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
+{
+  ContactNormalSlopes *blocks = &contact->bends.blocks;
+
+  PetscFunctionBegin;
+  blocks->n = 0;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactSurface *surface[2];
+    ContactRing    *ring[2];
+
+    SmoothNormalsGetSides(&contact->pairs[p], surface, ring);
+    for (PetscInt k = 0; k < 2 && surface[0]->patched; ++k) {
+      const PetscInt first = blocks->n;
+
+      for (PetscInt i = 0; i < ring[k]->nnormals; ++i) {
+        ContactRingNormalSlopes(ring[k], ring[k]->at[i], blocks);
+        if (end) *end++ = blocks->n;
+      }
+      for (PetscInt b = first; end && b < blocks->n; ++b) blocks->node[b] = ring[k]->global[blocks->node[b]];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. The pattern of the matrix, from blocks that know their nodes */
+static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, const PetscInt end[])
+{
+  ContactSmoothNormals *bends = &contact->bends;
+  PetscInt              n, *row, *column, normal = 0;
+  Vec                   u;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(9 * bends->blocks.n, &row, 9 * bends->blocks.n, &column));
+  for (PetscInt b = 0; b < bends->blocks.n; ++b) {
+    while (b >= end[normal]) ++normal;
+    for (PetscInt i = 0; i < 9; ++i) {
+      row[9 * b + i]    = 3 * (first + normal) + i / 3;
+      column[9 * b + i] = 3 * bends->blocks.node[b] + i % 3;
+    }
+  }
+  PetscCall(DMGetGlobalVector(contact->dm, &u));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(DMRestoreGlobalVector(contact->dm, &u));
+  PetscCall(MatCreate(contact->comm, &bends->slopes));
+  PetscCall(MatSetSizes(bends->slopes, 3 * bends->nlocal, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(bends->slopes, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(bends->slopes, 9 * bends->blocks.n, row, column));
+  PetscCall(PetscFree2(row, column));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Once it is known which pairs are smooth; nothing where none is */
+PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
+{
+  ContactSmoothNormals *bends = &contact->bends;
+  PetscInt              first = 0, total, *end;
+
+  PetscFunctionBegin;
+  PetscCall(SmoothNormalsNumber(contact, &first));
+  PetscCallMPI(MPI_Allreduce(&bends->nlocal, &total, 1, MPIU_INT, MPI_SUM, contact->comm));
+  if (!total) PetscFunctionReturn(0);
+  PetscCall(SmoothNormalsFill(contact, NULL));
+  PetscCall(PetscMalloc2(bends->blocks.n, &bends->blocks.node, 9 * bends->blocks.n, &bends->blocks.value));
+  PetscCall(PetscMalloc1(bends->nlocal, &end));
+  PetscCall(SmoothNormalsFill(contact, end));
+  PetscCall(SmoothNormalsPreallocate(contact, first, end));
+  PetscCall(PetscFree(end));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. At the displacement of the rings */
+PetscErrorCode ContactSmoothNormalsUpdate(Contact contact)
+{
+  PetscFunctionBegin;
+  if (!contact->bends.slopes) PetscFunctionReturn(0);
+  PetscCall(SmoothNormalsFill(contact, NULL));
+  PetscCall(MatSetValuesCOO(contact->bends.slopes, contact->bends.blocks.value, INSERT_VALUES));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactSmoothNormalsDestroy(Contact contact)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(contact->bends.blocks.node, contact->bends.blocks.value));
+  PetscCall(MatDestroy(&contact->bends.slopes));
+  contact->bends.nlocal = 0;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,30 @@
+/*
+   The formulations of the gap.
+*/
+#ifndef GAPSIMPL_H
+#define GAPSIMPL_H
+
+#include "src/contact/assembly/assemblyimpl.h"
+
+/*
+   mortar.c, node.c: formulations of the gap.
+
+   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation.c.
+*/
+typedef struct {
+  /* Grows box to hold all that may face this rank's part of pair p */
+  PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
+  /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
+  PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
+} ContactGapOps;
+PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode;
+
+typedef struct {
+  PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
+  PetscReal D[4][4]; /* int phi_A N1_B [length^2]; its rows sum to int phi_A */
+  PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
+} ContactIntegrals;
+PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
+  const PetscReal normals[12], ContactIntegrals *);
+
+#endif

@@ -1,0 +1,151 @@
+/* The point of a bilinear facet that is closest to a given point */
+#include "geometryimpl.h"
+
+#define CLOSEST_MAX_STEPS    50
+#define CLOSEST_MAX_HALVINGS 8
+
+/* The facet's points relative to the given one: r = c0 + c1 xi + c2 eta + c3 xi eta */
+typedef struct {
+  PetscReal c[4][3];
+} ClosestOffset;
+
+/* Squared distance */
+static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], PetscReal r[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) r[d] = o->c[0][d] + o->c[1][d] * xi[0] + (o->c[2][d] + o->c[3][d] * xi[0]) * xi[1];
+  return ContactDot(r, r);
+}
+
+/* Nine points in the facet: the one nearest is where Newton's method starts, for far from a warped facet there are
+   several minima */
+static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
+{
+  PetscReal best = PETSC_MAX_REAL;
+
+  for (PetscInt i = 0; i < 9; ++i) {
+    const PetscReal eta[2] = {2.0 / 3.0 * (PetscReal)(i % 3 - 1), 2.0 / 3.0 * (PetscReal)(i / 3 - 1)};
+    PetscReal       r[3];
+    const PetscReal f = ClosestEvaluate(o, eta, r);
+
+    if (f < best) {
+      best  = f;
+      xi[0] = eta[0];
+      xi[1] = eta[1];
+    }
+  }
+  return best;
+}
+
+/* Tangents at xi; the facet is straight along either of them */
+static void ClosestTangents(const ClosestOffset *o, const PetscReal xi[2], PetscReal t[2][3])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    t[0][d] = o->c[1][d] + o->c[3][d] * xi[1];
+    t[1][d] = o->c[2][d] + o->c[3][d] * xi[0];
+  }
+}
+
+/* Closest point along the straight line through xi on which one parameter varies */
+static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, PetscReal xi[2])
+{
+  PetscReal t[2][3], r[3], length;
+
+  ClosestTangents(o, xi, t);
+  length = ContactDot(t[parameter], t[parameter]);
+  (void)ClosestEvaluate(o, xi, r);
+  if (length > 0.0) xi[parameter] = PetscClipInterval(xi[parameter] - ContactDot(r, t[parameter]) / length, -1.0, 1.0);
+  return ClosestEvaluate(o, xi, r);
+}
+
+/* Newton's step where the Hessian is positive definite, else Gauss and Newton's; false where there is none */
+static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2], PetscReal step[2])
+{
+  PetscReal r[3], t[2][3], g[2], H[3], det, twist;
+
+  (void)ClosestEvaluate(o, xi, r);
+  ClosestTangents(o, xi, t);
+  for (PetscInt d = 0; d < 2; ++d) g[d] = ContactDot(r, t[d]);
+  H[0]  = ContactDot(t[0], t[0]);
+  H[1]  = ContactDot(t[0], t[1]);
+  H[2]  = ContactDot(t[1], t[1]);
+  twist = ContactDot(r, o->c[3]);
+  det   = H[0] * H[2] - PetscSqr(H[1] + twist);
+  if (det > 0.0) H[1] += twist;
+  else det = H[0] * H[2] - PetscSqr(H[1]);
+  if (!(det > 0.0)) return PETSC_FALSE;
+  step[0] = (H[1] * g[1] - H[2] * g[0]) / det;
+  step[1] = (H[1] * g[0] - H[0] * g[1]) / det;
+  return PETSC_TRUE;
+}
+
+/* Takes the step, cut off at the edges, or a shorter one; false where none leads nearer */
+static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2], PetscReal xi[2], PetscReal *f)
+{
+  PetscReal scale = 1.0;
+
+  for (PetscInt k = 0; k < CLOSEST_MAX_HALVINGS; ++k) {
+    PetscReal       r[3];
+    const PetscReal next[2] = {PetscClipInterval(xi[0] + scale * step[0], -1.0, 1.0),
+      PetscClipInterval(xi[1] + scale * step[1], -1.0, 1.0)};
+    const PetscReal fnext   = ClosestEvaluate(o, next, r);
+
+    if (fnext < *f) {
+      *f    = fnext;
+      xi[0] = next[0];
+      xi[1] = next[1];
+      return PETSC_TRUE;
+    }
+    scale *= 0.5;
+  }
+  return PETSC_FALSE;
+}
+
+/* The distance never grows: where Newton's method is stuck, at an edge, steps along each parameter take over */
+static PetscReal ClosestDescend(const ClosestOffset *o, PetscReal xi[2])
+{
+  PetscReal f = ClosestStart(o, xi);
+
+  for (PetscInt it = 0; it < CLOSEST_MAX_STEPS; ++it) {
+    const PetscReal old[2] = {xi[0], xi[1]};
+    PetscReal       step[2];
+
+    if (!ClosestNewtonStep(o, xi, step) || !ClosestShorten(o, step, xi, &f)) {
+      (void)ClosestAlongLine(o, 0, xi);
+      f = ClosestAlongLine(o, 1, xi);
+    }
+    if (PetscAbsReal(xi[0] - old[0]) + PetscAbsReal(xi[1] - old[1]) < 16.0 * PETSC_MACHINE_EPSILON) break;
+  }
+  return f;
+}
+
+/* Distance of p from the facet x; its closest point y has the parameters xi */
+PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3])
+{
+  ClosestOffset o;
+  PetscReal     best, r[3];
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscReal q[4] = {x[d] - p[d], x[3 + d] - p[d], x[6 + d] - p[d], x[9 + d] - p[d]};
+
+    o.c[0][d] = 0.25 * (q[0] + q[1] + q[2] + q[3]);
+    o.c[1][d] = 0.25 * (-q[0] + q[1] + q[2] - q[3]);
+    o.c[2][d] = 0.25 * (-q[0] - q[1] + q[2] + q[3]);
+    o.c[3][d] = 0.25 * (q[0] - q[1] + q[2] - q[3]);
+  }
+  best = ClosestDescend(&o, xi);
+  for (PetscInt e = 0; e < 4;
+       ++e) { /* the edges are straight: exact, and without them the descent could end in a corner */
+    const PetscReal end    = e % 2 ? 1.0 : -1.0;
+    PetscReal       eta[2] = {e < 2 ? 0.0 : end, e < 2 ? end : 0.0};
+    const PetscReal f      = ClosestAlongLine(&o, e / 2, eta);
+
+    if (f < best) {
+      best  = f;
+      xi[0] = eta[0];
+      xi[1] = eta[1];
+    }
+  }
+  (void)ClosestEvaluate(&o, xi, r);
+  for (PetscInt d = 0; d < 3; ++d) y[d] = p[d] + r[d];
+  return PetscSqrtReal(best);
+}

@@ -1,0 +1,18 @@
+/* PETSc's log events of contact */
+#include "geometryimpl.h"
+
+PetscLogEvent CONTACT_Search, CONTACT_Integrate;
+
+PetscErrorCode ContactEventsRegister(void)
+{
+  static PetscBool registered = PETSC_FALSE;
+  PetscClassId     classid;
+
+  PetscFunctionBegin;
+  if (registered) PetscFunctionReturn(0);
+  registered = PETSC_TRUE;
+  PetscCall(PetscClassIdRegister("Contact", &classid));
+  PetscCall(PetscLogEventRegister("ContactSearch", classid, &CONTACT_Search));
+  PetscCall(PetscLogEventRegister("ContactIntegr", classid, &CONTACT_Integrate));
+  PetscFunctionReturn(0);
+}

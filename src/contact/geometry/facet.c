@@ -1,0 +1,146 @@
+/* Bilinear facets: shape functions, area vector, lumped mass, and the inverse of a plane bilinear map */
+#include "geometryimpl.h"
+
+static const PetscReal corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+PetscBool ContactFacetIsTriangle(const PetscReal x[12])
+{
+  return (PetscBool)(x[6] == x[9] && x[7] == x[10] && x[8] == x[11]);
+}
+
+void ContactShape(const PetscReal xi[2], PetscReal phi[4])
+{
+  for (PetscInt a = 0; a < 4; ++a) phi[a] = 0.25 * (1.0 + corner[a][0] * xi[0]) * (1.0 + corner[a][1] * xi[1]);
+}
+
+/* Derivatives of the shape functions by both parameters */
+void ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    dphi[a][0] = 0.25 * corner[a][0] * (1.0 + corner[a][1] * xi[1]);
+    dphi[a][1] = 0.25 * corner[a][1] * (1.0 + corner[a][0] * xi[0]);
+  }
+}
+
+/* Integral of the unit normal over the facet: half the cross product of its diagonals, exact for warped facets too */
+void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
+{
+  PetscReal d1[3], d2[3];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    d1[c] = x[6 + c] - x[c];
+    d2[c] = x[9 + c] - x[3 + c];
+  }
+  ContactCross(d1, d2, a);
+  for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
+}
+
+/* by_x: derivatives by the vertices of moment times the facet's turn, the one that its normal and its first diagonal
+   make; the facet has an area */
+void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
+{
+  PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;
+
+  for (PetscInt k = 0; k < 2; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) d[k][c] = x[6 + 3 * k + c] - x[3 * k + c];
+  }
+  ContactCross(d[0], d[1], n);
+  size = ContactScaleToUnit(n); /* twice the area */
+  ContactCross(moment, n, q);
+  ContactCross(d[1], q, by_d[0]);
+  ContactCross(q, d[0], by_d[1]);
+  ContactCross(n, d[0], s);
+  spin = ContactDot(moment, n) / ContactDot(d[0], d[0]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    by_d[0][c] = by_d[0][c] / size + spin * s[c];
+    by_d[1][c] /= size;
+  }
+  for (PetscInt k = 0; k < 2; ++k) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      by_x[6 + 3 * k + c] = by_d[k][c];
+      by_x[3 * k + c]     = -by_d[k][c];
+    }
+  }
+}
+
+/* Derivatives of the facet's points by their parameters */
+void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) t1[c] = t2[c] = 0.0;
+  for (PetscInt a = 0; a < 4; ++a) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      t1[c] += 0.25 * corner[a][0] * (1.0 + corner[a][1] * xi[1]) * x[3 * a + c];
+      t2[c] += 0.25 * corner[a][1] * (1.0 + corner[a][0] * xi[0]) * x[3 * a + c];
+    }
+  }
+}
+
+/* mass[A] = integral of phi_A over the facet, exact for plane facets; returns the area */
+PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
+{
+  const PetscReal g    = 1.0 / PetscSqrtReal(3.0);
+  PetscReal       area = 0.0;
+
+  for (PetscInt a = 0; a < 4; ++a) mass[a] = 0.0;
+  for (PetscInt q = 0; q < 4; ++q) {
+    const PetscReal xi[2] = {g * corner[q][0], g * corner[q][1]};
+    PetscReal       phi[4], t1[3], t2[3], n[3], weight;
+
+    ContactShape(xi, phi);
+    ContactFacetTangents(x, xi, t1, t2);
+    ContactCross(t1, t2, n);
+    weight = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (PetscInt a = 0; a < 4; ++a) mass[a] += weight * phi[a];
+    area += weight;
+  }
+  return area;
+}
+
+/* Of a triangle, whose second parameter is 1 at its last vertex */
+static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
+{
+  const PetscReal e[2] = {q[1][0] - q[0][0], q[1][1] - q[0][1]}, f[2] = {q[2][0] - q[0][0], q[2][1] - q[0][1]},
+                  r[2] = {y[0] - q[0][0], y[1] - q[0][1]};
+  const PetscReal det = e[0] * f[1] - e[1] * f[0], second = det != 0.0 ? (r[0] * f[1] - r[1] * f[0]) / det : 0.0,
+                  third = det != 0.0 ? (e[0] * r[1] - e[1] * r[0]) / det : 0.0;
+
+  xi[0] = third < 1.0 ? PetscClipInterval(2.0 * second / (1.0 - third) - 1.0, -1.0, 1.0) : 0.0;
+  xi[1] = PetscClipInterval(2.0 * third - 1.0, -1.0, 1.0);
+}
+
+/*
+  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram, or of a
+  triangle. The points asked for lie in the quadrilateral up to rounding: the result is kept in [-1, 1]^2, also where
+  a degenerate map cannot be inverted.
+*/
+void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
+{
+  PetscReal c[4][2]; /* y = c0 + c1 xi + c2 eta + c3 xi eta */
+
+  if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
+    FacetInverseTriangle(q, y, xi);
+    return;
+  }
+  for (PetscInt d = 0; d < 2; ++d) {
+    c[0][d] = 0.25 * (q[0][d] + q[1][d] + q[2][d] + q[3][d]);
+    c[1][d] = 0.25 * (-q[0][d] + q[1][d] + q[2][d] - q[3][d]);
+    c[2][d] = 0.25 * (-q[0][d] - q[1][d] + q[2][d] + q[3][d]);
+    c[3][d] = 0.25 * (q[0][d] - q[1][d] + q[2][d] - q[3][d]);
+  }
+  xi[0] = xi[1] = 0.0;
+  for (PetscInt it = 0; it < 25; ++it) {
+    PetscReal r[2], J[2][2], det, step[2];
+
+    for (PetscInt d = 0; d < 2; ++d) {
+      r[d]    = y[d] - (c[0][d] + c[1][d] * xi[0] + c[2][d] * xi[1] + c[3][d] * xi[0] * xi[1]);
+      J[d][0] = c[1][d] + c[3][d] * xi[1];
+      J[d][1] = c[2][d] + c[3][d] * xi[0];
+    }
+    det = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+    if (det == 0.0) break;
+    step[0] = (J[1][1] * r[0] - J[0][1] * r[1]) / det;
+    step[1] = (J[0][0] * r[1] - J[1][0] * r[0]) / det;
+    for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -1.0, 1.0);
+    if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < 16.0 * PETSC_MACHINE_EPSILON) break;
+  }
+}

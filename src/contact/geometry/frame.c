@@ -1,0 +1,44 @@
+/* The plane a nonmortar facet is projected to: through its centre, along its mean normal */
+#include "geometryimpl.h"
+
+/* Mean outward unit normal; false where the facet has no area */
+PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
+{
+  PetscReal area;
+
+  ContactFacetAreaVector(x, n);
+  area = PetscSqrtReal(ContactDot(n, n));
+  if (!(area > 0.0)) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) n[c] /= area;
+  return PETSC_TRUE;
+}
+
+/* Axes 0 and 1 span the plane, axis 2 is the normal; false where the facet has no area */
+PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
+{
+  PetscReal *t = f->axis[0], *s = f->axis[1], *n = f->axis[2], length;
+
+  if (!ContactFacetNormal(x, n)) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) {
+    f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
+    t[c]         = x[6 + c] - x[c]; /* a diagonal: in the plane, for the normal is the diagonals' cross product */
+  }
+  length = PetscSqrtReal(ContactDot(t, t));
+  for (PetscInt c = 0; c < 3; ++c) t[c] /= length;
+  s[0] = n[1] * t[2] - n[2] * t[1];
+  s[1] = n[2] * t[0] - n[0] * t[2];
+  s[2] = n[0] * t[1] - n[1] * t[0];
+  return PETSC_TRUE;
+}
+
+/* Plane coordinates of a facet's vertices, and their heights above the plane */
+void ContactFrameProject(const ContactFrame *f, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscReal d[3] = {x[3 * a] - f->origin[0], x[3 * a + 1] - f->origin[1], x[3 * a + 2] - f->origin[2]};
+
+    p[a][0]   = ContactDot(d, f->axis[0]);
+    p[a][1]   = ContactDot(d, f->axis[1]);
+    height[a] = ContactDot(d, f->axis[2]);
+  }
+}

@@ -1,0 +1,95 @@
+/*
+   Facets, polygons and boxes: numbers in, numbers out, without a mesh.
+*/
+#ifndef GEOMETRYIMPL_H
+#define GEOMETRYIMPL_H
+
+#include <contact.h>
+#include <petsccompat.h>
+
+/* events.c: PETSc's log events of this folder */
+PETSC_INTERN PetscLogEvent  CONTACT_Search, CONTACT_Integrate;
+PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
+
+/* quadrature.c: a rule for triangles */
+#define CONTACT_RULE_DEGREE 8 /* at most */
+#define CONTACT_RULE_POINTS 16
+typedef struct {
+  PetscInt  degree, n;
+  PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
+} ContactRule;
+PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
+
+/* vector.c: products of vectors */
+PETSC_INTERN PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3]);
+PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
+PETSC_INTERN PetscReal ContactScaleToUnit(PetscReal n[3]);
+
+/*
+   facet.c: bilinear facets. A triangle has its last vertex twice: the bilinear functions of the two add up to the
+   linear one there, and those of the others are linear
+*/
+PETSC_INTERN PetscBool ContactFacetIsTriangle(const PetscReal x[12]);
+PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
+PETSC_INTERN void      ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2]);
+PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
+PETSC_INTERN void      ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12]);
+PETSC_INTERN void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
+PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
+PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+
+/* frame.c: the plane a nonmortar facet is projected to */
+typedef struct {
+  PetscReal origin[3], axis[3][3];
+} ContactFrame;
+PETSC_INTERN PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3]);
+PETSC_INTERN PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *);
+PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal x[12], PetscReal p[4][2],
+       PetscReal height[4]);
+
+/* clip.c: convex polygons in the plane, vertices counterclockwise */
+#define CONTACT_MAX_POLYGON 32
+PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
+PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip,
+   const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2]);
+
+/* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
+   frozen, the weighted gap is linear in the coordinates. */
+#define CONTACT_MAX_CORNERS (2 * CONTACT_MAX_POLYGON)
+#define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
+typedef struct {
+  PetscReal y[2];
+  PetscInt  line[2][2]; /* the two lines that meet there, each through two vertices: 0 to 3 of the nonmortar facet, 4 to
+                           7 of the mortar one */
+} ContactCorner;
+typedef struct {
+  PetscInt  corner[3];
+  PetscReal sign;
+} ContactTriangle;
+typedef struct {
+  PetscInt        ncorners, ntriangles;
+  ContactCorner   corner[CONTACT_MAX_CORNERS];
+  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each with as many points as the rule, in this order */
+
+  PetscInt  n;
+  PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
+  PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
+  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
+  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
+} ContactOverlap;
+typedef struct {
+  PetscReal cosine, overlap_drop, distance, depth;
+} ContactOverlapLimits;
+PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *,
+  const ContactRule *, ContactOverlap *);
+
+/* closest.c: the point of a facet closest to another point */
+PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2],
+  PetscReal y[3]);
+
+/* box.c: boxes along the coordinate axes, about facets and what they sweep */
+PETSC_INTERN void      ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
+PETSC_INTERN void      ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
+PETSC_INTERN PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+
+#endif

@@ -1,0 +1,173 @@
+/* Where two facets face each other: projection, clipping, quadrature points on both */
+#include "geometryimpl.h"
+
+/* Points of one line are off it by no more than this part of its length */
+#define ONE_LINE 1e-4
+
+static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt vertex[], PetscReal part[4][2])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt d = 0; d < 2; ++d) part[i][d] = p[vertex[i]][d];
+  }
+}
+
+/*
+  Convex parts of a quadrilateral, counterclockwise: itself, be it a triangle, or two triangles where a corner is
+  reflex. Where its edges cross (two reflex corners, if only by rounding) one of the triangles is clockwise: it is
+  reversed, and counts negatively.
+*/
+static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2],
+  PetscInt vertex[2][4], PetscReal sign[2])
+{
+  const PetscBool triangle = (PetscBool)(p[2][0] == p[3][0] && p[2][1] == p[3][1]);
+  PetscInt        reflex   = -1;
+
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscReal *l = p[(a + 3) % 4], *m = p[a], *r = p[(a + 1) % 4];
+
+    if (!triangle && (m[0] - l[0]) * (r[1] - m[1]) - (m[1] - l[1]) * (r[0] - m[0]) < 0.0) reflex = a;
+  }
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscInt first = reflex < 0 ? 0 : reflex + 2 * k;
+
+    size[k] = reflex < 0 && !triangle ? 4 : 3;
+    for (PetscInt i = 0; i < size[k]; ++i) vertex[k][i] = (first + i) % 4;
+    OverlapPutPart(p, size[k], vertex[k], part[k]);
+    sign[k] = ContactPolygonArea(size[k], (const PetscReal(*)[2])part[k]) < 0.0 ? -1.0 : 1.0;
+    if (sign[k] < 0.0) {
+      const PetscInt swap = vertex[k][1];
+
+      vertex[k][1] = vertex[k][2];
+      vertex[k][2] = swap;
+      OverlapPutPart(p, size[k], vertex[k], part[k]);
+    }
+  }
+  return reflex < 0 ? 1 : 2;
+}
+
+/* Whether y is on the line through a and b */
+static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], const PetscReal y[2])
+{
+  const PetscReal d[2] = {b[0] - a[0], b[1] - a[1]}, size = d[0] * d[0] + d[1] * d[1];
+
+  return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
+}
+
+/*
+  An edge that both facets have counts as the nonmortar one's: what lies on either side of it is then known from both
+  of its sides, and an edge between two mortar facets ends nothing. nmortar: edges of the mortar facet
+*/
+static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
+  const PetscReal part[4][2], PetscInt edge[][2])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt next = (i + 1) % n;
+
+    for (PetscInt e = 0; edge[i][1] < nmortar && e < size; ++e) {
+      const PetscReal *a = part[e], *b = part[(e + 1) % size];
+
+      if (OverlapIsOnLine(a, b, polygon[i]) && OverlapIsOnLine(a, b, polygon[next]))
+        edge[i][1] = edge[next][0] = nmortar + e;
+    }
+  }
+}
+
+/* Keeps the polygon's corners; vertex: of the nsize ones of the part of the nonmortar facet that it was clipped to */
+static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2],
+  PetscInt size, const PetscInt vertex[], ContactOverlap *o)
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    ContactCorner *corner = &o->corner[o->ncorners++];
+
+    for (PetscInt d = 0; d < 2; ++d) corner->y[d] = polygon[i][d];
+    for (PetscInt k = 0; k < 2; ++k) {
+      const PetscInt e = edge[i][k];
+
+      for (PetscInt v = 0; v < 2; ++v)
+        corner->line[k][v] = e < nmortar ? 4 + nmortar - 1 - (e + v) % nmortar : vertex[(e - nmortar + v) % size];
+    }
+  }
+}
+
+/* Adds the points of the fan of triangles about the polygon's first vertex, with this sign; first: of its corners */
+static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
+  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+{
+  for (PetscInt t = 1; t + 1 < n; ++t) {
+    const PetscReal tri[3][2] = {
+      {polygon[0][0], polygon[0][1]},
+      {polygon[t][0], polygon[t][1]},
+      {polygon[t + 1][0], polygon[t + 1][1]},
+    };
+    const PetscReal area = sign * ContactPolygonArea(3, tri);
+
+    o->area += area; /* one of no area, where corners coincide, too: its area changes with them */
+    o->triangle[o->ntriangles++] = (ContactTriangle){{first, first + t, first + t + 1}, sign};
+    for (PetscInt q = 0; q < rule->n; ++q) {
+      PetscReal y[2] = {0.0, 0.0};
+
+      for (PetscInt v = 0; v < 3; ++v) {
+        for (PetscInt d = 0; d < 2; ++d) y[d] += rule->barycentric[q][v] * tri[v][d];
+      }
+      o->weight[o->n] = area * rule->weight[q];
+      ContactInverseMap(p1, y, o->xi1[o->n]);
+      ContactInverseMap(p2, y, o->xi2[o->n]);
+      ++o->n;
+    }
+  }
+}
+
+/* Height of the mortar facet over the nonmortar one, averaged over the overlap */
+static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], const PetscReal h2[4])
+{
+  PetscReal gap = 0.0;
+
+  for (PetscInt q = 0; q < o->n; ++q) {
+    PetscReal phi1[4], phi2[4];
+
+    ContactShape(o->xi1[q], phi1);
+    ContactShape(o->xi2[q], phi2);
+    for (PetscInt a = 0; a < 4; ++a) gap += o->weight[q] * (phi2[a] * h2[a] - phi1[a] * h1[a]);
+  }
+  return gap / o->area;
+}
+
+/*
+  Projects both facets to the plane of the nonmortar facet x1 (through its centre, along its mean normal), clips, and
+  places the quadrature points. False where the facets do not face each other within the limits or hardly overlap.
+*/
+PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
+  const ContactRule *rule, ContactOverlap *o)
+{
+  const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
+  PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
+  PetscInt       size[2], vertex[2][4], nparts;
+  ContactFrame   frame;
+
+  o->n = o->ncorners = o->ntriangles = 0;
+  o->area                            = 0.0;
+  if (!ContactFrameCreate(x1, &frame) || !ContactFacetNormal(x2, n2)) return PETSC_FALSE;
+  if (n2[0] * frame.axis[2][0] + n2[1] * frame.axis[2][1] + n2[2] * frame.axis[2][2] > limits->cosine)
+    return PETSC_FALSE;
+  ContactFrameProject(&frame, x1, p1, h1);
+  ContactFrameProject(&frame, x2, p2, h2);
+  for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body: clockwise */
+    reversed[a][0] = p2[nmortar - 1 - a][0];
+    reversed[a][1] = p2[nmortar - 1 - a][1];
+  }
+  smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
+  nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
+  for (PetscInt k = 0; k < nparts; ++k) {
+    PetscReal      polygon[CONTACT_MAX_POLYGON][2];
+    PetscInt       edge[CONTACT_MAX_POLYGON][2];
+    const PetscInt n = ContactClip(nmortar, reversed, size[k], part[k], polygon, edge);
+
+    if (!n || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
+    OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
+    OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
+    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, o);
+  }
+  if (!(o->area > 0.0)) return PETSC_FALSE;
+  gap = OverlapMeanGap(o, h1, h2);
+  return (PetscBool)(gap <= limits->distance && gap >= -limits->depth);
+}

@@ -1,0 +1,72 @@
+/*
+   The faces of the bodies as facets: where they are, what holds them, where they end.
+*/
+#ifndef SURFACEIMPL_H
+#define SURFACEIMPL_H
+
+#include "src/contact/geometry/geometryimpl.h"
+#include <mesh.h>
+
+/* boundary.c: the facets on this rank that bound the bodies, undeformed */
+typedef struct {
+  MPI_Comm   comm;
+  PetscInt   nbodies, n, *body;
+  PetscReal *x; /* [12 n] corners, counterclockwise seen from outside [length] */
+} ContactBoundary;
+PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
+PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
+PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);
+
+/* surface.c: the facets of a named face that this rank owns */
+typedef struct {
+  char     *name;
+  PetscInt  nfacets;
+  PetscInt *vertex; /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside; the last of
+                       a triangle twice */
+  PetscInt *node;   /* [4 nfacets] global numbers of the vertices: a third of their first global row */
+  PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
+  PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
+  PetscInt  *bend;      /* [4 nfacets] their global numbers */
+  PetscBool  patched;   /* whether there are those; the same on all ranks */
+  PetscBool  cut;       /* whether the facets are pieces of the mesh's, of order 2; the same on all ranks */
+  PetscInt
+    *held; /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
+  PetscInt *border; /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a
+                       is; of a triangle bit 2: its last vertex */
+  PetscBool bordered;  /* whether border has been asked for; the same on all ranks */
+  PetscReal area;      /* of the whole undeformed face, all ranks [length^2] */
+  PetscInt  body;      /* behind the face */
+  PetscReal thickness; /* mean thickness of that body [length] */
+} ContactSurface;
+PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n,
+  const PetscInt vertex[], PetscReal vertexnormal[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
+
+/* trace.c: what the displacement of the surfaces' vertices differs from that of the mesh's nodes; NULL: nothing */
+typedef enum {
+  CONTACT_TRACE_FORWARD,
+  CONTACT_TRACE_INVERSE
+} ContactTraceType;
+PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[],
+  ContactTraceType, PetscInt components, Mat *correction);
+PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec local);
+PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian);
+PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
+
+/* border.c: fills in a surface's border; where it is held */
+#define CONTACT_FREE    -2 /* no displacement is prescribed */
+#define CONTACT_AT_REST -1 /* it is, as 0 */
+PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindMotions(DM, PetscInt n, const SceneDisplacement[], PetscInt axis,
+  const ContactSurface *, PetscInt motion[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindPlanes(DM, PetscInt n, const SceneDisplacement[], const ContactSurface *,
+  PetscInt plane[]);
+
+#endif

@@ -1,0 +1,35 @@
+/*
+   Recovered gradients: the error estimate, and fields to look at.
+*/
+#ifndef RECOVERYIMPL_H
+#define RECOVERYIMPL_H
+
+#include "src/elasticity/elements/elementsimpl.h"
+
+/* recovery.c: displacement gradient (9) and dilatation at the nodes */
+typedef struct {
+  PetscReal n; /* polynomials that were continued to a node on the surface */
+  PetscReal value[ELEMENT_STRAINS];
+} RecoveredNode;
+
+/* The corner nodes of a cell, whose polynomials are continued to its other nodes */
+static inline PetscInt RecoveryCorner(PetscInt nnodes, PetscInt corner)
+{
+  return nnodes == 27 ? 2 * (corner & 1) + 6 * (corner >> 1 & 1) + 18 * (corner >> 2) : corner;
+}
+
+PETSC_INTERN PetscErrorCode ElasticityCreateNodeSF(Elasticity, PetscSF *);
+PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *values);
+PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], RecoveredNode recovered[]);
+
+/* order2.c */
+PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
+  const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
+
+/* estimate.c: the error estimate, public, and the recovery of bodies that remain, as many as can be recovered
+   together */
+PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[],
+  PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
+
+#endif

@@ -1,0 +1,23 @@
+/* Quadratic terms of the energy about a centre of their own */
+#include "loadsimpl.h"
+
+/* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this
+   diagonal; force may be NULL */
+PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force)
+{
+  Vec         way, product;
+  PetscScalar twice;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(x, &way));
+  PetscCall(VecDuplicate(x, &product));
+  PetscCall(VecWAXPY(way, -1.0, centre, x));
+  if (A) PetscCall(MatMult(A, way, product));
+  else PetscCall(VecPointwiseMult(product, diagonal, way));
+  PetscCall(VecDot(product, way, &twice));
+  *energy += 0.5 * sign * PetscRealPart(twice);
+  if (force) PetscCall(VecAXPY(force, sign, product));
+  PetscCall(VecDestroy(&product));
+  PetscCall(VecDestroy(&way));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,73 @@
+/*
+   What loads the bodies: dead loads, temperatures, springs. Every file builds on those before it.
+*/
+#ifndef LOADSIMPL_H
+#define LOADSIMPL_H
+
+#include <model.h>
+#include <elasticity.h>
+#include <contact.h>
+#include "src/mesh/query/queryimpl.h"
+#include <petsccompat.h>
+
+/* The bodies as they are discretized */
+typedef struct {
+  MPI_Comm     comm;
+  Scene        scene;
+  DM           dm;
+  Elasticity   elasticity;
+  VertexPlaces places;
+  Vec          mass; /* lumped, of unit density: the layout of the unknowns, too [length^3] */
+} Bodies;
+
+/* loads.c: dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has
+   no load */
+typedef struct {
+  Scene scene;
+  Vec  *force; /* nramps [force] */
+} DeadLoads;
+
+PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
+PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
+PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
+
+/* temperatures.c: of bodies that expand, by ramp at factor 1, as linear functions in the cells; now: NULL where the
+   scene has none */
+typedef struct {
+  MPI_Comm    comm;
+  Scene       scene;
+  Elasticity  elasticity; /* borrowed */
+  PetscInt    n;
+  PetscReal **fits; /* nramps, NULL where nothing follows the ramp */
+  PetscReal  *now;
+} Temperatures;
+
+PETSC_INTERN PetscErrorCode TemperaturesCreate(Scene, Elasticity, MPI_Comm, Temperatures *);
+PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
+PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
+PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
+
+/* springs.c: stiffness a row; NULL where the scene has none */
+typedef struct {
+  Vec      stiffness, weak; /* of all springs to the ground; of the weak ones among them [force/length] */
+  Mat      between;         /* of those between two faces; NULL: there are none */
+  PetscInt nweak;           /* bodies that they hold */
+} Springs;
+
+/* springs.c */
+PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(const Bodies *, PetscReal volume[]);
+PETSC_INTERN PetscErrorCode SpringsMeasureStiffness(const Bodies *, PetscReal *largest);
+PETSC_INTERN PetscErrorCode SpringsOfSize(const Bodies *, PetscReal share, Vec stiffness);
+PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
+PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec u, PetscReal force[], PetscReal *weak);
+PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
+
+/* couplings.c */
+PETSC_INTERN PetscErrorCode CouplingsCreate(const Bodies *, Mat *stiffness);
+PETSC_INTERN PetscErrorCode CouplingsAddStiffness(const Springs *, Mat C, Mat stiffness);
+
+/* centred.c */
+PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy,
+  Vec force);
+
+#endif

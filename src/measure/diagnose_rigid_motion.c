@@ -1,0 +1,165 @@
+/* A body that nothing stops lets the energy fall without end: which one it is, and how it moves. */
+#include "measureimpl.h"
+
+/* Sums over the nodes of a body, at X, displaced by u; all of them reals, summed over ranks at once */
+typedef struct {
+  PetscReal n, place[3], shift[3];    /* number of nodes, sums of X and u */
+  PetscReal moment[3], inertia[3][3]; /* sums of X x u and of |X|^2 I - X X^T */
+  PetscReal square;                   /* sum of |u|^2 */
+} RigidFitSums;
+
+/* The rigid motion t + w x (X - center) nearest to the displacements */
+typedef struct {
+  PetscReal center[3], t[3], w[3];
+  PetscReal turned;   /* root of the mean square of w x (X - center) */
+  PetscReal residual; /* that of the displacements without the motion, over that of them all */
+} RigidFit;
+
+static void RigidFitCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
+{
+  for (PetscInt i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static PetscReal RigidFitDot(const PetscReal a[3], const PetscReal b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Collective. The body with the largest component of a displacement, and that */
+static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
+{
+  const PetscInt     nbodies = sim->scene->nbodies;
+  const PetscScalar *x;
+  PetscReal         *largest;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(nbodies, &largest));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(u, &x));
+  for (PetscInt i = 0; i < n; ++i)
+    largest[sim->places.body[i / 3]] = PetscMax(largest[sim->places.body[i / 3]], PetscAbsScalar(x[i]));
+  PetscCall(VecRestoreArrayRead(u, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  *farthest = 0;
+  for (PetscInt b = 1; b < nbodies; ++b) {
+    if (largest[b] > largest[*farthest]) *farthest = b;
+  }
+  *distance = largest[*farthest];
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFitSums *sums)
+{
+  const PetscScalar *x, *v;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(sums, sizeof(*sums)));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(u, &v));
+  for (PetscInt k = 0; k < n; k += 3) {
+    const PetscReal X[3] = {PetscRealPart(x[k]), PetscRealPart(x[k + 1]), PetscRealPart(x[k + 2])};
+    const PetscReal d[3] = {PetscRealPart(v[k]), PetscRealPart(v[k + 1]), PetscRealPart(v[k + 2])};
+    PetscReal       moment[3];
+
+    if (sim->places.body[k / 3] != body) continue;
+    RigidFitCross(X, d, moment);
+    sums->n++;
+    sums->square += RigidFitDot(d, d);
+    for (PetscInt i = 0; i < 3; ++i) {
+      sums->place[i] += X[i];
+      sums->shift[i] += d[i];
+      sums->moment[i] += moment[i];
+      for (PetscInt j = 0; j < 3; ++j) sums->inertia[i][j] += (i == j) * RigidFitDot(X, X) - X[i] * X[j];
+    }
+  }
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, sizeof(*sums) / sizeof(PetscReal), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Least squares: t is the mean displacement, w from the inertia and the moment about the center, by Cramer's rule */
+static void RigidFitFit(RigidFitSums *sums, RigidFit *flight)
+{
+  PetscReal moment[3], cross[3][3], turned, *inertia = &sums->inertia[0][0];
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    flight->center[i] = sums->place[i] / sums->n;
+    flight->t[i]      = sums->shift[i] / sums->n;
+  }
+  RigidFitCross(sums->place, flight->t, moment);
+  for (PetscInt i = 0; i < 3; ++i) moment[i] = sums->moment[i] - moment[i];
+  for (PetscInt k = 0; k < 9; ++k)
+    inertia[k] -= (k % 4 == 0) * RigidFitDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
+  for (PetscInt i = 0; i < 3; ++i) RigidFitCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
+  for (PetscInt i = 0; i < 3; ++i)
+    flight->w[i] = RigidFitDot(cross[i], moment) / RigidFitDot(sums->inertia[0], cross[0]);
+  turned         = RigidFitDot(flight->w, moment) / sums->n; /* w . inertia w */
+  flight->turned = PetscSqrtReal(PetscMax(turned, 0.0));
+  flight->residual =
+    PetscSqrtReal(PetscMax(1.0 - (turned + RigidFitDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
+}
+
+/* To a power of ten below the unit, and no minus zero: rounding is not printed */
+static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
+{
+  const PetscReal power = PetscPowReal(10.0, PetscFloorReal(PetscLog10Real(unit)));
+
+  return PetscFloorReal(x / power + 0.5) * power + 0.0;
+}
+
+/* How a body moves that nothing stops: it turns over, moves away, or neither as a whole */
+static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length)
+{
+  const PetscReal part = 0.1; /* of a motion, that counts */
+  PetscReal       axis[3], arm, radius, size;
+  RigidFit        flight;
+
+  PetscFunctionBegin;
+  RigidFitFit(sums, &flight);
+  if (PetscIsInfOrNanReal(flight.residual) || flight.residual > part) {
+    PetscCall(PetscSNPrintf(text, length, "moves the farthest, by %g", (double)distance));
+    PetscFunctionReturn(0);
+  }
+  size = PetscSqrtReal(RigidFitDot(flight.w, flight.w));
+  if (flight.turned > part * PetscSqrtReal(RigidFitDot(flight.t, flight.t))) {
+    radius = flight.turned / size;
+    RigidFitCross(flight.w, flight.t, axis);
+    for (PetscInt i = 0; i < 3; ++i) {
+      arm         = flight.center[i] + axis[i] / PetscSqr(size);
+      axis[i]     = RigidFitRound(arm, 1e-2 * radius);
+      flight.w[i] = RigidFitRound(flight.w[i] / size, 1e-2);
+    }
+    PetscCall(PetscSNPrintf(text, length, "turns over about the axis along (%g, %g, %g) through (%g, %g, %g)",
+      (double)flight.w[0], (double)flight.w[1], (double)flight.w[2], (double)axis[0], (double)axis[1],
+      (double)axis[2]));
+  } else {
+    size = PetscSqrtReal(RigidFitDot(flight.t, flight.t));
+    for (PetscInt i = 0; i < 3; ++i) flight.t[i] = RigidFitRound(flight.t[i] / size, 1e-2);
+    PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)flight.t[0], (double)flight.t[1],
+      (double)flight.t[2]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Adds to the reason of a step that failed so the body that moves the farthest at u */
+PetscErrorCode RigidMotionReport(Simulation sim, Vec u, StepReport *report)
+{
+  RigidFitSums sums;
+  PetscReal    distance = 0.0;
+  PetscInt     body     = 0;
+  char         motion[256], reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(RigidFitFindFarthest(sim, u, &body, &distance));
+  PetscCall(RigidFitSum(sim, u, body, &sums));
+  PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion)));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: nothing stops it", report->reason,
+    sim->scene->bodies[body].name, motion));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}

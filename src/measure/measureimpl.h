@@ -1,0 +1,56 @@
+/*
+   What is measured of a state, which it leaves as it is: forces, work, contact results, fields, errors. Every file
+   builds on those before it.
+*/
+#ifndef MEASUREIMPL_H
+#define MEASUREIMPL_H
+
+#include "src/state/stateimpl.h"
+
+/* friction_work.c */
+PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
+PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
+PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
+
+/* diagnose_rigid_motion.c */
+PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, StepReport *);
+
+/* forces.c: forces and moments by pair, by face and by body */
+PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding,
+  StepReport *);
+PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
+
+/* nodal_pressure.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry:
+   [area, force, gap x area] a vertex */
+PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
+
+/* contact_points.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
+
+/* work.c */
+PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
+PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
+
+/* results.c */
+PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
+PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation);
+PETSC_INTERN PetscErrorCode ResultsFree(Results *);
+
+/* probes.c */
+PETSC_INTERN PetscErrorCode ProbesCreate(DM, Scene, Probes *);
+PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
+
+/* measure.c */
+PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, Vec u, const ContactSolution *,
+  StepReport *);
+
+/* initial_contact.c */
+PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
+PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
+
+#endif

@@ -1,0 +1,165 @@
+/*
+   Numbers that follow time or the place: + - * / ^, brackets, functions, pi, and the variables t, time in load steps,
+   and s, the same from 0 to 1 over the whole program; or x, y, z. A sum is of products, a product of powers, a power
+   of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
+*/
+#include "modelimpl.h"
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#define EXPRESSION_DEPTH 100 /* of brackets and signs */
+
+static PetscReal ExpressionSum(Expression *);
+
+static void ExpressionFail(Expression *e)
+{
+  if (!e->wrong) e->wrong = e->at;
+}
+
+/* Takes this character, if it is next */
+static PetscBool ExpressionTake(Expression *e, char c)
+{
+  while (isspace((unsigned char)*e->at)) ++e->at;
+  if (*e->at != c || e->wrong) return PETSC_FALSE;
+  ++e->at;
+  return PETSC_TRUE;
+}
+
+static PetscReal ExpressionApply(const char name[], PetscReal x, PetscReal y)
+{
+  if (!strcmp(name, "sin")) return PetscSinReal(x);
+  if (!strcmp(name, "cos")) return PetscCosReal(x);
+  if (!strcmp(name, "tan")) return PetscTanReal(x);
+  if (!strcmp(name, "tanh")) return PetscTanhReal(x);
+  if (!strcmp(name, "exp")) return PetscExpReal(x);
+  if (!strcmp(name, "log")) return PetscLogReal(x);
+  if (!strcmp(name, "sqrt")) return PetscSqrtReal(x);
+  if (!strcmp(name, "abs")) return PetscAbsReal(x);
+  if (!strcmp(name, "min")) return PetscMin(x, y);
+  return PetscMax(x, y);
+}
+
+/* A variable, pi, or a function with its arguments */
+static PetscReal ExpressionWord(Expression *e)
+{
+  static const char *const functions[] = {"min", "max", "sin", "cos", "tan", "tanh", "exp", "log", "sqrt",
+    "abs"}; /* the first two of two arguments */
+  char                     word[8]     = "";
+  const char              *begin       = e->at;
+  size_t                   n           = 0;
+
+  while (isalpha((unsigned char)*e->at) && n + 1 < sizeof(word)) word[n++] = (char)tolower((unsigned char)*e->at++);
+  for (size_t v = 0; n == 1 && e->names[v]; ++v) {
+    if (word[0] == e->names[v]) return e->values[v];
+  }
+  if (!strcmp(word, "pi")) return PETSC_PI;
+  for (size_t f = 0; f < PETSC_STATIC_ARRAY_LENGTH(functions); ++f) {
+    PetscReal x, y = 0;
+
+    if (strcmp(word, functions[f])) continue;
+    if (!ExpressionTake(e, '(')) ExpressionFail(e);
+    x = ExpressionSum(e);
+    if (f < 2 && !ExpressionTake(e, ',')) ExpressionFail(e);
+    if (f < 2) y = ExpressionSum(e);
+    if (!ExpressionTake(e, ')')) ExpressionFail(e);
+    return ExpressionApply(word, x, y);
+  }
+  e->at = begin;
+  ExpressionFail(e);
+  return 0;
+}
+
+static PetscReal ExpressionValue(Expression *e)
+{
+  PetscReal value = 0;
+  char     *end;
+
+  if (ExpressionTake(e, '(')) {
+    value = ExpressionSum(e);
+    if (!ExpressionTake(e, ')')) ExpressionFail(e);
+    return value;
+  }
+  if (isalpha((unsigned char)*e->at)) return ExpressionWord(e);
+  if (!isdigit((unsigned char)*e->at) && *e->at != '.') ExpressionFail(e);
+  if (e->wrong) return 0;
+  value = (PetscReal)strtod(e->at, &end);
+  if (end == e->at) ExpressionFail(e);
+  e->at = end;
+  return value;
+}
+
+static PetscReal ExpressionPower(Expression *e)
+{
+  PetscReal value = 0;
+
+  if (++e->depth > EXPRESSION_DEPTH) ExpressionFail(e);
+  if (e->wrong) return 0;
+  if (ExpressionTake(e, '-')) value = -ExpressionPower(e);
+  else {
+    value = ExpressionValue(e);
+    if (ExpressionTake(e, '^')) value = PetscPowReal(value, ExpressionPower(e));
+  }
+  --e->depth;
+  return value;
+}
+
+static PetscReal ExpressionProduct(Expression *e)
+{
+  PetscReal value = ExpressionPower(e);
+
+  while (!e->wrong) {
+    if (ExpressionTake(e, '*')) value *= ExpressionPower(e);
+    else if (ExpressionTake(e, '/')) value /= ExpressionPower(e);
+    else break;
+  }
+  return value;
+}
+
+static PetscReal ExpressionSum(Expression *e)
+{
+  PetscReal value = ExpressionProduct(e);
+
+  while (!e->wrong) {
+    if (ExpressionTake(e, '+')) value += ExpressionProduct(e);
+    else if (ExpressionTake(e, '-')) value -= ExpressionProduct(e);
+    else break;
+  }
+  return value;
+}
+
+/* The whole text; e->wrong tells whether it makes sense */
+PetscReal ExpressionEvaluate(Expression *e)
+{
+  const PetscReal value = ExpressionSum(e);
+
+  while (!e->wrong && isspace((unsigned char)*e->at)) ++e->at;
+  if (!e->wrong && *e->at) ExpressionFail(e);
+  return value;
+}
+
+/*@C
+   SceneEvaluatePlace - Evaluates an expression of the place
+
+   Not Collective
+
+   Input Parameters:
++  expression - the text, of x, y, z, as a scene that was loaded has it
+-  x          - the place [length]
+
+   Output Parameter:
+.  value - its value, which may be not finite
+
+   Level: developer
+
+.seealso: `SceneLoad()`
+@*/
+PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
+{
+  Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};
+
+  PetscFunctionBegin;
+  *value = ExpressionEvaluate(&e);
+  PetscCheck(!e.wrong, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The expression \"%s\" makes no sense", expression);
+  PetscFunctionReturn(0);
+}

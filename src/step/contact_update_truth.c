@@ -1,0 +1,96 @@
+/* How far a linearization of contact is from that at the state which was found with it, beside the gap. */
+#include "stepimpl.h"
+
+/* What of the normals' turning a gap counts for: the forces stand askew by a hundred times the relative change of the
+   gap at most */
+static const PetscReal askew = 1e-2;
+
+/*
+   How far normals have turned: of each pair the forces that its pressures stand askew by, over those forces, and the
+   largest of these. row: of the rows of sim->linearization in that at the state
+*/
+static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
+{
+  ContactLinearization solved = sim->linearization;
+  const PetscInt       npairs = sim->scene->npairs;
+  const PetscScalar   *mass, *z;
+  PetscReal           *sums;
+
+  PetscFunctionBegin;
+  *turn = 0.0;
+  PetscCall(PetscCalloc1(2 * npairs, &sums));
+  PetscCall(VecGetArrayRead(solved->mass, &mass));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  for (PetscInt r = 0; r < solved->nlocal; ++r) {
+    const PetscReal force  = PetscRealPart(z[r]) * PetscRealPart(mass[r]);
+    PetscReal       square = 0.0;
+
+    if (row[r] < 0) continue;
+    for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(at_u->normal[3 * row[r] + c] - solved->normal[3 * r + c]);
+    sums[2 * solved->pair[r]] += force * PetscSqrtReal(square);
+    sums[2 * solved->pair[r] + 1] += force;
+  }
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscCall(VecRestoreArrayRead(solved->mass, &mass));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt p = 0; p < npairs; ++p) {
+    if (sums[2 * p + 1] > 0.0) *turn = PetscMax(*turn, sums[2 * p] / sums[2 * p + 1]);
+  }
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/* The largest difference of the slip from the last state to u along the tangents there and that of the solution */
+static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], PetscReal *change)
+{
+  ContactLinearization solved = sim->linearization;
+  const PetscScalar   *s, *a;
+  PetscReal            worst = 0.0;
+  Vec                  way, slip;
+
+  PetscFunctionBegin;
+  *change = 0.0;
+  if (!sol->slip) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecWAXPY(way, -1.0, sim->path.u, u));
+  PetscCall(MatCreateVecs(at_u->slip, NULL, &slip));
+  PetscCall(MatMult(at_u->slip, way, slip));
+  PetscCall(VecGetArrayRead(slip, &s));
+  PetscCall(VecGetArrayRead(sol->slip, &a));
+  for (PetscInt r = 0; r < solved->nlocal; ++r) {
+    const PetscReal *t0 = &solved->tangent[6 * r], *t1 = &at_u->tangent[6 * row[r]];
+    PetscReal        square = 0.0;
+
+    if (row[r] < 0) continue;
+    for (PetscInt c = 0; c < 3; ++c)
+      square += PetscSqr(PetscRealPart(
+        s[2 * row[r]] * t1[c] + s[2 * row[r] + 1] * t1[3 + c] - a[2 * r] * t0[c] - a[2 * r + 1] * t0[3 + c]));
+    worst = PetscMax(worst, PetscSqrtReal(square));
+  }
+  PetscCall(VecRestoreArrayRead(sol->slip, &a));
+  PetscCall(VecRestoreArrayRead(slip, &s));
+  PetscCall(VecDestroy(&slip));
+  PetscCall(VecDestroy(&way));
+  PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
+   normals, the change of the slip, and untruth, which all three are worth as changes of the gap */
+PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
+  StepReport *report)
+{
+  PetscReal size;
+  PetscInt *row;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  PetscCall(ContactHistoryFollowRows(&sim->history, sim->linearization, at_u, &row));
+  PetscCall(ContactUpdateTruthMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
+  PetscCall(ContactUpdateTruthMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
+  PetscCall(PetscFree(row));
+  report->untruth = PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
+  PetscFunctionReturn(0);
+}

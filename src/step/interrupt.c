@@ -1,0 +1,79 @@
+/* SIGINT, SIGTERM and SIGUSR1 ask for an end after the Newton step that is under way. */
+#include "stepimpl.h"
+#include <signal.h>
+
+static volatile sig_atomic_t caught = 0;
+
+static void InterruptHandle(int sig)
+{
+  caught = sig;
+  signal(sig, SIG_DFL);
+}
+
+/*@C
+   SimulationCatchSignals - From now on SIGINT, SIGTERM and SIGUSR1 end a simulation after the Newton step under way,
+   with the state of the last load step that converged
+
+   Not Collective
+
+   Level: intermediate
+
+   Notes:
+   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves
+   them alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
+
+   A signal ends every simulation of the process until this function is called again.
+
+.seealso: `SimulationStep()`
+@*/
+PetscErrorCode SimulationCatchSignals(void)
+{
+  static const int signals[] = {SIGINT, SIGTERM, SIGUSR1};
+
+  PetscFunctionBegin;
+  caught = 0;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(signals); ++i)
+    PetscCheck(signal(signals[i], InterruptHandle) != SIG_ERR, PETSC_COMM_SELF, PETSC_ERR_SYS,
+      "signal() failed for signal %d", signals[i]);
+  PetscFunctionReturn(0);
+}
+
+/* Collective; once any rank has caught a signal all ranks know */
+PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
+{
+  int any = (int)caught;
+
+  PetscFunctionBegin;
+  if (!sim->interrupted) {
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, sim->comm));
+    sim->interrupted = any;
+  }
+  *stop = sim->interrupted ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InterruptMonitor(Tao tao, void *ctx)
+{
+  PetscBool          stop;
+  TaoConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  if (reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
+  PetscCall(InterruptTest((Simulation)ctx, &stop));
+  if (stop) PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InterruptReport(Simulation sim, StepReport *report)
+{
+  char reason[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s",
+    sim->interrupted == SIGINT    ? "SIGINT"
+    : sim->interrupted == SIGTERM ? "SIGTERM"
+                                  : "SIGUSR1"));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}

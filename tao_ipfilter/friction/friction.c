@@ -1,0 +1,64 @@
+/* The laws of norm terms as the subspace asks for them. */
+#include "frictionimpl.h"
+
+struct _p_IPLaws {
+  IPTermSet set;
+};
+
+static PetscErrorCode LawsDestroy(IPLaws *laws)
+{
+  PetscFunctionBegin;
+  if (*laws) PetscCall(IPTermLawsDestroy(&(*laws)->set));
+  PetscCall(PetscFree(*laws));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *laws)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(laws));
+  PetscCall(IPTermLawsCreate(m, n, kmax, K, R, &(*laws)->set));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LawsGetData(IPLaws laws, IPLawsData *data)
+{
+  PetscFunctionBegin;
+  data->limit       = laws->set.limit;
+  data->coefficient = laws->set.coefficient;
+  data->dead        = laws->set.dead;
+  data->closed      = laws->set.closed;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LawsRestart(IPLaws laws)
+{
+  PetscFunctionBegin;
+  laws->set.listed = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LawsForget(IPLaws laws)
+{
+  PetscFunctionBegin;
+  laws->set.system.k = 0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LawsSolve(IPLaws laws, const IPReducedSystem *s, PetscInt *steps, PetscInt *nactive,
+  PetscBool *solved)
+{
+  PetscFunctionBegin;
+  PetscCall(IPTermSetSolve(&laws->set, s, steps, solved));
+  *nactive = laws->set.na;
+  PetscFunctionReturn(0);
+}
+
+const IPLawsOps IPLawsFriction = {
+  .create  = LawsCreate,
+  .getdata = LawsGetData,
+  .restart = LawsRestart,
+  .forget  = LawsForget,
+  .solve   = LawsSolve,
+  .destroy = LawsDestroy,
+};

@@ -1,0 +1,94 @@
+"""Where the work goes: blocks that turn with what grips them, a pin pressed into a hub, a die that slides over a seam.
+
+python3 friction_energy.py scenes writes the scenes; python3 friction_energy.py judges the runs that friction_energy.sh has made.
+"""
+import math
+import sys
+
+from summaries import load, say, within
+
+# Two rigid plates overlap a block's ends and turn about its middle, a block between them with them
+GRIP = """problem: grip
+bodies:
+  - low: {{lower: [-1, -1, -1.5], upper: [1, 1, -0.48], cells: [2, 2, 1], material: rigid}}
+  - block: {{lower: [-0.5, -0.5, -0.5], upper: [0.5, 0.5, 0.5], cells: [3, 3, 3], material: neohookean, young: 10, poisson: 0.3}}
+  - top: {{lower: [-1, -1, 0.48], upper: [1, 1, 1.5], cells: [2, 2, 1], material: rigid}}
+displacements:
+  - below: {{body: low, value: [0, 0, 0], rotation: [0, 90, 0], center: [0, 0, 0], ramp: turn}}
+  - above: {{body: top, value: [0, 0, 0], rotation: [0, 90, 0], center: [0, 0, 0], ramp: turn}}
+contact:
+  - foot: {{mortar: low.zmax, nonmortar: block.zmin, {law}, interference: true}}
+  - head: {{mortar: top.zmin, nonmortar: block.zmax, {law}, interference: true}}
+load: {{factors: [1, 1, 1]}}
+ramps:
+  - turn: {{factors: [0, 0.5, 1]}}
+"""
+PIN = """problem: pin
+bodies:
+  - hub: {shape: tube_arc, axis: z, radii: [10, 20], angles: [0, 90], extent: [0, 10], cells: [3, 10, 5], young: 200000, poisson: 0.3}
+  - pin: {shape: tube_arc, axis: z, radii: [5, 10.01], angles: [0, 90], extent: [8, 20], cells: [3, 8, 6], young: 200000, poisson: 0.3}
+displacements:
+  - base: {face: hub.lmin, value: [free, free, 0]}
+  - push: {face: pin.lmax, value: [free, free, -3.6]}
+symmetry: [hub.amin, hub.amax, pin.amin, pin.amax]
+contact:
+  - fit: {mortar: hub.inner, nonmortar: pin.outer, friction: 0.12, interference: true}
+load: {steps: 6}
+"""
+SEAM = """problem: seam
+bodies:
+  - left: {lower: [-2, 0, -0.5], upper: [0, 1, 0], cells: [8, 3, 2], young: 1e4, poisson: 0.3}
+  - right: {lower: [0, 0, -0.5], upper: [2, 1, 0], cells: [7, 3, 2], young: 1e4, poisson: 0.3}
+  - die: {lower: [-1.2, 0.1, 0], upper: [-0.2, 0.9, 0.5], cells: [5, 3, 2], young: 1e5, poisson: 0.3}
+displacements:
+  - left: {face: left.zmin, value: [0, 0, 0]}
+  - right: {face: right.zmin, value: [0, 0, 0]}
+  - press: {face: die.zmax, value: [free, free, -0.005]}
+  - shift: {face: die.zmax, value: [1.3, 0, free], ramp: across}
+contact:
+  - one: {mortar: left.zmax, nonmortar: die.zmin, friction: 0.3}
+  - two: {mortar: right.zmax, nonmortar: die.zmin, friction: 0.3}
+load: {factors: [1, 1, 1, 1, 1, 1, 1, 1]}
+ramps:
+  - across: {factors: [0, 0.14, 0.28, 0.42, 0.56, 0.7, 0.84, 1]}
+"""
+SWAPPED = SEAM
+for side in "left", "right":
+    SWAPPED = SWAPPED.replace(f"mortar: {side}.zmax, nonmortar: die.zmin", f"mortar: die.zmin, nonmortar: {side}.zmax")
+SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED}
+
+
+def parts(name):
+    """Of every load step, beside its report: work, what is stored, what friction took, and what else contact took"""
+    before = dict.fromkeys(("work", "energy", "dissipated", "normal_work"), 0.0)
+    for step in load(name)["steps"]:
+        yield step, {key: step[key] - value for key, value in before.items()}
+        before = {key: step[key] for key in before}
+
+
+if sys.argv[1:] == ["scenes"]:
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+    for name in "sticks", "rubs":
+        steps = load(name)["steps"]
+        first = steps[0]["energy"]
+        for step in steps[1:]:
+            pair, title = step["pairs"][0], "%s, turned by %d degrees: " % (name, 45 * (step["step"] - 1))
+            normal = abs(steps[0]["pairs"][0]["force"][2])
+            angle = math.radians(45 * (step["step"] - 1))
+            turned = abs(pair["force"][0] - normal * math.sin(angle)) + abs(pair["force"][2] - normal * math.cos(angle))
+            say(title + "the force turns with the plates", turned < 1e-5 * normal, pair["force"])
+            say(title + "all of it is normal force, and the sizes of shear are as before", within(pair["normal_force"], normal, 1e-5) and within(pair["shear_force"], steps[0]["pairs"][0]["shear_force"], 1e-4), pair)
+            say(title + "no energy is lost", within(step["energy"], first, 1e-5) and abs(step["dissipated"]) < 1e-6 * first and abs(step["work"]) < 1e-4 * first, (step["energy"], first, step["work"]))
+    for name in "pin", "seam", "swapped":
+        run = load(name)
+        say(f"{name}: converged", run["converged"] and not run["warnings"], (run["reason"], run["warnings"]))
+        steps = list(parts(name))[1:]  # at first overlaps are pressed out, by no work of loads
+        say(f"{name}: in every step work is stored or dissipated, to 1 %", all(within(part["energy"] + part["dissipated"], part["work"], 0.01) for _, part in steps), steps)
+        say(f"{name}: with what normal forces do, to 1e-8", all(within(part["energy"] + part["dissipated"] + part["normal_work"], part["work"], 1e-8) and step["imbalance"] < 1e-8 for step, part in steps), steps)
+    whole, restarted = (load(name)["steps"][-1] for name in ("pin", "pin_restarted"))
+    say("pin: restarted, dissipated", within(restarted["dissipated"], whole["dissipated"], 1e-6), (restarted["dissipated"], whole["dissipated"]))
+    one, three = (load(name)["steps"][-1] for name in ("pin", "pin_3"))
+    say("pin: 3 ranks as 1", within(three["dissipated"], one["dissipated"], 1e-6), (three["dissipated"], one["dissipated"]))
