@@ -79,11 +79,11 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 
    The default AMG is that of hypre's BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at
    most 4 entries a row, no aggressive level, one sweep of Gauss-Seidel, forward down and backward up, strength
-   threshold 0.25, or 0.7 for block size 3. With real scalars and an operator of type AIJ, BAIJ or SBAIJ its cycle is that of
-   `PCBLOCKAMG`, in single precision. It is hypre's own, in double precision and with l1 Gauss-Seidel, with other types;
-   where positive diagonal entries of coupled rows differ by a factor of more than 1e7 (`bfb`: 1e4), as single precision
-   does not hold such operators; under `-amgf_amg_pc_type hypre`; and where an option of hypre's own cycle is given, say
-   `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
+   threshold 0.25, or 0.7 for block size 3. With real scalars and an operator of type AIJ, BAIJ or SBAIJ its cycle is
+   that of `PCBLOCKAMG`, in single precision. It is hypre's own, in double precision and with l1 Gauss-Seidel, with
+   other types; where positive diagonal entries of coupled rows differ by a factor of more than 1e7 (`bfb`: 1e4), as
+   single precision does not hold such operators; under `-amgf_amg_pc_type hypre`; and where an option of hypre's own
+   cycle is given, say `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
 
    Without hypre the default AMG is `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate,
    and a smoothed interpolation would make a B that is not Hermitian.

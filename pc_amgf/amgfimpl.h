@@ -129,6 +129,7 @@ PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFSt
 PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
 /* detect.c */
 PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
+PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
 /* subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
@@ -167,8 +168,6 @@ PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
 PETSC_INTERN PetscErrorCode PCAMGFExpect_AMGF(PC, PetscReal, PetscReal);
 PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *, const char *[]);
-/* contrast.c */
-PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */

@@ -92,8 +92,8 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 
 /*
    Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries, which is to be little
-   beside soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2 B^-1: of stiff ties, with
-   which A < B^-1 in exact arithmetic, a contrast of 1e4 allows A < 1.001 B^-1, one of 1e5 A < 1.6 B^-1.
+   beside soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2 B^-1: of stiff ties,
+   where A < B^-1 in exact arithmetic, a contrast of 1e4 allows A < 1.001 B^-1, one of 1e5 A < 1.6 B^-1.
 */
 static PetscErrorCode SetUpChooseAMG(PC pc)
 {

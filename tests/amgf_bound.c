@@ -177,7 +177,7 @@ int main(int argc, char **argv)
   Problem   problem;
   Mat       A, K;
   IS        is;
-  PetscReal least, largest, beta, omega;
+  PetscReal least, largest, beta, omega, omega_fbf;
   PetscReal tolerance;
   PetscInt  ones;
   PetscBool single = PETSC_FALSE;
@@ -206,7 +206,8 @@ int main(int argc, char **argv)
     if (exponent >= 4 && !single)
       PetscCall(ReportBound(PETSC_COMM_SELF, "  AMG alone is beyond the bound", 2.0 * (beta + 3.0), omega / least));
     PetscCall(CheckBFB(A, is, beta, omega, tolerance));
-    PetscCall(CheckOthers(A, K, is, omega));
+    PetscCall(SpectrumOf(A, A, NULL, PC_AMGF_FBF, &least, &omega_fbf, &ones)); /* bfb may have another AMG */
+    PetscCall(CheckOthers(A, K, is, omega_fbf));
     PetscCall(ISDestroy(&is));
     PetscCall(MatDestroy(&A));
   }

@@ -47,8 +47,8 @@ typedef struct {
 
 /*
    A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L,
-   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows.
-   The inverses of the diagonal blocks are W^T W, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
+   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows. The
+   inverses of the diagonal blocks are W^T W, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
 */
 typedef struct {
   int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
