@@ -20,7 +20,8 @@ words = [form.fullmatch(line) for line in said]
 print("each line says it:", all(words) or said)
 print("load steps:", sorted({int(word[1]) for word in words}))
 print("in the midst of a step and between two:", {bool(word[2]) for word in words} == {True, False})
-print("what is left is known from the second on:", all((word[1] == "1") == (not word[4]) for word in words) or said)
+print("what is left is not said before the third:", not any(word[4] for word in words if word[1] in "12") or said)
+print("that nothing is left is not said:", ", about 0 s left" not in "".join(said) or said)
 PY
   done
 done

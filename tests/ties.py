@@ -58,6 +58,15 @@ def judge(title, end):
     say(title + "a tied stack stands on a rigid base: forces", near(step["pairs"][0]["force"], [0, 0, 0.3], 0.3) and near(step["bodies"][0]["ties"], [0, 0, -0.3], 0.3) and step["balance"] < 1e-6, (step["pairs"], step["bodies"]))
 
 
+def judge_units():
+    for unit in ("e-15", "e-11", "e14"):
+        steps = {name: load("%s_%s" % (name, unit))["steps"][-1] for name in ("pull", "tied_touch")}
+        force, probe = float("1" + unit), steps["pull"]["probes"][0]
+        say("unit of force 1%s, pulled: stress and displacement to 1e-11" % unit, near(stress(probe), [0, 0, 0.1 * force, 0, 0, 0], 0.1 * force, 1e-11) and near(probe["displacement"], [-0.009, -0.006, 0.025], 0.03, 1e-11), probe)
+        energy = load("tied_touch")["steps"][-1]["energy"] * force
+        say("unit of force 1%s, a tied stack: energy to 1e-9" % unit, near(steps["tied_touch"]["energy"], energy, energy, 1e-9), (steps["tied_touch"]["energy"], energy))
+
+
 def main():
     if sys.argv[1] == "write":
         for name, text in SCENES.items():
@@ -66,6 +75,7 @@ def main():
     else:
         judge("", "")
         judge("three ranks, ", "_3")
+        judge_units()
 
 
 if __name__ == "__main__":

@@ -74,17 +74,18 @@ static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TiesCreateIdentity(Vec layout, Mat *identity)
+/* The same number in the diagonal, and nothing beside it */
+static PetscErrorCode TiesCreateDiagonal(Vec layout, PetscReal value, Mat *diagonal)
 {
   PetscInt start, end;
 
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(layout, &start, &end));
   PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)layout), end - start, end - start, PETSC_DETERMINE,
-    PETSC_DETERMINE, 1, NULL, 0, NULL, identity));
-  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(*identity, i, i, 1.0, INSERT_VALUES));
-  PetscCall(MatAssemblyBegin(*identity, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*identity, MAT_FINAL_ASSEMBLY));
+    PETSC_DETERMINE, 1, NULL, 0, NULL, diagonal));
+  for (PetscInt i = start; i < end; ++i) PetscCall(MatSetValue(*diagonal, i, i, value, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(*diagonal, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*diagonal, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
@@ -127,7 +128,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
   if (planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
     PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
     PetscCall(TiesJoinRigid(c));
-    if (!ties->C) PetscCall(TiesCreateIdentity(c->bodies.mass, &ties->C));
+    if (!ties->C) PetscCall(TiesCreateDiagonal(c->bodies.mass, 1.0, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));
     PetscCall(PetscMalloc1(n, &ties->rows));
     for (PetscInt i = 0; i < n; ++i) {
@@ -245,17 +246,16 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
 static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
 {
   PetscBool aij;
-  Mat       identity, K = ties->K;
+  Mat       places, K = ties->K;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
   PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
   if (!aij) PetscCall(MatDestroy(&K));
-  PetscCall(TiesCreateIdentity(diagonal, &identity));
-  PetscCall(MatAXPY(*tied, 1.0, identity, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatAXPY(*tied, -1.0, identity, SUBSET_NONZERO_PATTERN));
-  PetscCall(MatDestroy(&identity));
+  PetscCall(TiesCreateDiagonal(diagonal, 0.0, &places));
+  PetscCall(MatAXPY(*tied, 1.0, places, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&places));
   PetscFunctionReturn(0);
 }
 

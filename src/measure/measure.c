@@ -56,10 +56,10 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
   PetscFunctionReturn(0);
 }
 
-/* In the energy norm, relative to that of the displacement; report->energy is set */
-static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *report)
+/* In the energy norm, relative to that of the displacement; report->energy is set. moves: it is rounding's */
+static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {
-  const PetscReal size = PetscSqrtReal(2.0 * report->energy);
+  const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
   PetscReal       sum = 0.0, *cells = NULL;
 
   PetscFunctionBegin;
@@ -78,16 +78,18 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, StepReport *r
 /*
    What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
    and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
-   the energy
+   the energy. moves: there is no energy but rounding's, which nothing is relative to
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
-  StepReport *report)
+  PetscBool moves, StepReport *report)
 {
   PetscScalar work, duality = 0.0;
   PetscReal   press = 0.0;
   Vec         products;
 
   PetscFunctionBegin;
+  report->gap_error = report->algebraic_error = 0.0;
+  if (moves) PetscFunctionReturn(0);
   PetscCall(VecDot(u, residual, &work));
   if (weighted) {
     PetscCall(VecDuplicate(weighted, &products));
@@ -117,6 +119,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL;
   PetscReal         size, residual, rounding;
+  PetscBool         moves; /* the bodies move as a whole, without stress */
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
@@ -126,6 +129,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
+  moves = (PetscBool)(size <= rounding);
   if (load) PetscCall(VecAXPY(force, -1.0, load));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
@@ -149,10 +153,10 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
-  report->equilibrium = size > rounding ? residual / size : 0.0;
-  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, report));
+  report->equilibrium = moves ? 0.0 : residual / size;
+  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, moves, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
-  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, report));
+  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, moves, report));
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,7 @@
 #include <petsctime.h>
 
 #define PROGRESS_LENGTH 32
+#define PROGRESS_STEPS  ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(((Progress *)NULL)->last))
 
 static PetscErrorCode ProgressDuration(PetscLogDouble seconds, char text[PROGRESS_LENGTH])
 {
@@ -26,58 +27,74 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* At the rate of the load steps so far, the one under way for as long as a whole one at most; negative: none is done */
-static PetscLogDouble ProgressLeft(Simulation sim, PetscLogDouble now)
+/* A whole load step took so long */
+void ProgressRecord(Progress *p, PetscLogDouble duration)
 {
-  const Progress      *p    = &sim->progress;
-  const PetscReal      time = sim->path.time, done = time - p->first, all = (PetscReal)sim->scene->nsteps;
-  const PetscLogDouble rate = done > 0.0 ? (p->reached - p->begun) / done : 0.0;
-
-  return done > 0.0
-           ? PetscMax(rate * (all - time) - (now - p->reached), rate * PetscMax(all - PetscFloorReal(time) - 1.0, 0.0))
-           : -1.0;
+  p->last[p->nsteps++ % PROGRESS_STEPS] = duration;
 }
 
+/*
+   What is left lies between what the fastest and the slowest of the last load steps foretell, as long as the one under
+   way and those that follow are no faster and no slower. The mean of these two bounds is within a factor of two of
+   both where the larger is at most three times the smaller. Elsewhere, and where the step under way takes longer than
+   those before it, nothing is foretold. Nor is less than a second.
+
+   elapsed: in the load step under way; later: load steps after it
+*/
+PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *left)
+{
+  PetscLogDouble least = p->last[0], most = p->last[0], low, high;
+
+  for (PetscInt i = 1; i < PetscMin(p->nsteps, PROGRESS_STEPS); ++i) {
+    least = PetscMin(least, p->last[i]);
+    most  = PetscMax(most, p->last[i]);
+  }
+  low   = least * (PetscLogDouble)later + PetscMax(least - elapsed, 0.0);
+  high  = most * (PetscLogDouble)later + most - elapsed;
+  *left = 0.5 * (low + high);
+  return (PetscBool)(p->nsteps >= 2 && elapsed <= most && high <= 3.0 * low && *left >= 1.0);
+}
+
+/* Of a mesh of -accuracy nothing is foretold: a finer one may follow it */
 static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char inside[])
 {
-  const PetscLogDouble left = ProgressLeft(sim, now);
-  char                 so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
+  const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, nsteps);
+  char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
+  PetscLogDouble  left;
+  const PetscBool known = (PetscBool)(!sim->forecast.found && ProgressEstimate(&sim->progress,
+                                                                now - sim->progress.begun, nsteps - step, &left));
 
   PetscFunctionBegin;
   PetscCall(ProgressDuration(now - sim->start.total, so_far));
-  PetscCall(ProgressDuration(PetscMax(left, 0.0), to_come));
+  if (known) PetscCall(ProgressDuration(left, to_come));
   PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n",
-    PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, sim->scene->nsteps), sim->scene->nsteps, inside, so_far,
-    left < 0.0 ? "" : ", about ", left < 0.0 ? "" : to_come, left < 0.0 ? "" : " left"));
+    step, nsteps, inside, so_far, known ? ", about " : "", known ? to_come : "", known ? " left" : ""));
   PetscFunctionReturn(0);
 }
 
-/* Before a load step */
+/* Before a load step; the first may go on from the midst of one */
 static PetscErrorCode ProgressBegin(Simulation sim)
 {
-  Progress *p = &sim->progress;
-
   PetscFunctionBegin;
-  if (p->begun > 0.0) PetscFunctionReturn(0);
-  PetscCall(PetscTime(&p->begun));
-  p->reached = p->begun;
-  p->first   = sim->path.time;
+  PetscCall(PetscTime(&sim->progress.begun));
+  sim->progress.whole = (PetscBool)(sim->path.time == PetscFloorReal(sim->path.time));
   PetscFunctionReturn(0);
 }
 
 /* The state has moved on */
 static PetscErrorCode ProgressReach(Simulation sim)
 {
-  char           inside[48] = "";
-  PetscBool      due;
-  PetscLogDouble now;
+  const PetscBool end        = (PetscBool)(sim->path.time == PetscFloorReal(sim->path.time));
+  char            inside[48] = "";
+  PetscBool       due;
+  PetscLogDouble  now;
 
   PetscFunctionBegin;
   PetscCall(ProgressIsDue(sim, &now, &due));
-  sim->progress.reached = now;
+  if (end && sim->progress.whole) ProgressRecord(&sim->progress, now - sim->progress.begun);
+  if (end) sim->progress.begun = now;
   if (!due || sim->path.time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
-  if (sim->path.time > PetscFloorReal(sim->path.time))
-    PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
+  if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
   PetscCall(ProgressSay(sim, now, inside));
   PetscFunctionReturn(0);
 }

@@ -14,6 +14,8 @@ PETSC_INTERN PetscErrorCode MemoryUsageGetPeak(MPI_Comm, PetscLogDouble *bytes);
 
 /* progress.c */
 PETSC_INTERN PetscErrorCode ProgressObserve(Simulation);
+PETSC_INTERN void           ProgressRecord(Progress *, PetscLogDouble duration);
+PETSC_INTERN PetscBool ProgressEstimate(const Progress *, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *);
 
 /* adapt_contact.c */
 PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);

@@ -81,9 +81,11 @@ typedef struct {
 /* When a run has said how far it is, and what it knows of that; of the clock [s] */
 typedef struct {
   PetscReal      every;    /* 0: never */
-  PetscReal      first;    /* time of the load program at the beginning of this run */
   PetscReal      residual; /* the first of a linear solve */
-  PetscLogDouble begun, reached, said;
+  PetscInt       nsteps;   /* whole load steps so far */
+  PetscBool      whole;    /* the load step under way was begun in this run */
+  PetscLogDouble begun, said;
+  PetscLogDouble last[4]; /* durations of the last whole load steps, in a ring */
 } Progress;
 
 /* Of adapt.c, where the next mesh may have cells refined: squared errors of this rank's cells, summed over load
@@ -153,6 +155,8 @@ struct _n_Simulation {
   Forecast             forecast;
   Progress             progress;
   StepObserver         observer;
+  PetscInt             unheld;      /* attempts at this load step in a row that contact does not hold */
+  char                *cause;       /* of the first of them; NULL: there was none */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;

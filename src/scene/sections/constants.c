@@ -1,50 +1,6 @@
 /* Constants of a material: which ones its law has, read, viewed, described and checked */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
-#include <stddef.h>
-
-typedef struct {
-  const char *name;
-  PetscInt    n;  /* numbers */
-  size_t      at; /* in a Material */
-  PetscBool   required;
-} MaterialConstant;
-
-#define MATERIAL_CONSTANT(name, n, member, required) \
-  { \
-    name, n, offsetof(Material, member), required \
-  }
-
-static const MaterialConstant isotropic[] = {
-  MATERIAL_CONSTANT("young", 1, young, PETSC_TRUE),
-  MATERIAL_CONSTANT("poisson", 1, poisson, PETSC_TRUE),
-  MATERIAL_CONSTANT("expansion", 1, expansion, PETSC_FALSE),
-};
-static const MaterialConstant mooney_rivlin[] = {
-  MATERIAL_CONSTANT("c10", 1, c10, PETSC_TRUE),
-  MATERIAL_CONSTANT("c01", 1, c01, PETSC_TRUE),
-  MATERIAL_CONSTANT("bulk", 1, bulk, PETSC_TRUE),
-};
-static const MaterialConstant orthotropic[] = {
-  MATERIAL_CONSTANT("young", 3, youngs, PETSC_TRUE),
-  MATERIAL_CONSTANT("poisson", 3, poissons, PETSC_TRUE),
-  MATERIAL_CONSTANT("shear", 3, shears, PETSC_TRUE),
-  MATERIAL_CONSTANT("first_axis", 3, axes[0], PETSC_FALSE),
-  MATERIAL_CONSTANT("second_axis", 3, axes[1], PETSC_FALSE),
-  MATERIAL_CONSTANT("expansion", 3, expansion, PETSC_FALSE),
-};
-
-/* Those of a law; small strain alone has an expansion */
-static PetscInt MaterialConstants(MaterialType type, const MaterialConstant **constants)
-{
-  switch (type) {
-  case MATERIAL_LINEAR: *constants = isotropic; return 3;
-  case MATERIAL_MOONEY_RIVLIN: *constants = mooney_rivlin; return PETSC_STATIC_ARRAY_LENGTH(mooney_rivlin);
-  case MATERIAL_ORTHOTROPIC: *constants = orthotropic; return PETSC_STATIC_ARRAY_LENGTH(orthotropic);
-  case MATERIAL_RIGID: return 0;
-  default: *constants = isotropic; return 2;
-  }
-}
 
 static PetscReal *MaterialConstantAt(const MaterialConstant *constant, Material *material)
 {
@@ -83,20 +39,20 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
 /* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
-  const MaterialConstant *constants;
-  const PetscInt          n = MaterialConstants(material->type, &constants);
-  char                    key[SCENE_KEY_LENGTH];
-  const char             *text;
+  const MaterialLaw *law;
+  char               key[SCENE_KEY_LENGTH];
+  const char        *text;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscReal *value = MaterialConstantAt(&constants[i], material);
+  PetscCall(MaterialGetLaw(material, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) {
+    PetscReal *value = MaterialConstantAt(c, material);
 
-    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", owner, constants[i].name));
-    PetscCall(SceneKeysGet(keys, (PetscBool)(constants[i].required && !listed), &text, "%s", key));
-    if (text && constants[i].n == 1) PetscCall(SceneParseReal(keys, key, text, value));
-    else if (text) PetscCall(SceneParseReals(keys, key, text, constants[i].n, value));
-    if (text && MaterialConstantIsAxis(&constants[i]) && !MaterialConstantIsSet(&constants[i], value))
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", owner, c->name));
+    PetscCall(SceneKeysGet(keys, (PetscBool)(c->required && !listed), &text, "%s", key));
+    if (text && c->n == 1) PetscCall(SceneParseReal(keys, key, text, value));
+    else if (text) PetscCall(SceneParseReals(keys, key, text, c->n, value));
+    if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, value))
       PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
   PetscCall(SceneReadNoExpansion(keys, owner, material));
@@ -118,7 +74,7 @@ static PetscErrorCode ConstantView(const MaterialConstant *constant, const Petsc
 
 static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
 {
-  const char *name = constant == &isotropic[0] ? "E" : constant == &isotropic[1] ? "nu" : constant->name;
+  const char *name = constant->symbol ? constant->symbol : constant->name;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
@@ -130,15 +86,15 @@ static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const P
 static PetscErrorCode ConstantsShow(const Material *material,
   PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
-  const MaterialConstant *constants;
-  const PetscInt          n    = MaterialConstants(material->type, &constants);
-  Material                copy = *material;
+  const MaterialLaw *law;
+  Material           copy = *material;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscReal *value = MaterialConstantAt(&constants[i], &copy);
+  PetscCall(MaterialGetLaw(material, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) {
+    const PetscReal *value = MaterialConstantAt(c, &copy);
 
-    if (MaterialConstantIsSet(&constants[i], value)) PetscCall(show(&constants[i], value, viewer));
+    if (MaterialConstantIsSet(c, value)) PetscCall(show(c, value, viewer));
   }
   PetscFunctionReturn(0);
 }
@@ -183,27 +139,42 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const SceneBody *body)
+/* Within the bounds that its law gives it */
+static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
+  const MaterialConstant *c)
 {
-  const Material *m = &body->material;
+  Material         copy  = body->material;
+  const PetscReal *value = MaterialConstantAt(c, &copy);
+  const char      *label = c->label ? c->label : c->name;
+  char             lower[32], upper[32];
 
   PetscFunctionBegin;
-  switch (m->type) {
-  case MATERIAL_MOONEY_RIVLIN:
+  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's would print 0. */
+  (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
+  for (PetscInt i = 0; i < c->n && c->lower < c->upper; ++i) {
+    PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has %s %s = %g, which must be above %s", file, body->name, label, c->name, (double)value[i],
+      lower);
+    PetscCheck(value[i] > c->lower && value[i] < c->upper, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has %s %s = %g, which must lie between %s and %s, both excluded", file, body->name, label,
+      c->name, (double)value[i], lower, upper);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const SceneBody *body)
+{
+  const Material    *m = &body->material;
+  const MaterialLaw *law;
+
+  PetscFunctionBegin;
+  if (m->type == MATERIAL_MOONEY_RIVLIN)
     PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT,
       "%s: body \"%s\" has c10 = %g and c01 = %g, of which none may be negative, or its energy has no lower bound, nor "
       "both be 0",
       file, body->name, (double)m->c10, (double)m->c01);
-    PetscCheck(m->bulk > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has a bulk modulus bulk = %g, which must be above 0", file, body->name, (double)m->bulk);
-    break;
-  case MATERIAL_ORTHOTROPIC: PetscCall(SceneValidateOrthotropic(comm, file, body)); break;
-  default:
-    PetscCheck(m->young > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)m->young);
-    PetscCheck(m->poisson > -1 && m->poisson < 0.5, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file,
-      body->name, (double)m->poisson);
-  }
+  if (m->type == MATERIAL_ORTHOTROPIC) PetscCall(SceneValidateOrthotropic(comm, file, body));
+  PetscCall(MaterialGetLaw(m, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) PetscCall(ConstantValidate(comm, file, body, c));
   PetscFunctionReturn(0);
 }
