@@ -40,6 +40,9 @@ PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearizatio
 /* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been
    linearized; of how many */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
+/* Collective. How deep vertices of either face of each pair are in the other body at a displacement,
+   and what that is known to [length] */
+PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
 /* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero
    displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);

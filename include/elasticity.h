@@ -60,6 +60,8 @@ PETSC_EXTERN PetscErrorCode ElasticitySetTemperature(Elasticity, const PetscReal
    its 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
+/* Of each body of a small-strain law: principal strain, rotation */
+PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][2]);
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
 /* Fields to look at: stress at the nodes of the local section, by recovery, and at quadrature points; strain energy
    of cells per volume */

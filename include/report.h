@@ -17,10 +17,14 @@ typedef struct {
                                where the face is plane [force] */
   PetscReal   area;         /* covered area about the vertices in contact [length^2] */
   PetscReal   pressure;     /* largest of the contact pressure's field [force/length^2] */
-  PetscBool   rubs;         /* has friction */
-  PetscReal   shear_force;  /* sum of the sizes of the rows' forces of friction [force] */
-  PetscReal   stick_area;   /* covered area about the vertices in contact that friction holds, */
-  PetscReal   slip_area;    /* and about those that slip against it [length^2]; both 0 without friction */
+  PetscReal   penetration;  /* of the deepest vertex of either face in the other body [length] */
+  PetscReal   coarseness;   /* size of the nonmortar side's facets over the mortar side's; 0: there is no contact */
+  PetscBool   narrow;       /* the contact, if any, is one facet of the nonmortar side wide */
+  PetscReal   penetration_rounding; /* what it is known to where faces are curved [length] */
+  PetscBool   rubs;                 /* has friction */
+  PetscReal   shear_force;          /* sum of the sizes of the rows' forces of friction [force] */
+  PetscReal   stick_area;           /* covered area about the vertices in contact that friction holds, */
+  PetscReal   slip_area;            /* and about those that slip against it [length^2]; both 0 without friction */
   PetscReal   dissipated; /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
 } PairReport;
 
@@ -107,6 +111,7 @@ typedef struct {
   PetscReal action_reaction; /* |sum of the contact forces on both sides| over the sum of the sizes of the vertices' */
   PetscReal error_estimate;  /* discretization error in the energy norm over sqrt(2 energy); its square is the relative
                                 error in energy; NaN: no estimate was made */
+  PetscReal motion;          /* largest component of the displacement; 0 without contact [length] */
   PetscReal   *body_errors;  /* parts of the bodies, whose squares sum to its square; NULL: none was made */
   PetscReal    contact_force[3]; /* on the nonmortar side, the vector sum of the pairs' [force] */
   PetscReal    reaction[3]; /* on the driven rows, whose prescribed displacement is not zero; on all prescribed rows if
@@ -147,6 +152,7 @@ typedef struct {
   PetscReal slip[3];      /* of the other side since the last solve [length] */
   PetscReal slip_path;    /* length of its way since the start [length] */
   PetscBool closed, slips;
+  PetscBool presses; /* most of its area is of constraints that press: what the mortar side does not resolve is open */
 } ContactPoint;
 
 /* Of a stress: xx yy zz xy yz zx, von Mises, the principal values with the largest first */

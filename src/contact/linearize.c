@@ -20,7 +20,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
 }
 
 /* The surfaces and normals at displacement u */
-static PetscErrorCode ContactDeform(Contact contact, Vec u)
+PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
   Vec local, mean = NULL;
 

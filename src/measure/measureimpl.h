@@ -49,6 +49,14 @@ PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactP
 /* contact_points.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
+/* penetration.c: of vertices, beside the gap, which of mortar pairs is a mean */
+PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
+
+/* pair_mesh.c, strain.c: what the meshes of the faces, and laws of small strain, are too coarse for */
+PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
+PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
+
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
 PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);

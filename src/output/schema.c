@@ -50,6 +50,8 @@ static const ReportField pair_fields[] = {
   FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
   FIELD(PairReport, pressure, FIELD_REAL, "force/length^2",
     .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, penetration, FIELD_REAL, "length",
+    .columns = {COLUMN(TABLE_PAIRS, "penetration", "", 11, .format = "%.4e")}),
   FIELD(PairReport, shear_force, FIELD_REAL, "force"),
   FIELD(PairReport, stick_area, FIELD_REAL, "length^2"),
   FIELD(PairReport, slip_area, FIELD_REAL, "length^2"),

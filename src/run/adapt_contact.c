@@ -4,7 +4,7 @@
 
 /* Of each vertex of a face, in its local vector */
 typedef enum {
-  VERTEX_CLOSED, /* 1 where the pair is in contact */
+  VERTEX_CLOSED, /* 1 where the pair presses */
   VERTEX_ANGLE,  /* of the facets that meet there [rad]: 2 pi inside of a plane face */
   VERTEX_HANGS   /* 1 where it follows others */
 } VertexFact;
@@ -26,7 +26,7 @@ static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
   for (PetscInt k = 0; k < sim->npoints; ++k) {
     PetscInt offset;
 
-    if (sim->points[k].pair != pair || !sim->points[k].closed) continue;
+    if (sim->points[k].pair != pair || !sim->points[k].presses) continue;
     PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &offset));
     a[offset - rstart + VERTEX_CLOSED] = 1.0;
   }

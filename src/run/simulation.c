@@ -260,6 +260,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->cause));
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
+  PetscCall(PetscFree(s->beyond));
   PetscCall(ResultsFree(&s->results));
   PetscCall(PetscFree2(s->adapt.errors, s->adapt.marked));
   PetscCall(StepForecastDestroy(&s->forecast.here));

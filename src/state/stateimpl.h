@@ -148,6 +148,7 @@ struct _n_Simulation {
   StepTolerances       tolerances; /* once a solver has read its options: those that it has */
   PetscBool            warm;       /* later load steps start from the path and pressures of the last */
   PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  PetscBool           *beyond;     /* bodies that strain.c has warned of; NULL before the first load step */
   PetscBool            estimate;   /* of the discretization error, at the end of every load step */
   PetscInt             maxcuts;    /* of one load step */
   const MeshMarks     *marks;      /* NULL: no cells are to be marked */

@@ -31,6 +31,8 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
+  if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
+  if (report->converged) PetscCall(StrainWarn(sim, report->step - 1));
   PetscCall(ResultsMeasure(sim));
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
@@ -155,6 +157,10 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
-  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(StartWarnOfUnmet(sim));
+  if (report->converged && step + 1 == sim->scene->nsteps) {
+    PetscCall(StartWarnOfUnmet(sim));
+    PetscCall(PenetrationWarn(sim));
+    PetscCall(PairMeshWarn(sim));
+  }
   PetscFunctionReturn(0);
 }

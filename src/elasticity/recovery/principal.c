@@ -6,10 +6,11 @@ static void PrincipalRotate(PetscReal A[3][3], int p, int q)
 {
   const int       r    = 3 - p - q;
   const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q];
+  const PetscReal size = PetscMax(PetscAbsReal(half), PetscAbsReal(off)); /* squares of tiny products would vanish */
   PetscReal       t, c, s, pr = A[p][r], qr = A[q][r];
 
   if (off == 0) return;
-  t = off / (half + (half >= 0 ? 1 : -1) * PetscSqrtReal(half * half + off * off));
+  t = off / (half + (half >= 0 ? 1 : -1) * size * PetscSqrtReal(PetscSqr(half / size) + PetscSqr(off / size)));
   c = 1 / PetscSqrtReal(1 + t * t);
   s = t * c;
   A[p][p] -= t * off;

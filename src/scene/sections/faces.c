@@ -19,6 +19,26 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
   return PETSC_DECIDE;
 }
 
+/*@C
+   SceneFaceMaterial - The material of the body that a face belongs to
+
+   Not Collective
+
+   Input Parameters:
++  scene - the scene
+-  face  - "<body>.<face>" of a body of the scene
+
+   Level: developer
+
+.seealso: `SceneLoad()`
+@*/
+const Material *SceneFaceMaterial(Scene scene, const char face[])
+{
+  const char *name;
+
+  return &scene->bodies[SceneFindBody(scene, face, &name)].material;
+}
+
 /* A bound, a number or infinite as people or YAML write it */
 static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const char word[], PetscReal *bound)
 {

@@ -1,116 +1,29 @@
 /* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
    {radius: 1} */
 #include "sectionsimpl.h"
+#include "src/mesh/shapes/shapesimpl.h"
 #include <petscviewer.h>
-#include <stddef.h>
 #include <string.h>
-
-const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh",
-  "BodyShape", "SHAPE_", NULL};
 
 static const char *const Axes[]       = {"x", "y", "z", "Axis", "AXIS_", NULL};
 static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direction", "DIRECTION_", NULL};
 
-typedef enum {
-  KEY_REALS,
-  KEY_INTS,
-  KEY_AXIS,
-  KEY_DIRECTION,
-  KEY_TEXT
-} KeyType;
-
-typedef struct {
-  const char *name;
-  KeyType     type;
-  PetscInt    n; /* values */
-  size_t      offset;
-  PetscBool   required;
-} ShapeKey;
-
-#define KEY(name, type, n, field, required) \
-  { \
-    name, type, n, offsetof(SceneBody, field), required \
-  }
-
-static const ShapeKey box_keys[] = {
-  KEY("lower", KEY_REALS, 3, lower, PETSC_TRUE),
-  KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
-  KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
-static const ShapeKey tube_arc_keys[] = {
-  KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE),
-  KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE),
-  KEY("radii", KEY_REALS, 2, tube.radii, PETSC_TRUE),
-  KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
-  KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
-  KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
-static const ShapeKey half_ellipse_keys[] = {
-  KEY("axis", KEY_AXIS, 1, ellipse.axis, PETSC_TRUE),
-  KEY("depth", KEY_DIRECTION, 1, ellipse.depth, PETSC_TRUE),
-  KEY("half", KEY_DIRECTION, 1, ellipse.half, PETSC_FALSE),
-  KEY("center", KEY_REALS, 3, ellipse.center, PETSC_FALSE),
-  KEY("semi_axes", KEY_REALS, 2, ellipse.semi_axes, PETSC_TRUE),
-  KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
-  KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
-  KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
-/* What every octant has: where it is, and how it is divided */
-#define OCTANT_PLACE_KEYS \
-  KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
-#define OCTANT_GRID_KEYS \
-  KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
-    KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
-    KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
-    KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
-
-static const ShapeKey sphere_shell_keys[] = {
-  OCTANT_PLACE_KEYS,
-  KEY("inner_radius", KEY_REALS, 1, octant.inner.radius, PETSC_TRUE),
-  KEY("inner_center", KEY_REALS, 3, octant.inner.center, PETSC_FALSE),
-  KEY("outer_radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
-  KEY("outer_center", KEY_REALS, 3, octant.outer.center, PETSC_FALSE),
-  KEY("cap_radius", KEY_REALS, 1, octant.cap.radius, PETSC_FALSE),
-  KEY("cap_center", KEY_REALS, 3, octant.cap.center, PETSC_FALSE),
-  OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
-static const ShapeKey spheroid_shell_keys[] = {
-  OCTANT_PLACE_KEYS,
-  KEY("inner_semi_axes", KEY_REALS, 3, octant.inner_axes, PETSC_TRUE),
-  KEY("outer_semi_axes", KEY_REALS, 3, octant.outer_axes, PETSC_TRUE),
-  OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
-static const ShapeKey ball_keys[] = {
-  OCTANT_PLACE_KEYS,
-  KEY("radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
-  OCTANT_GRID_KEYS,
-  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
-};
-
 static const ShapeKey gmsh_keys[] = {
-  KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
-  KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
+  SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
+  SHAPE_KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-static const ShapeKey *const shape_keys[] = {box_keys, tube_arc_keys, half_ellipse_keys, sphere_shell_keys,
-  spheroid_shell_keys, ball_keys, gmsh_keys};
+/* Of a body's shape */
+static PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
+{
+  const Shape *shape;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeGet(PETSC_COMM_SELF, body, &shape));
+  *keys = shape ? shape->keys : gmsh_keys;
+  PetscFunctionReturn(0);
+}
 
 static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
 {
@@ -170,10 +83,11 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 
 PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
 {
-  char         key[SCENE_KEY_LENGTH];
-  const char  *text;
-  SceneOctant *octant    = &body->octant;
-  SceneSphere *spheres[] = {&octant->inner, &octant->outer, &octant->cap};
+  char            key[SCENE_KEY_LENGTH];
+  const char     *text;
+  SceneOctant    *octant     = &body->octant;
+  SceneSphere    *spheres[]  = {&octant->inner, &octant->outer, &octant->cap};
+  const ShapeKey *shape_keys = NULL;
 
   PetscFunctionBegin;
   PetscCall(SceneReadShapeName(keys, body));
@@ -181,7 +95,8 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   body->ellipse.half = PETSC_DECIDE;
   octant->layer_even = 1;
   for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = body->even[d] = 1;
-  for (const ShapeKey *k = shape_keys[body->shape]; k->name; ++k) {
+  PetscCall(SceneGetShapeKeys(body, &shape_keys));
+  for (const ShapeKey *k = shape_keys; k->name; ++k) {
     PetscCall(SceneReadShapeKey(keys, k, body));
     /* Spheres are around the center of the body unless they have their own, which comes later in the table */
     if (k->offset == offsetof(SceneBody, octant.corner)) {
@@ -213,9 +128,12 @@ static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *bo
 
 PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
 {
+  const ShapeKey *shape_keys = NULL;
+
   PetscFunctionBegin;
+  PetscCall(SceneGetShapeKeys(body, &shape_keys));
   PetscCall(PetscViewerASCIIPrintf(viewer, "shape: %s\n", BodyShapes[body->shape]));
-  for (const ShapeKey *k = shape_keys[body->shape]; k->name; ++k) {
+  for (const ShapeKey *k = shape_keys; k->name; ++k) {
     const void     *value = (const char *)body + k->offset;
     const PetscInt *n     = (const PetscInt *)value;
 

@@ -1,0 +1,97 @@
+/*
+   How deep vertices of one face are in the body behind the other. Mortar gaps are means: where the side that carries
+   the constraints is the coarser one they hold while vertices of the other side pass through it.
+*/
+#include "contactimpl.h"
+
+/* Depth of a vertex below the surface that a facet stands for [length]; 0: it is outside, or beside the facet by more
+   than it is below */
+static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const ContactNearest *nearest,
+  const PetscReal x[3])
+{
+  const PetscReal *facet = &facets->x[12 * nearest->facet];
+  PetscReal        n[3], r[3], offset[3] = {0.0, 0.0, 0.0}, height;
+
+  if (facets->patch) {
+    ContactPatch patch;
+
+    ContactPatchCreate(facet, &facets->patch[12 * nearest->facet], &patch);
+    ContactPatchEvaluate(&patch, nearest->xi, offset, n);
+    if (!(ContactScaleToUnit(n) > 0.0)) return 0.0;
+  } else if (!ContactFacetNormal(facet, n)) return 0.0;
+  for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - nearest->y[c] - offset[c];
+  height = ContactDot(r, n);
+  return height < 0.0 && 2.0 * height * height >= ContactDot(r, r) ? -height : 0.0;
+}
+
+/* Of the vertices of a surface, over the whole of the other one; deepest grows. Collective */
+static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const ContactSurface *side,
+  const ContactSurface *other, PetscReal *deepest)
+{
+  PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+  ContactCandidates facets;
+  ContactTree       tree;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 12 * side->nfacets; ++i) {
+    box[i % 3]     = PetscMin(box[i % 3], side->x[i] - reach);
+    box[3 + i % 3] = PetscMax(box[3 + i % 3], side->x[i] + reach);
+  }
+  PetscCall(ContactExchange(contact->comm, box, other, &facets));
+  PetscCall(ContactTreeCreate(&facets, &tree));
+  for (PetscInt f = 0; f < side->nfacets; ++f) {
+    PetscReal n[3];
+
+    if (!ContactFacetNormal(&side->x[12 * f], n)) continue;
+    for (PetscInt a = 0; a < 4; ++a) {
+      const PetscReal *x = &side->x[12 * f + 3 * a];
+      ContactNearest   nearest;
+
+      ContactFindNearest(&tree, &facets, contact->cosine, reach, x, n, &nearest);
+      if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(&facets, &nearest, x));
+    }
+  }
+  PetscCall(ContactTreeDestroy(&tree));
+  PetscCall(ContactCandidatesDestroy(&facets));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactGetPenetration - How deep vertices of the two faces of each pair are in one another
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components a vertex [length]
+
+  Output Parameters:
++ depth    - of each pair, that of the deepest vertex of either face below the other one [length]; 0: there is none
+- rounding - of each pair, what a depth is known to: a tenth of what its smooth surfaces stand off their facets
+             [length]; 0: its faces are plane
+
+  Level: developer
+
+  Notes:
+  The gap of a mortar pair is a mean over the shape function of a nonmortar vertex. This is that of the vertices
+  themselves, of both sides, along the normal of the other face; of a smooth pair the surfaces are the smooth ones. A
+  vertex beside the other face has none.
+
+.seealso: `ContactLinearize()`
+@*/
+PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], PetscReal rounding[])
+{
+  PetscFunctionBegin;
+  PetscCall(ContactDeform(contact, u));
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    const ContactPairData *pair  = &contact->pairs[p];
+    const PetscReal        reach = pair->depth + pair->bulge;
+
+    depth[p]    = 0.0;
+    rounding[p] = 0.1 * pair->bulge;
+    PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
+    PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, (PetscMPIInt)contact->npairs, MPIU_REAL, MPIU_MAX, contact->comm));
+  PetscFunctionReturn(0);
+}

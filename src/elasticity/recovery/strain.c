@@ -1,0 +1,94 @@
+/* How far bodies of a small-strain law are strained and turned */
+#include "recoveryimpl.h"
+
+/* Largest principal strain, by its size, and the angle of the infinitesimal rotation of a displacement gradient */
+static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
+{
+  const PetscReal e[6] = {H[0], H[4], H[8], 0.5 * (H[1] + H[3]), 0.5 * (H[5] + H[7]), 0.5 * (H[2] + H[6])};
+  PetscReal       principal[3];
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityPrincipal(e, principal));
+  *strain   = PetscMax(PetscAbsReal(principal[0]), PetscAbsReal(principal[2]));
+  *rotation = 0.5 * PetscSqrtReal(PetscSqr(H[7] - H[5]) + PetscSqr(H[2] - H[6]) + PetscSqr(H[3] - H[1]));
+  PetscFunctionReturn(0);
+}
+
+/* Means over a cell */
+static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume, PetscReal *strain,
+  PetscReal *rotation)
+{
+  const CellBasis *basis = cell->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(&X[0][0], &cell->X[0][0], 3 * CELL_MAX_NODES));
+  PetscCall(PetscArraycpy(&U[0][0], &cell->U[0][0], 3 * CELL_MAX_NODES));
+  cell->body->element->strains(basis, &cell->body->material, X, U, w, H);
+  *volume = *strain = *rotation = 0.0;
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    PetscReal s = 0.0, r = 0.0;
+
+    PetscCall(StrainMeasure(H[q], &s, &r));
+    *volume += w[q];
+    *strain += w[q] * s;
+    *rotation += w[q] * r;
+  }
+  *strain /= *volume;
+  *rotation /= *volume;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityMeasureStrain - Measures how far bodies of a small-strain law are strained and turned
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a node [length]
+
+  Output Parameter:
+. values - of each body the mean over its strain energy of the largest principal strain by its size, and the mean over
+           its volume of the angle of rotation [rad]; 0 of bodies of another law
+
+  Level: developer
+
+  Note:
+  Cells count with their mean. The energy's weight leaves out what is far from where a body is loaded, and does not
+  grow with the few cells beside a singular edge.
+
+.seealso: `ElasticityCellStress()`, `ElasticityCellEnergy()`
+@*/
+PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2])
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+  PetscReal         *sums; /* energy, energy x strain, volume, volume x rotation of each body */
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(PetscCalloc1(4 * e->nbodies, &sums));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal *sum = sums + 4 * e->cellbody[c], volume, strain, rotation, energy;
+    CellState  cell;
+
+    ElasticityGetCell(e, c, x, ul, &cell);
+    if (!cell.body->material.law->constant) continue;
+    PetscCall(StrainMeasureCell(&cell, &volume, &strain, &rotation));
+    energy = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    sum[0] += energy;
+    sum[1] += energy * strain;
+    sum[2] += volume;
+    sum[3] += volume * rotation;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * e->nbodies), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)u)));
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    values[b][0] = sums[4 * b] > 0.0 ? sums[4 * b + 1] / sums[4 * b] : 0.0;
+    values[b][1] = sums[4 * b + 2] > 0.0 ? sums[4 * b + 3] / sums[4 * b + 2] : 0.0;
+  }
+  PetscCall(PetscFree(sums));
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}

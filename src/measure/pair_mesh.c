@@ -1,0 +1,207 @@
+/* Whether the mesh of a pair's faces can carry what the contact does: warnings. */
+#include "pair_rows.h"
+
+#define PAIR_COARSE 2.0 /* facets of the nonmortar side larger than this times those of the mortar side */
+#define PAIR_SWING  0.1 /* of the force from one load step to the next: less is no swing */
+
+/* Mean over the contact of the nonmortar side's size of facets over that of the mortar side. Collective */
+static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows, PetscReal *coarseness)
+{
+  PetscReal sums[2] = {0.0, 0.0};
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    if (!(rows->closed[r] > 0.0 && rows->facing[r] > 0.0)) continue;
+    sums[0] += rows->area[r];
+    sums[1] += rows->area[r] * rows->own[r] / rows->facing[r];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
+  *coarseness = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* In [0] of local vertices 1 where the pair is closed, in [1] the corners of facets about them, in [2] those among
+   them that are closed all round */
+static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const PetscScalar closed[],
+  PetscScalar count[])
+{
+  PetscSection    section;
+  IS              is;
+  const PetscInt *facets;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(MeshGetFacets(sim->dm, face, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &facets));
+  for (PetscInt f = 0; f < n; ++f) {
+    PetscInt npieces, pieces[MESH_MAX_FACET_PIECES][4];
+
+    PetscCall(MeshGetFacetPieces(sim->dm, facets[f], &npieces, pieces));
+    for (PetscInt k = 0; k < npieces; ++k) {
+      PetscInt  at[4];
+      PetscBool all = PETSC_TRUE;
+
+      for (PetscInt a = 0; a < 4; ++a) {
+        PetscCall(PetscSectionGetOffset(section, pieces[k][a], &at[a]));
+        all = (PetscBool)(all && PetscRealPart(closed[at[a]]) > 0.0);
+      }
+      for (PetscInt a = 0; a < 4; ++a) {
+        count[at[a] + 1] += 1.0;
+        if (all) count[at[a] + 2] += 1.0;
+      }
+    }
+  }
+  PetscCall(ISRestoreIndices(is, &facets));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* Whether no closed vertex of the nonmortar face has closed ones all about it. The pair's points are those from number
+   `first` on. Collective */
+static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, PetscInt first, PetscBool *narrow)
+{
+  PetscSection       global;
+  Vec                closed, count, local[2];
+  const PetscScalar *a;
+  PetscScalar       *c;
+  PetscInt           rstart, n;
+  PetscBool          wide = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecDuplicate(sim->path.u, &closed));
+  PetscCall(VecDuplicate(sim->path.u, &count));
+  PetscCall(VecZeroEntries(closed));
+  PetscCall(VecZeroEntries(count));
+  PetscCall(VecGetOwnershipRange(closed, &rstart, &n));
+  n -= rstart;
+  PetscCall(VecGetArray(closed, &c));
+  for (PetscInt k = first; k < sim->npoints; ++k) {
+    PetscInt i;
+
+    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &i));
+    c[i - rstart] = sim->points[k].closed ? 1.0 : 0.0;
+  }
+  PetscCall(VecRestoreArray(closed, &c));
+  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMGetLocalVector(sim->dm, &local[i]));
+  PetscCall(DMGlobalToLocal(sim->dm, closed, INSERT_VALUES, local[0]));
+  PetscCall(VecZeroEntries(local[1]));
+  PetscCall(VecGetArrayRead(local[0], &a));
+  PetscCall(VecGetArray(local[1], &c));
+  PetscCall(PairCountFacets(sim, sim->scene->pairs[pair].nonmortar, a, c));
+  PetscCall(VecRestoreArray(local[1], &c));
+  PetscCall(VecRestoreArrayRead(local[0], &a));
+  PetscCall(DMLocalToGlobal(sim->dm, local[1], ADD_VALUES, count));
+  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMRestoreLocalVector(sim->dm, &local[i]));
+  PetscCall(VecGetArrayRead(count, &a));
+  for (PetscInt i = 0; i < n; i += 3)
+    wide = (PetscBool)(wide || (PetscRealPart(a[i + 2]) > 0.0 && PetscRealPart(a[i + 1] - a[i + 2]) < 0.5));
+  PetscCall(VecRestoreArrayRead(count, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &wide, 1, MPIU_BOOL, MPI_LOR, sim->comm));
+  *narrow = (PetscBool)!wide;
+  PetscCall(VecDestroy(&closed));
+  PetscCall(VecDestroy(&count));
+  PetscFunctionReturn(0);
+}
+
+/* Into the pair's report, which has its area. Collective */
+PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *rows, PetscInt first, PairReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(PairMeasureCoarseness(sim->comm, rows, &report->coarseness));
+  PetscCall(PairMeasureNarrowness(sim, pair, first, &report->narrow));
+  PetscFunctionReturn(0);
+}
+
+/* Whether a load program turns back: forces that do are its */
+static PetscBool PairLoadTurns(const RunReport *run)
+{
+  for (PetscInt s = 1; s + 1 < run->nsteps; ++s) {
+    const StepReport *step = &run->steps[s];
+
+    for (PetscInt r = 0; r < step->nramps; ++r) {
+      const PetscReal now = step->ramps[r].factor;
+
+      if ((now - step[-1].ramps[r].factor) * (step[1].ramps[r].factor - now) < 0.0) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
+/* How often the force turns back by more than a tenth while the contact is narrow; forces: the last two extremes */
+static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal forces[2])
+{
+  PetscInt  turns = 0, way = 0;
+  PetscReal largest = 0.0;
+
+  for (PetscInt s = 0; s < run->nsteps; ++s) {
+    const PairReport *pair = p < run->steps[s].npairs ? &run->steps[s].pairs[p] : NULL;
+    const PetscReal   more = pair ? pair->normal_force - forces[1] : 0.0;
+
+    if (!pair || !pair->narrow) { /* begins anew */
+      way = 0;
+      if (pair) forces[1] = pair->normal_force;
+      continue;
+    }
+    largest = PetscMax(largest, pair->normal_force);
+    if (PetscAbsReal(more) <= PAIR_SWING * largest) continue;
+    if (way * more < 0.0) {
+      ++turns;
+      forces[0] = forces[1];
+    }
+    way       = more > 0.0 ? 1 : -1;
+    forces[1] = pair->normal_force;
+  }
+  return turns;
+}
+
+static PetscErrorCode PairWarnOfSwing(Simulation sim, PetscInt p)
+{
+  const SceneContactPair *pair      = &sim->scene->pairs[p];
+  PetscReal               forces[2] = {0.0, 0.0};
+
+  PetscFunctionBegin;
+  if (PairLoadTurns(&sim->report) || PairCountTurns(&sim->report, p, forces) < 2) PetscFunctionReturn(0);
+  PetscCall(ReportWarn(sim->comm, &sim->report,
+    "contact pair \"%s\" is one facet of %s wide, and its force swings with the place of the facets, as from %.3g to "
+    "%.3g: refine that face where the contact passes, to some seven facets across, or take the face that moves with "
+    "the "
+    "contact as the nonmortar one",
+    pair->name, pair->nonmortar, (double)forces[0], (double)forces[1]));
+  PetscFunctionReturn(0);
+}
+
+/* A coarse nonmortar side is worth a warning where it is not the softer one as well */
+static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
+{
+  const SceneContactPair *pair      = &sim->scene->pairs[p];
+  const Material         *nonmortar = SceneFaceMaterial(sim->scene, pair->nonmortar),
+                 *mortar            = SceneFaceMaterial(sim->scene, pair->mortar);
+  const PetscBool softer            = (PetscBool)(nonmortar->type != MATERIAL_RIGID &&
+                                       (mortar->type == MATERIAL_RIGID || nonmortar->young < mortar->young));
+  PetscReal       coarseness        = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
+    if (p < sim->report.steps[s].npairs) coarseness = PetscMax(coarseness, sim->report.steps[s].pairs[p].coarseness);
+  }
+  if (!softer && coarseness > PAIR_COARSE)
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "contact pair \"%s\": facets of the nonmortar face %s are %.2g times as large as those of the mortar face %s, "
+      "whose vertices are left free between its constraints: exchange the two faces, or refine %s",
+      pair->name, pair->nonmortar, (double)coarseness, pair->mortar, pair->nonmortar));
+  PetscFunctionReturn(0);
+}
+
+/* After the last load step */
+PetscErrorCode PairMeshWarn(Simulation sim)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    PetscCall(PairWarnOfCoarseness(sim, p));
+    PetscCall(PairWarnOfSwing(sim, p));
+  }
+  PetscFunctionReturn(0);
+}

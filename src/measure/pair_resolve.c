@@ -1,0 +1,236 @@
+/*
+   Pressures that the mortar side does not resolve. A nonmortar side that is finer and stiffer than the facets it lies
+   on touches them in a few rows, which carry all of the force; the rows between have none over gaps that are a small
+   part of what the facets give. The mortar side feels only the means over its shape functions. So rows that
+   closed ones enclose, and those about them, take what the mortar vertices have, the mean of the rows' values over
+   the area that both share, interpolated back to the rows. The sum of value times area over the rows stays.
+*/
+#include "pair_rows.h"
+
+static const PetscReal resolve_enclosed = 0.4; /* 0.57 at a straight border, about 0.2 between strips of contact */
+
+/* The modulus of the body behind the mortar face; PETSC_INFINITY: it is rigid */
+static PetscReal ResolveModulus(Scene scene, PetscInt pair)
+{
+  const Material *material = SceneFaceMaterial(scene, scene->pairs[pair].mortar);
+
+  return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
+}
+
+/* Size of the facets of the mortar side at its vertices [length], as first value */
+static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(size));
+  PetscCall(ElasticityAddFacetAreas(sim->elasticity, sim->scene->pairs[pair].mortar, size));
+  PetscCall(VecGetLocalSize(size, &n));
+  PetscCall(VecGetArray(size, &a));
+  for (PetscInt i = 0; i < n; i += 3)
+    a[i] = PetscSqrtReal(PetscSqrtReal(
+      PetscSqr(PetscRealPart(a[i])) + PetscSqr(PetscRealPart(a[i + 1])) + PetscSqr(PetscRealPart(a[i + 2]))));
+  PetscCall(VecRestoreArray(size, &a));
+  PetscFunctionReturn(0);
+}
+
+/* mean: of a value of the rows that are marked, over the mortar vertices and back. Collective */
+static PetscErrorCode ResolveMean(Simulation sim, const PairRows *rows, const PetscReal mark[], const PetscReal value[],
+  Vec sides, PetscReal mean[])
+{
+  PetscReal   *marked;
+  PetscScalar *a;
+  PetscInt     n;
+  Vec          v;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(rows->n, &marked));
+  for (PetscInt r = 0; r < rows->n; ++r) marked[r] = mark[r] * value[r];
+  PetscCall(VecDuplicate(sides, &v));
+  PetscCall(VecZeroEntries(v));
+  PetscCall(PairSpread(sim, rows, mark, sides, 0, v));
+  PetscCall(PairSpread(sim, rows, marked, sides, 1, v));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i += 3) a[i + 1] = PetscRealPart(a[i]) > 0.0 ? a[i + 1] / a[i] : 0.0;
+  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(PairGather(sim, rows, sides, v, 1, mean));
+  PetscCall(VecDestroy(&v));
+  PetscCall(PetscFree(marked));
+  PetscFunctionReturn(0);
+}
+
+/* Whether one of the rows is marked on any rank */
+static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mark[], PetscBool *any)
+{
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  for (PetscInt r = 0; r < n; ++r) *any = (PetscBool)(*any || mark[r] > 0.0);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Undeformed places of the rows' vertices from a point near them [length], n values a component, and the squares */
+static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscReal place[])
+{
+  const PetscInt     n = rows->n;
+  PetscSection       global;
+  const PetscScalar *x;
+  PetscInt           rstart;
+  PetscReal          sum[4] = {0.0, 0.0, 0.0, 0.0};
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(sim->places.x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  for (PetscInt r = 0; r < n; ++r) {
+    PetscInt i;
+
+    PetscCall(PetscSectionGetOffset(global, sim->linearization->vertex[r], &i));
+    for (PetscInt c = 0; c < 3; ++c) {
+      place[c * n + r] = PetscRealPart(x[i - rstart + c]);
+      sum[c] += rows->area[r] * place[c * n + r];
+    }
+    sum[3] += rows->area[r];
+  }
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt r = 0; r < n; ++r) {
+    place[3 * n + r] = 0.0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      place[c * n + r] -= sum[c] / sum[3];
+      place[3 * n + r] += PetscSqr(place[c * n + r]);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Keeps of the open rows those that closed ones are all about: the centre of the closed rows within two facets of the
+   mortar side is as near to that of all rows there as a part of their spread. Beside the border of a contact it is not
+*/
+static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], Vec sides,
+  PetscReal open[])
+{
+  const PetscInt n = rows->n;
+  PetscReal     *place, *all, *closed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(4 * n, &place, 4 * n, &all, 3 * n, &closed));
+  PetscCall(ResolvePlaces(sim, rows, place));
+  for (PetscInt c = 0; c < 4; ++c) PetscCall(ResolveMean(sim, rows, covered, place + c * n, sides, all + c * n));
+  for (PetscInt c = 0; c < 3; ++c)
+    PetscCall(ResolveMean(sim, rows, rows->closed, place + c * n, sides, closed + c * n));
+  for (PetscInt r = 0; r < n; ++r) {
+    PetscReal spread = all[3 * n + r], off = 0.0;
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      spread -= PetscSqr(all[c * n + r]);
+      off += PetscSqr(closed[c * n + r] - all[c * n + r]);
+    }
+    if (off > PetscSqr(resolve_enclosed) * spread) open[r] = 0.0;
+  }
+  PetscCall(PetscFree3(place, all, closed));
+  PetscFunctionReturn(0);
+}
+
+/*
+   mark: 1 at rows where the mortar side has pressure enough to close their gap by a strain of its facets, and that
+   share a mortar vertex with an open one of them that is enclosed; any: there is one on some rank. length: of these
+   facets
+*/
+static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec sides,
+  const PetscReal length[], PetscReal mark[], PetscBool *any)
+{
+  PetscReal *covered, *pressure, *open;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(rows->n, &covered, rows->n, &pressure, rows->n, &open));
+  for (PetscInt r = 0; r < rows->n; ++r) covered[r] = rows->area[r] > 0.0 ? 1.0 : 0.0;
+  PetscCall(ResolveMean(sim, rows, covered, rows->pressure, sides, pressure));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    mark[r] = covered[r] > 0.0 && PairIsClosed(pressure[r], rows->gap[r], young, length[r]) ? 1.0 : 0.0;
+    open[r] = mark[r] * (1.0 - rows->closed[r]);
+  }
+  PetscCall(ResolveAny(sim, rows->n, open, any));
+  if (*any) {
+    PetscCall(ResolveEnclosed(sim, rows, covered, sides, open));
+    PetscCall(ResolveAny(sim, rows->n, open, any));
+  }
+  if (*any) {
+    PetscCall(ResolveMean(sim, rows, covered, open, sides, pressure));
+    for (PetscInt r = 0; r < rows->n; ++r) mark[r] *= pressure[r] > PETSC_SQRT_MACHINE_EPSILON ? 1.0 : 0.0;
+  }
+  PetscCall(PetscFree3(covered, pressure, open));
+  PetscFunctionReturn(0);
+}
+
+/* In place at the rows that are marked */
+static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const PetscReal mark[], Vec sides,
+  PetscReal value[])
+{
+  PetscReal *mean;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(rows->n, &mean));
+  PetscCall(ResolveMean(sim, rows, mark, value, sides, mean));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    if (mark[r] > 0.0) value[r] = mean[r];
+  }
+  PetscCall(PetscFree(mean));
+  PetscFunctionReturn(0);
+}
+
+/* Of friction; rows slip where most of their pressure is of rows that do */
+static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
+  const PetscReal pressure[], Vec sides)
+{
+  PetscReal *slipping;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(ResolveValue(sim, rows, mark, sides, rows->shear + c * rows->n));
+    PetscCall(ResolveValue(sim, rows, mark, sides, rows->way + c * rows->n));
+  }
+  PetscCall(PetscMalloc1(rows->n, &slipping));
+  for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * pressure[r];
+  PetscCall(ResolveValue(sim, rows, mark, sides, slipping));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    if (mark[r] > 0.0) rows->slips[r] = slipping[r] > 0.5 * rows->pressure[r] ? 1.0 : 0.0;
+  }
+  PetscCall(PetscFree(slipping));
+  PetscFunctionReturn(0);
+}
+
+/* Collective */
+PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRows *rows)
+{
+  const PetscReal young  = ResolveModulus(sim->scene, pair);
+  PetscReal      *length = rows->facing, *mark, *pressure;
+  PetscBool       any;
+  Vec             size;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sides, &size));
+  PetscCall(ResolveSizes(sim, pair, size));
+  PetscCall(PairGather(sim, rows, sides, size, 0, length));
+  PetscCall(VecDestroy(&size));
+  if (young == PETSC_INFINITY) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(rows->n, &mark, rows->n, &pressure));
+  PetscCall(ResolveMark(sim, young, rows, sides, length, mark, &any));
+  if (any) {
+    PetscCall(PetscArraycpy(pressure, rows->pressure, rows->n));
+    PetscCall(ResolveValue(sim, rows, mark, sides, rows->pressure));
+    PetscCall(ResolveValue(sim, rows, mark, sides, rows->gap));
+    for (PetscInt r = 0; r < rows->n; ++r) {
+      if (mark[r] > 0.0) {
+        rows->closed[r] = 1.0;
+        rows->length[r] = length[r];
+      }
+    }
+    if (rows->rubs) PetscCall(ResolveFriction(sim, rows, mark, pressure, sides));
+  }
+  PetscCall(PetscFree2(mark, pressure));
+  PetscFunctionReturn(0);
+}

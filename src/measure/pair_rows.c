@@ -1,0 +1,110 @@
+/* The rows of one contact pair: area, normal, pressure, gap, friction and status. */
+#include "pair_rows.h"
+
+/* vector: mass_A sum of a matrix's A_AB over the vertices B of the mortar side */
+static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
+{
+  ContactLinearization lin = sim->linearization;
+  Vec                  mark, sum;
+  const PetscScalar   *s;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sim->path.u, &mark));
+  PetscCall(VecDuplicate(lin->mass, &sum));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(VecZeroEntries(mark));
+    PetscCall(PairMarkFace(sim->dm, sim->scene->pairs[pair].mortar, c, 1, mark));
+    PetscCall(MatMult(A, mark, sum));
+    PetscCall(VecPointwiseMult(sum, sum, lin->mass));
+    PetscCall(VecGetArrayRead(sum, &s));
+    for (PetscInt r = 0; r < n; ++r) vector[3 * r + c] = lin->pair[r] == pair ? PetscRealPart(s[r]) : 0.0;
+    PetscCall(VecRestoreArrayRead(sum, &s));
+  }
+  PetscCall(VecDestroy(&sum));
+  PetscCall(VecDestroy(&mark));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal PairNorm(const PetscReal v[3])
+{
+  return PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/*
+   There is contact where the strain that the pressure is worth is more than that which the gap would be, of facets of
+   such a length: on the central path their product is the same at all rows, and tends to zero
+*/
+PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length)
+{
+  return (PetscBool)(pressure / young > gap / length);
+}
+
+/* Friction gives way where the slip is more than rounding makes of the displacements */
+static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
+{
+  const PetscReal      rounding = 1e-9;
+  ContactLinearization lin      = sim->linearization;
+  PetscReal            size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &size));
+  PetscCall(PetscCalloc3(rows->n, &rows->slips, 3 * rows->n, &rows->shear, 3 * rows->n, &rows->way));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    const PetscReal *s = &sim->slip[2 * r], *f = &sim->shear[2 * r], *t = &lin->tangent[6 * r];
+
+    if (lin->pair[r] != pair || !(rows->area[r] > 0.0)) continue;
+    rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / PetscRealPart(mass[r]);
+      rows->way[c * rows->n + r] =
+        (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
+{
+  const SceneContactPair *faces = &sim->scene->pairs[pair];
+  const PetscInt          n     = sim->linearization->nlocal;
+  const PetscScalar      *mass;
+  PetscReal              *force;
+
+  PetscFunctionBegin;
+  *rows       = (PairRows){.n = n, .rubs = (PetscBool)(sim->linearization->slip && SceneContactPairRubs(faces))};
+  rows->young = PetscMin(SceneFaceMaterial(sim->scene, faces->mortar)->young,
+    SceneFaceMaterial(sim->scene, faces->nonmortar)->young);
+  PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
+    &rows->closed, n, &rows->length));
+  PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
+  PetscCall(PetscMalloc1(3 * n, &force));
+  PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
+  PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
+  PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
+  for (PetscInt r = 0; r < n; ++r) {
+    PetscReal *normal = &rows->normal[3 * r], size = PairNorm(normal);
+
+    if (!(size > 0.0)) continue;
+    rows->area[r]     = PairNorm(&force[3 * r]);
+    rows->share[r]    = rows->area[r] / size;
+    rows->pressure[r] = sim->pressure[r];
+    rows->length[r] = rows->own[r] = PetscSqrtReal(PetscRealPart(mass[r]));
+    rows->gap[r]                   = sim->gap[r] * PetscRealPart(mass[r]) / size;
+    for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
+    if (rows->area[r] > 0.0 && PairIsClosed(rows->pressure[r], rows->gap[r], rows->young, rows->length[r]))
+      rows->closed[r] = rows->presses[r] = 1.0;
+  }
+  PetscCall(PetscFree(force));
+  if (rows->rubs) PetscCall(PairRowsRub(sim, pair, mass, rows));
+  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PairRowsDestroy(PairRows *rows)
+{
+  PetscFunctionBegin;
+  if (rows->rubs) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
+  PetscCall(PetscFree3(rows->own, rows->facing, rows->presses));
+  PetscCall(PetscFree7(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
+  PetscFunctionReturn(0);
+}

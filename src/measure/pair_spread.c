@@ -1,0 +1,131 @@
+/* Values of the rows of a contact pair at the vertices of both sides, and those of the mortar vertices at the rows. */
+#include "pair_rows.h"
+
+/* value at the rows of a face that belong to a component */
+PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscInt to, Vec v)
+{
+  IS              is;
+  const PetscInt *rows;
+  PetscScalar    *a;
+  PetscInt        n, rstart;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceDofs(dm, face, component, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &rows));
+  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt k = 0; k < n; ++k) a[rows[k] - rstart] = (PetscReal)to;
+  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(ISRestoreIndices(is, &rows));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* Collective */
+PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, Vec sides)
+{
+  const SceneContactPair *faces = &sim->scene->pairs[pair];
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(sides));
+  PetscCall(PairMarkFace(sim->dm, faces->mortar, 0, 1, sides));
+  PetscCall(PairMarkFace(sim->dm, faces->nonmortar, 0, -1, sides));
+  PetscFunctionReturn(0);
+}
+
+/* In whose proportions areas are shared */
+Mat PairCover(ContactLinearization lin)
+{
+  return lin->cover ? lin->cover : lin->J;
+}
+
+/*
+   v[to] of the vertices B of both sides = sum of |mass_A cover_AB . n_A| share_A value_A, value NULL: 1. That is the
+   integral of the rows' field by B's shape function, and sums to that of w_A value_A over a side
+*/
+PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
+{
+  ContactLinearization lin = sim->linearization;
+  const PetscScalar   *t, *side, *mass;
+  PetscScalar         *y, *a;
+  PetscInt             n;
+  Vec                  weighted, spread;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(lin->mass, &weighted));
+  PetscCall(VecDuplicate(v, &spread));
+  PetscCall(VecGetLocalSize(v, &n));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(VecGetArrayRead(lin->mass, &mass));
+    PetscCall(VecGetArrayWrite(weighted, &y));
+    for (PetscInt r = 0; r < rows->n; ++r)
+      y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
+    PetscCall(VecRestoreArrayWrite(weighted, &y));
+    PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+    PetscCall(MatMultTranspose(PairCover(lin), weighted, spread));
+    PetscCall(VecGetArrayRead(spread, &t));
+    PetscCall(VecGetArrayRead(sides, &side));
+    PetscCall(VecGetArray(v, &a));
+    for (PetscInt i = 0; i < n; i += 3) {
+      if (PetscRealPart(side[i]) != 0.0) a[i + to] += side[i] * t[i + c];
+    }
+    PetscCall(VecRestoreArray(v, &a));
+    PetscCall(VecRestoreArrayRead(sides, &side));
+    PetscCall(VecRestoreArrayRead(spread, &t));
+  }
+  PetscCall(VecDestroy(&spread));
+  PetscCall(VecDestroy(&weighted));
+  PetscFunctionReturn(0);
+}
+
+/* A value of the mortar vertices in direction c, 0 elsewhere */
+static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
+{
+  const PetscScalar *side, *a;
+  PetscScalar       *b;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(along));
+  PetscCall(VecGetLocalSize(along, &n));
+  PetscCall(VecGetArrayRead(sides, &side));
+  PetscCall(VecGetArrayRead(v, &a));
+  PetscCall(VecGetArray(along, &b));
+  for (PetscInt i = 0; i < n; i += 3) {
+    if (PetscRealPart(side[i]) > 0.0) b[i + c] = a[i + from];
+  }
+  PetscCall(VecRestoreArray(along, &b));
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCall(VecRestoreArrayRead(sides, &side));
+  PetscFunctionReturn(0);
+}
+
+/* value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B, over w_A: the mean of a field of
+   the mortar side over the row. 0 in rows of other pairs. Collective */
+PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v, PetscInt from, PetscReal value[])
+{
+  ContactLinearization lin = sim->linearization;
+  const PetscScalar   *s, *mass;
+  Vec                  along, sum;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(value, rows->n));
+  PetscCall(VecDuplicate(v, &along));
+  PetscCall(VecDuplicate(lin->mass, &sum));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(PairPlaceAlong(c, sides, v, from, along));
+    PetscCall(MatMult(PairCover(lin), along, sum));
+    PetscCall(VecGetArrayRead(sum, &s));
+    for (PetscInt r = 0; r < rows->n; ++r) {
+      if (rows->area[r] > 0.0)
+        value[r] += PetscRealPart(mass[r] * s[r]) * rows->normal[3 * r + c] * rows->share[r] / rows->area[r];
+    }
+    PetscCall(VecRestoreArrayRead(sum, &s));
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(VecDestroy(&sum));
+  PetscCall(VecDestroy(&along));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,63 @@
+/* How deep vertices of one face of a pair are in the other body, beside the gap, which of mortar pairs is a mean. */
+#include "measureimpl.h"
+
+#define PENETRATION_SHARE 0.01 /* of the largest displacement of the run: more is warned of */
+
+/* At the last state. Collective */
+PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
+{
+  PetscReal *depth, *rounding;
+
+  PetscFunctionBegin;
+  if (!report->npairs) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(report->npairs, &depth, report->npairs, &rounding));
+  PetscCall(ContactGetPenetration(sim->contact, sim->path.u, depth, rounding));
+  PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &report->motion));
+  for (PetscInt p = 0; p < report->npairs; ++p) {
+    report->pairs[p].penetration          = depth[p];
+    report->pairs[p].penetration_rounding = rounding[p];
+  }
+  PetscCall(PetscFree2(depth, rounding));
+  PetscFunctionReturn(0);
+}
+
+/* Whether an overlap of the pair is to be left at the end of a load step */
+static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
+{
+  return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
+}
+
+/* After the last load step, of each pair. Not where the gap itself is not to be met */
+PetscErrorCode PenetrationWarn(Simulation sim)
+{
+  const RunReport *run    = &sim->report;
+  PetscReal        motion = 0.0;
+
+  PetscFunctionBegin;
+  if (sim->penalty > 0.0 || sim->scene->contact_updates == 1) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < run->nsteps; ++s) motion = PetscMax(motion, run->steps[s].motion);
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    const SceneContactPair *pair  = &sim->scene->pairs[p];
+    PetscReal               depth = 0.0;
+    PetscInt                step  = 0;
+    const PetscBool         node  = (PetscBool)(pair->gap == GAP_NODE);
+
+    for (PetscInt s = 0; s < run->nsteps; ++s) {
+      const StepReport *report = &run->steps[s];
+
+      if (p >= report->npairs || PenetrationIsMeant(pair, report)) continue;
+      if (report->pairs[p].penetration <= PetscMax(depth, report->pairs[p].penetration_rounding)) continue;
+      depth = report->pairs[p].penetration;
+      step  = report->step;
+    }
+    if (depth > PENETRATION_SHARE * motion)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
+        "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is closed %s: %s",
+        pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
+        node ? "at the nonmortar vertices" : "in the mean",
+        node ? "exchange the two faces, or refine the nonmortar one there"
+             : "use gap: node, or refine the faces there"));
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,31 @@
+/* Bodies of a small-strain law that are strained or turned far beyond its range: a warning. */
+#include "measureimpl.h"
+
+#define STRAIN_LIMIT   0.25 /* principal strain, mean over the body's strain energy */
+#define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
+
+/* At the last state; once for a body, in the first load step that goes so far. Collective */
+PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
+{
+  Scene scene = sim->scene;
+  PetscReal(*values)[2];
+
+  PetscFunctionBegin;
+  if (!sim->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->beyond));
+  PetscCall(PetscCalloc1(scene->nbodies, &values));
+  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path.u, values));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
+
+    if (sim->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
+    sim->beyond[b] = PETSC_TRUE;
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "body \"%s\" is %s by %.2g %s in the mean in load step %" PetscInt_FMT
+      ", and its law is that of small strains: its forces are wrong by about as much; take material: neohookean, or "
+      "another law of finite strain",
+      scene->bodies[b].name, turned ? "turned" : "strained",
+      (double)(turned ? values[b][1] * 180.0 / PETSC_PI : 100.0 * values[b][0]), turned ? "degrees" : "%", step + 1));
+  }
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,72 @@
+# Warnings of a model that is used beyond what it can do, and none where it is not: a linear law strained or turned far, a
+# contact of one facet whose force swings, a nonmortar side that is coarser than the mortar side and not softer.
+contact=$AMGF_DIR/bin/contact
+run() { # name
+  "$contact" "$1.yaml" -quiet -summary "$1.json" 2> "$1.log" || echo "$1: exit code $?"
+  echo "$1"
+  sed 's/^/  /' "$1.log"
+}
+
+block() { # name, law, load
+  cat > "$1.yaml" <<SCENE
+problem: $1
+bodies:
+  - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: $2, young: 210e3, poisson: 0.3}
+$3
+SCENE
+  run "$1"
+}
+held='symmetry: [block.xmin, block.ymin, block.zmin]'
+block pressed_5 linear "$held
+displacements:
+  - press: {face: block.zmax, value: [free, free, -0.05]}"
+block pressed_30 linear "$held
+load: {steps: 2}
+displacements:
+  - press: {face: block.zmax, value: [free, free, -0.3]}"
+block pressed_30_neohookean neohookean "$held
+load: {steps: 2}
+displacements:
+  - press: {face: block.zmax, value: [free, free, -0.3]}"
+block turned linear "displacements:
+  - turn: {face: block.zmin, value: [0, 0, 0], rotation: [0, 30, 0], center: [0, 0, 0]}"
+
+# A die whose contact is one facet wide or so slides by half a facet a step; then over smaller facets
+for cells in 16 48; do
+  cat > slide_$cells.yaml <<SCENE
+problem: slide
+bodies:
+  - flat: {lower: [-1, 0, -2], upper: [5, 1, 0], cells: [$cells, 1, 4], young: 100, poisson: 0.3}
+  - die: {shape: tube_arc, axis: y, center: [0.5, 0, 1], radii: [0.5, 1], angles: [90, 270], extent: [0, 1], cells: [2, 24, 1], young: 10e3, poisson: 0.3}
+symmetry: [flat.ymin, flat.ymax, die.lmin, die.lmax]
+displacements:
+  - ground: {face: flat.zmin, value: [0, free, 0]}
+  - down: {face: die.inner, value: [free, free, -0.04], ramp: down}
+  - along: {face: die.inner, value: [3, free, free], ramp: along}
+contact:
+  - pair: {mortar: die.outer, nonmortar: flat.zmax}
+load: {steps: 7}
+ramps:
+  - down: {factors: [1, 1, 1, 1, 1, 1, 1]}
+  - along: {expression: (t-1)/12}
+SCENE
+  run slide_$cells
+done
+
+# A stiff foot of few facets on a soft block of many: its vertices carry the constraints, or those of the block
+sides() { # name, mortar, nonmortar
+  cat > "$1.yaml" <<SCENE
+problem: $1
+bodies:
+  - block: {lower: [0, 0, 0], upper: [4, 4, 2], cells: [12, 12, 3], young: 1000, poisson: 0.3}
+  - foot: {lower: [1, 1, 2], upper: [3, 3, 3], cells: [2, 2, 1], young: 2000, poisson: 0.3}
+displacements:
+  - ground: {face: block.zmin, value: [0, 0, 0]}
+  - press: {face: foot.zmax, value: [0, 0, -0.01]}
+contact:
+  - pair: {mortar: $2, nonmortar: $3, gap: node}
+SCENE
+  run "$1"
+}
+sides coarse block.zmax foot.zmin
+sides fine foot.zmin block.zmax
