@@ -197,7 +197,7 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 3}}
       args: -malloc_dump 0
-      filter: sed -e "s|whole Gmsh mesh: .*|whole Gmsh mesh|"
+      filter: sed -e "s|complete Gmsh mesh: .*|complete Gmsh mesh|"
       output_file: output/mesh_gmsh_1.out
 
 TEST*/

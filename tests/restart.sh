@@ -85,7 +85,7 @@ pid=$!
 begun $pid grep -q 'Load step' log
 kill -TERM $pid
 wait $pid
-echo "and again: exit $?, $(grep -c '^Going on from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' log) $(grep -c '^Checkpoint term.h5: time' log)"
+echo "and again: exit $?, $(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' log) $(grep -c '^Checkpoint term.h5: time' log)"
 
 rm -f full.h5
 trap '' XFSZ # the disk is full: a write fails, and no signal says so

@@ -13,11 +13,11 @@ static PetscErrorCode LawsDestroy(IPLaws *laws)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode LawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *laws)
+static PetscErrorCode LawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *laws, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(laws));
-  PetscCall(IPTermLawsCreate(m, n, kmax, K, R, &(*laws)->set));
+  PetscCall(IPTermLawsCreate(m, n, kmax, K, R, &(*laws)->set, definite));
   PetscFunctionReturn(0);
 }
 
@@ -46,11 +46,12 @@ static PetscErrorCode LawsForget(IPLaws laws)
 }
 
 static PetscErrorCode LawsSolve(IPLaws laws, const IPReducedSystem *s, PetscInt *steps, PetscInt *nactive,
-  PetscBool *solved)
+  PetscBool *met, PetscBool *solved)
 {
   PetscFunctionBegin;
   PetscCall(IPTermSetSolve(&laws->set, s, steps, solved));
   *nactive = laws->set.na;
+  *met     = laws->set.met;
   PetscFunctionReturn(0);
 }
 

@@ -38,12 +38,14 @@ typedef struct {
   PetscBool   *closed, *slips;
   PetscBool   *takes, listed; /* the rows that take part, once they are known */
   PetscInt     na;            /* and their number */
+  PetscBool    met;           /* the last solution fulfils the laws, as far as was asked */
   PetscReal   *F, *Fy;
   IPTermSystem system;
 } IPTermSet;
 
 /* system.c */
-PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R);
+PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
+  PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
@@ -64,7 +66,8 @@ PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *,
   PetscReal ry[], PetscBool *solved);
 
 /* laws.c */
-PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *);
+PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *,
+  PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPTermLawsDestroy(IPTermSet *);
 PETSC_INTERN PetscInt       IPTermLawsRow(const IPTermSet *, PetscInt term);
 PETSC_INTERN PetscReal      IPTermLawsBound(const IPTermSet *, const IPReducedSystem *, PetscInt term);
@@ -82,6 +85,10 @@ PETSC_INTERN PetscErrorCode IPTermLawsRenew(IPTermSet *, const IPReducedSystem *
 /* path.c */
 PETSC_INTERN PetscErrorCode IPTermPathFollow(IPTermSet *, const IPReducedSystem *, PetscInt *steps,
   PetscBool *followed);
+
+/* convex.c */
+PETSC_INTERN PetscErrorCode IPTermConvexSolve(IPTermSet *, const IPReducedSystem *, PetscReal first, PetscInt *steps,
+  PetscBool *solved);
 
 /* set.c */
 PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);

@@ -22,8 +22,10 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
   PetscFunctionReturn(0);
 }
 
-/* m constraints, all open, and n terms, all sticking, of rows R; K: K_WW */
-PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *set)
+/* m constraints, all open, and n terms, all sticking, of rows R; K: K_WW, *definite is false where it is not positive
+   definite */
+PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *set,
+  PetscBool *definite)
 {
   const PetscInt all = m + 2 * n;
 
@@ -34,7 +36,7 @@ PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Ma
   PetscCall(PetscCalloc4(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope));
   PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->takes));
   PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->way, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
-  PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, R));
+  PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, R, definite));
   PetscFunctionReturn(0);
 }
 

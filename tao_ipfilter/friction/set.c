@@ -265,22 +265,53 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
   PetscFunctionReturn(0);
 }
 
+/* Whether any term sticks with whatever force: its law is one of open and closed, not smooth in the force */
+static PetscBool TermSetSticks(const IPTermSet *set)
+{
+  PetscBool sticks = PETSC_FALSE;
+
+  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= PETSC_INFINITY);
+  return sticks;
+}
+
+/* Newton's method, where it finds no end from the path's, but where terms stick with whatever force: a path has none */
+static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscBool sticks = TermSetSticks(set);
+  const PetscInt  soon = sticks ? 12 : 40, limit = 100;
+
+  PetscFunctionBegin;
+  PetscCall(TermSetIterate(set, s, soon, first, steps, solved));
+  if (*solved || sticks) PetscFunctionReturn(0);
+  PetscCall(IPTermPathFollow(set, s, steps, solved));
+  if (*solved) PetscCall(TermSetIterate(set, s, limit, first, steps, solved));
+  PetscFunctionReturn(0);
+}
+
 /* f (in s->lambda), v (in s->gap) and y, from the last ones, to a small part of what the laws and the directions are
-   off by there, as the directions to come leave much more; *steps: systems solved; *solved is false where Newton's
-   method has no end. Where v and f are right but for rounding, it does not matter what rounding takes them for. */
+   off by there, as the directions to come leave much more; *steps: systems solved; *solved is false where nothing
+   holds what moves, set->met where the laws are met no better than a convex problem meets them. Where v and f are
+   right but for rounding, it does not matter what rounding takes them for. */
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
 {
-  const PetscInt soon = 40, limit = 100;
-  PetscReal      first = -1.0;
+  PetscReal first = -1.0, *begin;
 
   PetscFunctionBegin;
   *steps = 0;
   IPTermLawsResist(set);
   if (set->listed) PetscCall(IPTermLawsMove(set, s));
   else PetscCall(IPTermLawsRenew(set, s));
-  PetscCall(TermSetIterate(set, s, soon, &first, steps, solved));
-  if (*solved) PetscFunctionReturn(0);
-  PetscCall(IPTermPathFollow(set, s, steps, solved));
-  if (*solved) PetscCall(TermSetIterate(set, s, limit, &first, steps, solved));
+  PetscCall(PetscMalloc1(s->m + s->k, &begin));
+  PetscCall(PetscArraycpy(begin, s->lambda, s->m));
+  PetscCall(PetscArraycpy(begin + s->m, s->y, s->k));
+  PetscCall(TermSetTry(set, s, &first, steps, solved));
+  set->met = *solved;
+  if (!*solved) {
+    PetscCall(PetscArraycpy(s->lambda, begin, s->m));
+    PetscCall(PetscArraycpy(s->y, begin + s->m, s->k));
+    PetscCall(IPTermConvexSolve(set, s, first, steps, solved));
+  }
+  PetscCall(PetscFree(begin));
   PetscFunctionReturn(0);
 }

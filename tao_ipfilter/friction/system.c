@@ -76,11 +76,13 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* L U = K_WW by PETSc's own, which spends little on a solve */
-static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t)
+/* L U = K_WW by PETSc's own, which spends little on a solve; *definite: whether all pivots are positive */
+static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *definite)
 {
-  MatFactorInfo info;
-  IS            rows, columns;
+  MatFactorInfo  info;
+  MatFactorError error;
+  IS             rows, columns;
+  PetscReal      least = 0.0;
 
   PetscFunctionBegin;
   PetscCall(MatFactorInfoInitialize(&info));
@@ -89,14 +91,21 @@ static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t)
   PetscCall(MatGetOrdering(t->K, MATORDERINGND, &rows, &columns));
   PetscCall(MatLUFactorSymbolic(t->FK, t->K, rows, columns, &info));
   PetscCall(MatLUFactorNumeric(t->FK, t->K, &info));
+  PetscCall(MatFactorGetError(t->FK, &error));
+  if (!error) {
+    PetscCall(MatGetDiagonal(t->FK, t->w));
+    PetscCall(VecMin(t->w, NULL, &least));
+  }
+  *definite = (PetscBool)(!error && !(least < 0.0));
   PetscCall(ISDestroy(&rows));
   PetscCall(ISDestroy(&columns));
   PetscFunctionReturn(0);
 }
 
 /* Of sequential K_WW and R, the rows of m constraints and below them two a term, n terms; with room for so many
-   directions */
-PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R)
+   directions; *definite is false where K_WW is not positive definite */
+PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
+  PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPTermSystemDestroy(t));
@@ -115,7 +124,7 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bf));
   PetscCall(TermSystemMakeRows(t));
-  PetscCall(TermSystemFactorStiffness(t));
+  PetscCall(TermSystemFactorStiffness(t, definite));
   PetscFunctionReturn(0);
 }
 

@@ -12,8 +12,8 @@ typedef struct {
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a
-                                symmetric pattern */
+  PetscBool       symmetric; /* explicit zeros are kept: one entry may be zero and its transpose not, and orderings
+                                need a symmetric pattern */
 } ReducedGather;
 
 /* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
@@ -261,7 +261,7 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* One more of what y moves, whose forces on W stand in its column of Q, with its energies with those before it */
+/* Adds one more coordinate of y: its forces on W are its column of Q, and its energies with those before it */
 static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
 {
   IPReducedSystem *s = &r->system;
@@ -331,7 +331,8 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscCall(ReducedFactor(r, KWW, JW, definite));
   PetscCall(ReducedCreateSystem(r, basis));
   if (*definite) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws));
+  if (*definite && r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws, definite));
+  PetscCall(ReducedTell(r, definite));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -400,7 +401,7 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Begins with the rows active, or closed, whose entry is positive; with norm terms from these forces */
+/* Starts with the rows active whose entry is positive; with norm terms from these forces */
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
   IPReducedSystem *s    = &r->system;
@@ -422,7 +423,7 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   PetscFunctionReturn(0);
 }
 
-/* Counts v from a point with this gradient g, P^T g, constraints c, and value of the norm terms, if there are any */
+/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -446,7 +447,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
-/* Takes in the directions of the basis that it does not have, with P^T g of all of them */
+/* Takes in the directions of the basis that are missing, with P^T g of all of them */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
   IPReducedSystem *s        = &r->system;
@@ -517,21 +518,22 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, solved));
+  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, &r->met, solved));
   else {
     PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
     r->nactive = r->set.n;
+    r->met     = *solved;
   }
   PetscFunctionReturn(0);
 }
 
 /* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
-   there are any. r->nactive, r->nsteps: of this solve. */
+   there are any. r->nactive, r->nsteps: of this solve; r->met: whether the laws are met as far as was asked. */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;
   MPI_Comm         comm = PetscObjectComm((PetscObject)v);
-  PetscInt         counts[2];
+  PetscInt         counts[3];
   PetscReal       *w = NULL;
 
   PetscFunctionBegin;
@@ -548,8 +550,10 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
   counts[0] = r->nsteps;
   counts[1] = r->nactive;
-  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));
+  counts[2] = r->met;
+  PetscCallMPI(MPI_Bcast(counts, 3, MPIU_INT, 0, comm));
   r->nsteps  = counts[0];
   r->nactive = counts[1];
+  r->met     = (PetscBool)counts[2];
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,308 @@
+/*
+   A way to the laws of laws.c where Newton's method on them finds none. The bounds b are held at those of the last
+   forces, and follow them (Haslinger, Approximation of the Signorini problem with friction, obeying the Coulomb law,
+   1983). With b held the laws are those of a convex problem, whose augmented Lagrangian (Rockafellar, Augmented
+   Lagrangians and applications of the proximal point algorithm in convex programming, 1976) is convex and once
+   differentiable: forces f = p(v),
+
+     lambda = max(0, lambda' - rho v_n),   tau = P_b(tau' - rho v_t),
+
+   of multipliers f' which are those of the last round. Newton's method with a line search finds its minimum from
+   anywhere, and sticking rows are linear in it.
+*/
+#include "frictionimpl.h"
+
+typedef struct {
+  PetscReal *multiplier; /* f' of all rows */
+  PetscReal *bound;      /* b of all terms */
+  PetscReal *p;          /* p(v) */
+  PetscReal *f, *v, *y;  /* where a step began */
+  PetscReal  largest;    /* of what rows give way by */
+} TermConvex;
+
+/* How much stiffer than a row the springs are that press it: the stiffer, the fewer rounds */
+static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
+{
+  const PetscReal times = 100.0;
+
+  return times / IPTermLawsGiveWay(set, row);
+}
+
+/* Whether a row can have a force: something gives way to it, and its bound is not zero */
+static PetscBool ConvexTakes(const IPTermSet *set, const TermConvex *convex, PetscInt row)
+{
+  const PetscReal rounding = 1e-14, gives = IPTermLawsGiveWay(set, row);
+
+  if (row < set->m) return (PetscBool)(gives > 0.0);
+  return (PetscBool)(gives > rounding * convex->largest && convex->bound[(row - set->m) / 2] > 0.0);
+}
+
+/* tau' - rho v of a term; its size */
+static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscInt i,
+  PetscReal b[2])
+{
+  const PetscInt  row = IPTermLawsRow(set, i);
+  const PetscReal rho = ConvexStiffness(set, row);
+
+  for (PetscInt a = 0; a < 2; a++) b[a] = convex->multiplier[row + a] - rho * v[row + a];
+  IPTermRemoveDead(&set->dead[2 * i], b);
+  return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
+}
+
+/* p(v) of all rows */
+static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscReal p[])
+{
+  for (PetscInt r = 0; r < set->m; r++)
+    p[r] = ConvexTakes(set, convex, r) ? PetscMax(0.0, convex->multiplier[r] - ConvexStiffness(set, r) * v[r]) : 0.0;
+  for (PetscInt i = 0; i < set->n; i++) {
+    const PetscInt row = IPTermLawsRow(set, i);
+    PetscReal      b[2], size, factor;
+
+    p[row] = p[row + 1] = 0.0;
+    if (!ConvexTakes(set, convex, row)) continue;
+    size   = ConvexTrial(set, convex, v, i, b);
+    factor = size > convex->bound[i] ? convex->bound[i] / size : 1.0;
+    for (PetscInt a = 0; a < 2; a++) p[row + a] = factor * b[a];
+  }
+}
+
+/* Equation and coefficients of a row that takes part: of its two motions and its two forces. Slip, |b| tau = bound b,
+   is linearized as it stands, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual method for total
+   variation-based image restoration, 1999): as good where it is far from its end as near it. */
+static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscInt row,
+  PetscReal by_v[2], PetscReal by_f[2])
+{
+  const PetscReal  rho = ConvexStiffness(set, row);
+  PetscInt         a   = 0;
+  const PetscInt   i   = IPTermLawsOfRow(set, row, &a);
+  const PetscReal *tau = i < 0 ? NULL : &s->lambda[IPTermLawsRow(set, i)];
+  PetscReal        b[2], size, force, inside;
+
+  set->F[row] = (s->lambda[row] - convex->p[row]) / rho;
+  by_v[0] = by_v[1] = by_f[0] = by_f[1] = 0.0;
+  by_f[a]                               = 1.0 / rho;
+  if (i < 0) {
+    by_v[0] = convex->p[row] > 0.0 ? 1.0 : 0.0;
+    return;
+  }
+  size   = ConvexTrial(set, convex, s->gap, i, b);
+  force  = PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
+  inside = force > convex->bound[i] ? convex->bound[i] / force : 1.0;
+  for (PetscInt c = 0; c < 2; c++) {
+    const PetscReal alive = (a == c ? 1.0 : 0.0) - set->dead[2 * i + a] * set->dead[2 * i + c];
+
+    by_v[c] = size > convex->bound[i] ? (convex->bound[i] * alive - inside * tau[a] * b[c] / size) / size : alive;
+  }
+}
+
+/* One row of the system, the column of a term's constraint with zeros; one that takes no part loses its force */
+static PetscErrorCode ConvexAssembleRow(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
+  PetscInt row)
+{
+  const PetscReal gives = IPTermLawsGiveWay(set, row), unit = gives > 0.0 ? gives : 1.0;
+  PetscInt        a = 0, n = 0, columns[3];
+  const PetscInt  i       = IPTermLawsOfRow(set, row, &a);
+  PetscReal       by_v[3] = {0.0, 0.0, 0.0}, by_f[3] = {0.0, 0.0, 0.0};
+
+  PetscFunctionBegin;
+  columns[n++] = i < 0 ? row : IPTermLawsRow(set, i);
+  if (i >= 0) columns[n++] = IPTermLawsRow(set, i) + 1;
+  if (i >= 0 && i < set->m) columns[n++] = i;
+  if (ConvexTakes(set, convex, row)) ConvexLinearize(set, s, convex, row, by_v, by_f);
+  else {
+    set->F[row] = s->lambda[row] * unit;
+    by_f[a]     = unit;
+  }
+  PetscCall(IPTermSystemSetRow(&set->system, row, n, columns, by_v, by_f, 1.0 / PetscSqrtReal(unit)));
+  PetscFunctionReturn(0);
+}
+
+static PetscReal ConvexDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* The slope of the augmented Lagrangian along a step, at alpha of it: Fy and dFy, the residuals of the directions where
+   it begins, and by how much they change */
+static PetscReal ConvexSlope(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
+  const PetscReal Fy[], const PetscReal dFy[], PetscReal alpha, PetscReal trial[])
+{
+  PetscReal slope = 0.0, *p = trial + s->m;
+
+  for (PetscInt r = 0; r < s->m; r++) trial[r] = convex->v[r] + alpha * (s->gap[r] - convex->v[r]);
+  ConvexForces(set, convex, trial, p);
+  for (PetscInt r = 0; r < s->m; r++)
+    slope += (s->gap[r] - convex->v[r]) * (convex->f[r] + alpha * (s->lambda[r] - convex->f[r]) - p[r]);
+  for (PetscInt j = 0; j < s->k; j++) slope += (s->y[j] - convex->y[j]) * (Fy[j] + alpha * dFy[j]);
+  return slope;
+}
+
+/* The part of the step that moves no row by much more than rows are apart: nothing may hold a body for now */
+static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex)
+{
+  const PetscReal much    = 100.0;
+  PetscReal       largest = 0.0;
+
+  for (PetscInt r = 0; r < s->m; r++) largest = PetscMax(largest, PetscAbsReal(s->gap[r] - convex->v[r]));
+  return largest > much * set->length ? much * set->length / largest : 1.0;
+}
+
+/* Back along the step to where the augmented Lagrangian is least on it; *fell: its slope where the step began */
+static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscReal Fy[],
+  PetscReal *fell, PetscReal *alpha)
+{
+  const PetscInt  bisections = 30;
+  const PetscReal flat       = 1e-2;
+  PetscReal      *trial, low = 0.0, high = ConvexFarthest(set, s, convex), end;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * s->m, &trial));
+  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  for (PetscInt j = 0; j < s->k; j++) set->Fy[j] -= Fy[j];
+  *fell  = -ConvexSlope(set, s, convex, Fy, set->Fy, 0.0, trial);
+  end    = ConvexSlope(set, s, convex, Fy, set->Fy, high, trial);
+  *alpha = high;
+  for (PetscInt k = 0; k < bisections && end > flat * *fell; k++) {
+    PetscReal slope;
+
+    *alpha = 0.5 * (low + high);
+    slope  = ConvexSlope(set, s, convex, Fy, set->Fy, *alpha, trial);
+    if (PetscAbsReal(slope) <= flat * *fell) break;
+    if (slope > 0.0) high = *alpha;
+    else low = *alpha;
+  }
+  for (PetscInt r = 0; r < s->m && *alpha < 1.0; r++) {
+    s->lambda[r] = convex->f[r] + *alpha * (s->lambda[r] - convex->f[r]);
+    s->gap[r]    = convex->v[r] + *alpha * (s->gap[r] - convex->v[r]);
+  }
+  for (PetscInt j = 0; j < s->k && *alpha < 1.0; j++) s->y[j] = convex->y[j] + *alpha * (s->y[j] - convex->y[j]);
+  PetscCall(PetscFree(trial));
+  PetscFunctionReturn(0);
+}
+
+/* One step of Newton's method on the augmented Lagrangian; *fell: how steeply it fell where the step began, an
+   energy; *alpha: how far it went */
+static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal rtol,
+  PetscReal *fell, PetscReal *alpha, PetscBool *solved)
+{
+  PetscReal *Fy;
+
+  PetscFunctionBegin;
+  ConvexForces(set, convex, s->gap, convex->p);
+  for (PetscInt r = 0; r < s->m; r++) PetscCall(ConvexAssembleRow(set, s, convex, r));
+  PetscCall(IPTermSystemAssemble(&set->system));
+  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  PetscCall(PetscMalloc1(s->k, &Fy));
+  PetscCall(PetscArraycpy(Fy, set->Fy, s->k));
+  PetscCall(PetscArraycpy(convex->f, s->lambda, s->m));
+  PetscCall(PetscArraycpy(convex->v, s->gap, s->m));
+  PetscCall(PetscArraycpy(convex->y, s->y, s->k));
+  PetscCall(IPTermSolve(&set->system, s, rtol, set->F, set->Fy, solved));
+  if (*solved) {
+    for (PetscInt r = 0; r < s->m; r++) s->lambda[r] -= set->F[r];
+    for (PetscInt j = 0; j < s->k; j++) s->y[j] -= set->Fy[j];
+    PetscCall(IPTermLawsMove(set, s));
+    PetscCall(ConvexSearch(set, s, convex, Fy, fell, alpha));
+  }
+  PetscCall(PetscFree(Fy));
+  PetscFunctionReturn(0);
+}
+
+/* The minimum of the augmented Lagrangian, to an energy; *solved is false where it has none: where it is not convex,
+   or falls on and on */
+static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal energy,
+  PetscInt *steps, PetscBool *solved)
+{
+  const PetscInt  limit = 40;
+  const PetscReal rtol = 1e-6, rounding = 1e-6, exact = 1e-12;
+  PetscReal       fell = PETSC_INFINITY, least = PETSC_INFINITY, most = 0.0, alpha = 1.0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < limit; k++) {
+    PetscCall(ConvexStep(set, s, convex, rtol, &fell, &alpha, solved));
+    (*steps)++;
+    *solved = (PetscBool)(*solved && fell >= -rounding * least);
+    if (!*solved) PetscFunctionReturn(0);
+    least = PetscMin(least, PetscAbsReal(fell));
+    most  = PetscMax(most, fell);
+    if (fell <= energy) break;
+  }
+  *solved = (PetscBool)(fell <= PetscMax(energy, exact * most));
+  ConvexForces(set, convex, s->gap, s->lambda);
+  PetscCall(IPTermLawsMove(set, s));
+  PetscFunctionReturn(0);
+}
+
+/* Bounds by the present forces; where there are none yet all terms stick. Late, what has let go does not stick again:
+   a row may neither stick nor be free, and would change for ever. */
+static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscBool begin,
+  PetscBool late)
+{
+  PetscBool known = PETSC_FALSE;
+
+  for (PetscInt i = 0; i < set->m; i++) known = (PetscBool)(known || s->lambda[i] > 0.0);
+  for (PetscInt i = 0; i < set->n; i++) {
+    const PetscReal bound = known || !begin || set->coefficient[i] < 0.0 ? IPTermLawsBound(set, s, i)
+                            : set->coefficient[i] == 0.0                 ? 0.0
+                                                                         : set->limit[i];
+
+    convex->bound[i] = late && set->coefficient[i] >= PETSC_INFINITY ? PetscMin(bound, convex->bound[i]) : bound;
+  }
+}
+
+/* What laws and directions are off by, an energy */
+static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *energy)
+{
+  PetscFunctionBegin;
+  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  *energy = IPTermLawsMerit(set, s) + ConvexDot(s->k, set->Fy, set->Fy);
+  PetscFunctionReturn(0);
+}
+
+/* What is closed, and takes part, at f */
+static PetscErrorCode ConvexTell(IPTermSet *set, const IPReducedSystem *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(s->lambda[i] > 0.0);
+  PetscCall(IPTermLawsRenew(set, s));
+  PetscFunctionReturn(0);
+}
+
+/* f, v and y that fulfil the laws to a part of `first`, the root of an energy, or come as near as they come: forces
+   and motions are in equilibrium in any case. *solved is false where nothing holds what moves. *steps: systems solved
+   are added. */
+PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscInt  rounds = 20;
+  const PetscReal enough = 1e-3, fine = 1e-2, fair = 0.5;
+  const PetscReal wanted = PetscSqr(enough * first);
+  PetscReal       off = PETSC_INFINITY, least = PETSC_INFINITY;
+  PetscBool       late = PETSC_FALSE, end = PETSC_FALSE;
+  TermConvex      convex = {.largest = 0.0};
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(s->m, &convex.multiplier, set->n, &convex.bound, s->m, &convex.p));
+  PetscCall(PetscMalloc3(s->m, &convex.f, s->m, &convex.v, s->k, &convex.y));
+  for (PetscInt r = 0; r < s->m; r++) convex.largest = PetscMax(convex.largest, set->system.gives[r]);
+  for (PetscInt i = 0; i < set->m; i++) s->lambda[i] = PetscMax(s->lambda[i], 0.0);
+  PetscCall(IPTermLawsMove(set, s));
+  *solved = PETSC_TRUE;
+  for (PetscInt k = 0; k < rounds && *solved && !end; k++) {
+    ConvexSetBounds(set, s, &convex, (PetscBool)!k, late);
+    PetscCall(PetscArraycpy(convex.multiplier, s->lambda, s->m));
+    PetscCall(ConvexMinimize(set, s, &convex, fine * PetscMax(wanted, k ? off : 0.0), steps, solved));
+    PetscCall(ConvexTell(set, s));
+    PetscCall(ConvexOff(set, s, &off));
+    end   = (PetscBool)(off <= wanted || (late && off > fair * least));
+    late  = (PetscBool)(late || (k > 1 && off > fair * least));
+    least = PetscMin(least, off);
+  }
+  set->met = (PetscBool)(off <= wanted);
+  PetscCall(PetscFree3(convex.multiplier, convex.bound, convex.p));
+  PetscCall(PetscFree3(convex.f, convex.v, convex.y));
+  PetscFunctionReturn(0);
+}

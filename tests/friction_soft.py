@@ -1,0 +1,93 @@
+"""Soft and floating bodies that friction holds: rubber pads between rigid plates, and stacks of blocks of unlike stiffness under their own weight.
+
+python3 friction_soft.py scenes writes the scenes; python3 friction_soft.py judges the runs that friction_soft.sh has made.
+"""
+import json
+import sys
+
+PLATES = """problem: pad
+bodies:
+  - low: {{lower: [-0.5, -0.5, -0.2], upper: [1.5, 1.5, 0], cells: [1, 1, 1], material: rigid}}
+  - pad: {{lower: [0, 0, 0], upper: [1, 1, 1], cells: [{cells}], young: 1, poisson: 0.49, element: bbar{law}}}
+  - top: {{lower: [-0.5, -0.5, 1], upper: [1.5, 1.5, 1.2], cells: [1, 1, 1], material: rigid}}
+{symmetry}displacements:
+  - fix: {{body: low, value: [0, 0, 0]}}
+  - press: {{body: top, value: [0, 0, -0.25]}}
+{kind}:
+  - under: {{mortar: low.zmax, nonmortar: pad.zmin{key}}}
+  - over: {{mortar: top.zmin, nonmortar: pad.zmax{key}}}
+"""
+QUARTER = "symmetry: [pad.xmin, pad.ymin]\n"
+BLOCK = "  - b{i}: {{lower: [{low}, {low}, {bottom}], upper: [{high}, {high}, {top}], cells: {cells}, young: {young}, poisson: 0.3}}\n"
+GROUND = "  - ground: {lower: [-4, -4, -1], upper: [4, 4, 0], cells: [8, 8, 2], young: 1e5, poisson: 0.3}\n"
+CUBES = [(1, 1, [3, 3, 3], young) for young in (300, 2e4, 1e6)]  # width, height, cells, Young's modulus
+UNLIKE = [
+    (1.1, 0.9, [2, 4, 3], 1e6),
+    (1.4, 0.6, [2, 4, 3], 1e5),
+    (1.4, 0.4, [3, 2, 2], 2e4),
+    (1.0, 0.7, [4, 4, 2], 700),
+    (1.9, 0.9, [3, 3, 4], 5e5),
+    (1.2, 0.8, [4, 2, 3], 300),
+    (1.7, 0.5, [2, 3, 2], 3e5),
+    (1.3, 0.6, [3, 4, 2], 1500),
+    (1.6, 0.7, [4, 3, 3], 9e4),
+    (1.1, 0.5, [2, 2, 2], 6000),
+]
+STACKS = {"cubes": CUBES, "unlike": UNLIKE}
+
+
+def pad(key, cells="8, 8, 8", law="", symmetry=""):
+    return PLATES.format(cells=cells, law=law, symmetry=symmetry, kind="contact" if key else "ties", key=key)
+
+
+def stack(blocks):
+    text, pairs, top = "problem: stack\nbodies:\n" + GROUND, "", 0
+    for i, (width, height, cells, young) in enumerate(blocks):
+        bottom, top = top, round(top + height, 6)
+        text += BLOCK.format(i=i, low=-width / 2, high=width / 2, bottom=bottom, top=top, cells=cells, young=young)
+        pairs += f"  - j{i}: {{mortar: {f'b{i - 1}' if i else 'ground'}.zmax, nonmortar: b{i}.zmin, friction: 0.3}}\n"
+    return text + "displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n  - g: {value: [0, 0, -1]}\ncontact:\n" + pairs
+
+
+SCENES = {
+    "tied": pad(""),
+    "sticks": pad(", stick: true"),
+    "grips": pad(", friction: 1"),
+    "tied_quarter": pad("", symmetry=QUARTER),
+    "sticks_quarter": pad(", stick: true", symmetry=QUARTER),
+    "finite": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean"),
+} | {name: stack(blocks) for name, blocks in STACKS.items()}
+
+
+def load(name):
+    with open(name + ".json") as file:
+        return json.load(file)["steps"][-1]
+
+
+def say(what, ok, found):
+    print(f"{what}: {'yes' if ok else f'no, {found}'}")
+
+
+if sys.argv[1:] == ["scenes"]:
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+    for name in (*SCENES, "sticks_3"):
+        step = load(name)
+        say(f"{name}: solved without a cut", step["converged"] and step["cuts"] == 0, (step["reason"], step["cuts"]))
+    for name, twin in (("sticks", "tied"), ("sticks_quarter", "tied_quarter"), ("sticks_3", "sticks")):
+        found = load(name)["energy"] / load(twin)["energy"] - 1
+        say(f"{name}: the energy of {twin} to 1e-8", abs(found) < 1e-8, found)
+    step = load("grips")
+    say("grips: less energy than what is tied", step["energy"] < load("tied")["energy"], step["energy"])
+    say("grips: work is stored or taken up by the contacts", abs(step["work"] - step["energy"] - step["contact_work"]) < 1e-6 * step["work"], step["work"])
+    for name in ("grips", "finite"):
+        step = load(name)
+        for pair in step["pairs"]:
+            most = {"grips": 1, "finite": 0.3}[name] * pair["normal_force"]
+            say(f"{name}, {pair['name']}: pressed, and friction within its law", 0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
+    for name, blocks in STACKS.items():
+        for i, pair in enumerate(load(name)["pairs"]):
+            weight = sum(width**2 * height for width, height, _, _ in blocks[i:])
+            say(f"{name}, {pair['name']}: carries what is above", abs(pair["force"][2] / weight - 1) < 1e-6, pair["force"][2] / weight - 1)
